@@ -1,0 +1,2 @@
+//! The `rasray` command.
+fn main() {}

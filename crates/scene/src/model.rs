@@ -1,0 +1,331 @@
+//! What a scene is made of.
+
+use glam::{DAffine3, DVec3};
+
+/// Everything that can be rendered, in one world. Instances are in *scene order*: the order that
+/// global triangle ids follow (glTF: depth-first over scene nodes, primitives in order, instances
+/// in order; OBJ and PLY: file order).
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// File stem or built-in name with its parameters.
+    pub name: String,
+    /// Triangle meshes; one per glTF primitive or OBJ material group.
+    pub meshes: Vec<Mesh>,
+    /// Placed meshes in scene order.
+    pub instances: Vec<Instance>,
+    /// Materials; `Mesh::material` indexes here. Never empty once loaded: index 0 may be the default.
+    pub materials: Vec<Material>,
+    /// Textures: an image with a sampler.
+    pub textures: Vec<Texture>,
+    /// Decoded images.
+    pub images: Vec<Image>,
+    /// Punctual lights in world space. Emissive triangles are lights too, found through materials.
+    pub lights: Vec<Light>,
+    /// What a ray sees that leaves the scene.
+    pub environment: Environment,
+    /// Cameras in world space, in scene order.
+    pub cameras: Vec<Camera>,
+    /// Rigid animation, skins and morph targets as read, not yet posed.
+    pub animation: Animation,
+    /// What was dropped, replaced or not supported, each with a count and a place.
+    pub warnings: Vec<Warning>,
+}
+
+/// Indexed triangles with optional attributes. Every index is below `positions.len()`;
+/// attribute arrays, where present, have the length of `positions`.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Name from the file, or a made-up one.
+    pub name: String,
+    /// Metres, mesh space. Finite, magnitude at most 1.8e18.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit shading normals; absent means flat.
+    pub normals: Option<Vec<[f32; 3]>>,
+    /// Unit tangents, w is the sign of the bitangent.
+    pub tangents: Option<Vec<[f32; 4]>>,
+    /// Texture coordinates of set 0 and set 1.
+    pub uvs: [Option<Vec<[f32; 2]>>; 2],
+    /// Linear RGBA multiplied into the base colour.
+    pub colors: Option<Vec<[f32; 4]>>,
+    /// Three per triangle.
+    pub indices: Vec<u32>,
+    /// Index into `Scene::materials`.
+    pub material: usize,
+}
+
+impl Mesh {
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.indices.len() / 3
+    }
+}
+
+/// A mesh placed in the world.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Node name, with a running number where several share it.
+    pub name: String,
+    /// Index into `Scene::meshes`.
+    pub mesh: usize,
+    /// Place in the world, metres, in f64: rounded to f32 once, after the frame origin is taken off.
+    pub world_from_mesh: DAffine3,
+}
+
+/// How alpha is read.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub enum AlphaMode {
+    /// Alpha is ignored.
+    #[default]
+    Opaque,
+    /// A point counts iff its alpha is at least the cutoff.
+    Mask {
+        /// In [0, 1].
+        cutoff: f32,
+    },
+    /// Stochastic opacity in integrators.
+    Blend,
+}
+
+/// Metallic-roughness material with the transmission, volume, ior, specular and emissive-strength
+/// extensions of glTF. Colours are linear Rec. 709.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Name from the file.
+    pub name: String,
+    /// Linear RGBA.
+    pub base_color: [f32; 4],
+    /// sRGB colour, linear alpha.
+    pub base_color_texture: Option<TextureRef>,
+    /// In [0, 1].
+    pub metallic: f32,
+    /// Perceptual roughness in [0, 1]; alpha of the microfacet distribution is its square.
+    pub roughness: f32,
+    /// Roughness in G, metallic in B, linear.
+    pub metallic_roughness_texture: Option<TextureRef>,
+    /// Tangent-space normals, linear.
+    pub normal_texture: Option<TextureRef>,
+    /// Scale of the normal texture's x and y.
+    pub normal_scale: f32,
+    /// Emitted radiance, W/(sr m^2): factor times strength.
+    pub emission: [f32; 3],
+    /// sRGB.
+    pub emission_texture: Option<TextureRef>,
+    /// Share of the dielectric base that transmits, in [0, 1].
+    pub transmission: f32,
+    /// Transmission in R, linear.
+    pub transmission_texture: Option<TextureRef>,
+    /// Index of refraction, 1.5 unless told.
+    pub ior: f32,
+    /// Metres; 0 means a thin wall: refraction does not bend, nothing is absorbed.
+    pub thickness: f32,
+    /// Colour that white light has after `attenuation_distance` metres inside.
+    pub attenuation_color: [f32; 3],
+    /// Metres; infinite means no absorption.
+    pub attenuation_distance: f32,
+    /// Strength of the dielectric specular reflection, 1 unless told.
+    pub specular: f32,
+    /// Colour of the dielectric specular reflection at normal incidence.
+    pub specular_color: [f32; 3],
+    /// How alpha is read.
+    pub alpha_mode: AlphaMode,
+    /// Kept from the file; hits are two-sided all the same.
+    pub double_sided: bool,
+    /// Shows its base colour as emission and scatters nothing.
+    pub unlit: bool,
+}
+
+impl Default for Material {
+    fn default() -> Self {
+        Self {
+            name: "default".to_owned(),
+            base_color: [1.0; 4],
+            base_color_texture: None,
+            metallic: 1.0,
+            roughness: 1.0,
+            metallic_roughness_texture: None,
+            normal_texture: None,
+            normal_scale: 1.0,
+            emission: [0.0; 3],
+            emission_texture: None,
+            transmission: 0.0,
+            transmission_texture: None,
+            ior: 1.5,
+            thickness: 0.0,
+            attenuation_color: [1.0; 3],
+            attenuation_distance: f32::INFINITY,
+            specular: 1.0,
+            specular_color: [1.0; 3],
+            alpha_mode: AlphaMode::Opaque,
+            double_sided: false,
+            unlit: false,
+        }
+    }
+}
+
+/// A texture as a material uses it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextureRef {
+    /// Index into `Scene::textures`.
+    pub texture: usize,
+    /// 0 or 1.
+    pub uv_set: u32,
+    /// Rows of the 2x3 matrix applied to (u, v, 1).
+    pub uv_transform: [[f32; 3]; 2],
+}
+
+/// An image with a sampler.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Texture {
+    /// Index into `Scene::images`.
+    pub image: usize,
+    /// Behaviour outside [0, 1] in u.
+    pub wrap_u: Wrap,
+    /// Behaviour outside [0, 1] in v.
+    pub wrap_v: Wrap,
+    /// Nearest where the magnification filter says so.
+    pub filter: Filter,
+    /// Whether smaller levels are used for distant surfaces.
+    pub mipmapped: bool,
+}
+
+/// Texture coordinates outside [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Wrap {
+    /// Repeat.
+    #[default]
+    Repeat,
+    /// Repeat, every other copy mirrored.
+    Mirror,
+    /// Clamp to the edge texel.
+    Clamp,
+}
+
+/// How texels are combined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Filter {
+    /// The texel that holds the point.
+    Nearest,
+    /// Four texels, bilinear.
+    #[default]
+    Linear,
+}
+
+/// Decoded texels, rows top first (v = 0 is the first row).
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// Name or file.
+    pub name: String,
+    /// Texels a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// RGBA, one byte each; 16-bit sources are rounded with a warning. Whether colour is sRGB
+    /// depends on the use: base colour and emission are, all else is linear.
+    pub rgba8: Vec<u8>,
+}
+
+/// A light without extent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Light {
+    /// Radiates evenly from a point.
+    Point {
+        /// Metres, world.
+        position: DVec3,
+        /// W/sr, linear RGB.
+        intensity: [f32; 3],
+        /// Metres; infinite unless the file says so.
+        range: f32,
+    },
+    /// Parallel light.
+    Directional {
+        /// Unit, the way light travels.
+        direction: DVec3,
+        /// W/m^2, linear RGB.
+        irradiance: [f32; 3],
+    },
+    /// A point light within a cone.
+    Spot {
+        /// Metres, world.
+        position: DVec3,
+        /// Unit, axis of the cone.
+        direction: DVec3,
+        /// W/sr, linear RGB.
+        intensity: [f32; 3],
+        /// Metres.
+        range: f32,
+        /// Radians from the axis where falloff starts.
+        inner_cone: f32,
+        /// Radians from the axis where light ends.
+        outer_cone: f32,
+    },
+}
+
+/// Radiance from outside.
+#[derive(Clone, Debug)]
+pub enum Environment {
+    /// The same in every direction, linear RGB, W/(sr m^2). Black: no environment.
+    Constant([f32; 3]),
+    /// Latitude-longitude map: u grows with the azimuth from +x over +z, v from +y (top) down.
+    LatLong {
+        /// Texels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Linear RGB, W/(sr m^2), rows top first.
+        radiance: Vec<[f32; 3]>,
+    },
+}
+
+impl Default for Environment {
+    fn default() -> Self {
+        Self::Constant([0.0; 3])
+    }
+}
+
+/// A camera in the world: looks along -z of its own frame, +y up.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// Name from the file.
+    pub name: String,
+    /// Rigid placement, metres, f64.
+    pub world_from_camera: DAffine3,
+    /// Projection.
+    pub projection: Projection,
+}
+
+/// How a camera maps directions to pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// Pinhole.
+    Perspective {
+        /// Full vertical angle, radians.
+        fov_y: f32,
+    },
+    /// Parallel.
+    Orthographic {
+        /// Half of the visible height, metres.
+        half_height: f32,
+    },
+}
+
+/// Animation as read from the file, kept for posing.
+#[derive(Clone, Debug, Default)]
+pub struct Animation {
+    /// Names of the clips.
+    pub clips: Vec<String>,
+    /// Longest clip, seconds.
+    pub duration: f32,
+    /// Number of skins.
+    pub skins: usize,
+    /// Number of meshes with morph targets.
+    pub morphed_meshes: usize,
+}
+
+/// Something the user should know about a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// Stable word for tests and reports, such as `degenerate-triangles`.
+    pub kind: &'static str,
+    /// One sentence: what, where, how many, what was done instead.
+    pub message: String,
+}

@@ -1,0 +1,2 @@
+//! Compiles GLSL to SPIR-V.
+pub use shaderc;
