@@ -1,0 +1,70 @@
+// The scene tables: the only storage buffers of shading, and the functions that read them.
+// Reads: set SCENE_SET, bindings 0 to 11. Writes: nothing. Source: docs/shading.md, "Tables".
+// Indices come from tables that were validated when they were packed; ids that come from a
+// structure are clamped here, so that a corrupt hit cannot read out of bounds.
+#ifndef SCENE_ACCESSORS_GLSL
+#define SCENE_ACCESSORS_GLSL
+
+#include "scene/types.glsl"
+
+#ifndef SCENE_SET
+#define SCENE_SET 3
+#endif
+
+layout(set = SCENE_SET, binding = 0, scalar) readonly buffer SceneFrame { Frame scene_frame_table; };
+layout(set = SCENE_SET, binding = 1, scalar) readonly buffer SceneDrawShadings { DrawShading scene_draw_table[]; };
+layout(set = SCENE_SET, binding = 2, scalar) readonly buffer SceneTriangleDraws { uint scene_triangle_draw_table[]; };
+layout(set = SCENE_SET, binding = 3, scalar) readonly buffer ScenePosedAttributes { float scene_posed_table[]; };
+layout(set = SCENE_SET, binding = 4, scalar) readonly buffer SceneVertexAttributes { float scene_vertex_table[]; };
+layout(set = SCENE_SET, binding = 5, scalar) readonly buffer SceneMaterials { Material scene_material_table[]; };
+layout(set = SCENE_SET, binding = 6, scalar) readonly buffer SceneTextures { Texture scene_texture_table[]; };
+layout(set = SCENE_SET, binding = 7, scalar) readonly buffer SceneTexels { uint scene_texel_table[]; };
+layout(set = SCENE_SET, binding = 8, scalar) readonly buffer SceneLights { Light scene_light_table[]; };
+layout(set = SCENE_SET, binding = 9, scalar) readonly buffer SceneEmissiveTriangles { EmissiveTriangle scene_emissive_table[]; };
+layout(set = SCENE_SET, binding = 10, scalar) readonly buffer SceneEnvironmentRadiance { float scene_environment_table[]; };
+layout(set = SCENE_SET, binding = 11, scalar) readonly buffer SceneEnvironmentCdf { float scene_environment_cdf_table[]; };
+
+Frame scene_frame() { return scene_frame_table; }
+uint random_seed() { return scene_frame_table.seed; }
+
+uint scene_draw_of(uint primitive) {
+    return scene_triangle_draw_table[min(primitive, scene_frame_table.triangle_count - 1u)];
+}
+DrawShading scene_draw_shading(uint draw) { return scene_draw_table[draw]; }
+uint scene_draw_flags(uint draw) { return scene_draw_table[draw].flags; }
+
+vec3 scene_posed_vec3(uint word) {
+    return vec3(scene_posed_table[word], scene_posed_table[word + 1u], scene_posed_table[word + 2u]);
+}
+vec4 scene_posed_vec4(uint word) { return vec4(scene_posed_vec3(word), scene_posed_table[word + 3u]); }
+vec2 scene_vertex_vec2(uint word) { return vec2(scene_vertex_table[word], scene_vertex_table[word + 1u]); }
+vec4 scene_vertex_vec4(uint word) {
+    return vec4(scene_vertex_vec2(word), scene_vertex_vec2(word + 2u));
+}
+
+Material scene_material(uint material) { return scene_material_table[material]; }
+vec3 scene_material_specular_color(uint material) {
+    return material == MATERIAL_NONE ? vec3(1.0) : scene_material_table[material].specular_color;
+}
+
+Texture scene_texture(uint texture_index) { return scene_texture_table[texture_index]; }
+// RGBA in [0, 1] as stored: no decoding.
+vec4 scene_texel(uint texel) {
+    uint bits = scene_texel_table[texel];
+    return vec4(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u, bits >> 24) * (1.0 / 255.0);
+}
+
+Light scene_light(uint light) { return scene_light_table[light]; }
+EmissiveTriangle scene_emissive_triangle(uint entry) { return scene_emissive_table[entry]; }
+float scene_emissive_cumulative(uint entry) { return scene_emissive_table[entry].cumulative; }
+
+vec3 scene_environment_texel(uint texel) {
+    uint word = texel * 3u;
+    return vec3(scene_environment_table[word], scene_environment_table[word + 1u],
+                scene_environment_table[word + 2u]);
+}
+// Entries 0 to height - 1: cumulative share of the rows. Then `width` entries a row: cumulative
+// share within that row.
+float scene_environment_cdf(uint entry) { return scene_environment_cdf_table[entry]; }
+
+#endif

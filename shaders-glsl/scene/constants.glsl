@@ -1,0 +1,72 @@
+// Numbers that shading shares with Rust.
+// Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
+// Source: docs/shading.md.
+#ifndef SCENE_CONSTANTS_GLSL
+#define SCENE_CONSTANTS_GLSL
+
+// Descriptor set and bindings of scene/accessors.glsl.
+#define SCENE_SET_DEFAULT 3u
+#define SCENE_BINDING_FRAME 0u
+#define SCENE_BINDING_DRAW_SHADINGS 1u
+#define SCENE_BINDING_TRIANGLE_DRAWS 2u
+#define SCENE_BINDING_POSED_ATTRIBUTES 3u
+#define SCENE_BINDING_VERTEX_ATTRIBUTES 4u
+#define SCENE_BINDING_MATERIALS 5u
+#define SCENE_BINDING_TEXTURES 6u
+#define SCENE_BINDING_TEXELS 7u
+#define SCENE_BINDING_LIGHTS 8u
+#define SCENE_BINDING_EMISSIVE_TRIANGLES 9u
+#define SCENE_BINDING_ENVIRONMENT_RADIANCE 10u
+#define SCENE_BINDING_ENVIRONMENT_CDF 11u
+
+// "This draw has no such attribute."
+#define ATTRIBUTE_NONE 0xFFFFFFFFu
+// "This draw emits nothing."
+#define EMISSIVE_NONE 0xFFFFFFFFu
+// "No texture": the factor alone counts.
+#define TEXTURE_NONE 0xFFFFFFFFu
+// "No material": a path that is in air, a surface whose structure stores none.
+#define MATERIAL_NONE 0xFFFFFFFFu
+
+// DrawShading.flags. DRAW_ALPHA_MASKED of the contract may be set as well.
+// The instance mirrors its mesh: the counter-clockwise side of the mesh is clockwise when posed.
+#define DRAW_MIRRORED 256u
+
+// Material.flags.
+#define MATERIAL_ALPHA_MASK 1u
+#define MATERIAL_ALPHA_BLEND 2u
+#define MATERIAL_DOUBLE_SIDED 4u
+#define MATERIAL_UNLIT 8u
+
+// Texture.sampling: bits 0-1 wrap in u, bits 2-3 wrap in v, then flags.
+#define WRAP_REPEAT 0u
+#define WRAP_MIRROR 1u
+#define WRAP_CLAMP 2u
+#define TEXTURE_WRAP_V_SHIFT 2u
+#define TEXTURE_LINEAR 16u
+#define TEXTURE_SRGB 32u
+
+// Light.kind.
+#define LIGHT_POINT 0u
+#define LIGHT_DIRECTIONAL 1u
+#define LIGHT_SPOT 2u
+
+// Frame.environment_kind.
+#define ENVIRONMENT_CONSTANT 0u
+#define ENVIRONMENT_LAT_LONG 1u
+
+// Frame.projection.
+#define PROJECTION_PERSPECTIVE 0u
+#define PROJECTION_ORTHOGRAPHIC 1u
+
+// BsdfSample.flags and LightSample.flags.
+#define SAMPLE_VALID 1u
+#define SAMPLE_DELTA 2u
+#define SAMPLE_TRANSMITTED 4u
+
+// A path may be ended at random from this scattering on.
+#define PATH_ROULETTE_BOUNCE 3u
+// Blended surfaces a path passes before the next one counts as opaque.
+#define PATH_LAYER_LIMIT 16u
+
+#endif

@@ -1,0 +1,30 @@
+// Which random number is used for what. One sample of one pixel draws dimension d at most once.
+// Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
+// Source: docs/shading.md, "Random numbers".
+#ifndef SCENE_RANDOM_DIMENSIONS_GLSL
+#define SCENE_RANDOM_DIMENSIONS_GLSL
+
+// Position inside the pixel.
+#define RANDOM_CAMERA_X 0u
+#define RANDOM_CAMERA_Y 1u
+
+// Scattering k (0 is the first surface) owns the dimensions
+// RANDOM_BOUNCE_FIRST + k * RANDOM_BOUNCE_STRIDE + one of the offsets below.
+#define RANDOM_BOUNCE_FIRST 4u
+#define RANDOM_BOUNCE_STRIDE 12u
+
+#define RANDOM_LIGHT_KIND 0u
+#define RANDOM_LIGHT_PICK 1u
+#define RANDOM_LIGHT_U 2u
+#define RANDOM_LIGHT_V 3u
+#define RANDOM_BSDF_LOBE 4u
+#define RANDOM_BSDF_SIDE 5u
+#define RANDOM_BSDF_U 6u
+#define RANDOM_BSDF_V 7u
+#define RANDOM_ROULETTE 8u
+
+// Blended surface number n that a path meets, counted over the whole path, draws
+// RANDOM_OPACITY_FIRST + n. Far above every bounce block.
+#define RANDOM_OPACITY_FIRST 65536u
+
+#endif

@@ -1,0 +1,149 @@
+// The records of the scene tables and of the shading functions. Scalar block layout: a record has
+// the size of its fields and the alignment of one word.
+// Reads: nothing. Writes: nothing. Source: docs/shading.md, "Tables" and "Functions".
+#ifndef SCENE_TYPES_GLSL
+#define SCENE_TYPES_GLSL
+
+#include "contract/types.glsl"
+#include "scene/constants.glsl"
+
+// Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
+// 120 bytes.
+struct Frame {
+    vec3 camera_position;
+    uint projection;            // PROJECTION_*
+    vec3 camera_right;          // unit
+    float half_width;           // perspective: tangent of the half angle; orthographic: metres
+    vec3 camera_up;             // unit
+    float half_height;          // as half_width
+    vec3 camera_forward;        // unit
+    float cone_spread;          // radians a pixel subtends at the image centre; orthographic: 0
+    float cone_width;           // metres a pixel covers at the ray origin; perspective: 0
+    uint width;                 // pixels a row of the whole image
+    uint height;                // rows
+    uint seed;
+    uint triangle_count;
+    uint light_count;           // point, directional and spot lights
+    uint emissive_count;        // entries of emissive_triangles; 0 if their power is 0
+    uint environment_kind;      // ENVIRONMENT_*
+    uint environment_width;     // texels a row, 0 unless latitude-longitude
+    uint environment_height;
+    uint environment_sampled;   // 1 if the environment emits anything and is worth a light sample
+    vec3 environment_radiance;  // W/(sr m^2), the constant environment
+};
+
+// How a draw is shaded; one per draw of the geometry, same order. 44 bytes.
+// Offsets count words (f32) from the start of the named table; ATTRIBUTE_NONE means absent.
+struct DrawShading {
+    uint first_triangle;        // global triangle id of its first triangle
+    uint first_vertex;          // global vertex index of its first vertex
+    uint material;
+    uint flags;                 // DRAW_ALPHA_MASKED, DRAW_MIRRORED
+    uint normals;               // posed attributes, 3 words a vertex, unit, world
+    uint tangents;              // posed attributes, 4 words a vertex, xyz unit, w = +1 or -1
+    uint uv0;                   // vertex attributes, 2 words a vertex
+    uint uv1;                   // vertex attributes, 2 words a vertex
+    uint colors;                // vertex attributes, 4 words a vertex, linear RGBA
+    uint first_emissive;        // entry of its first triangle in emissive_triangles, or EMISSIVE_NONE
+    uint instance;              // index into the scene's instances
+};
+
+// A texture as a material uses it. 32 bytes.
+struct TextureRef {
+    uint texture;               // index into textures, or TEXTURE_NONE
+    uint uv_set;                // 0 or 1
+    vec3 row_u;                 // u' = dot(row_u, (u, v, 1))
+    vec3 row_v;                 // v' = dot(row_v, (u, v, 1))
+};
+
+// 256 bytes.
+struct Material {
+    vec4 base_color;            // linear RGBA
+    vec3 emission;              // W/(sr m^2)
+    float metallic;
+    float roughness;            // perceptual
+    float transmission;
+    float ior;
+    float thickness;            // metres; 0 is a thin wall
+    vec3 attenuation_color;
+    float attenuation_distance; // metres, +infinity: no absorption
+    vec3 specular_color;
+    float specular;
+    float normal_scale;
+    float alpha_cutoff;         // MATERIAL_ALPHA_MASK only
+    uint flags;                 // MATERIAL_*
+    uint spare;                 // zero
+    TextureRef base_color_texture;          // table entry with TEXTURE_SRGB
+    TextureRef metallic_roughness_texture;  // without
+    TextureRef normal_texture;              // without
+    TextureRef emission_texture;            // with
+    TextureRef transmission_texture;        // without
+};
+
+// Levels are stored one after the other, level 0 first, each tight and rows top first.
+// Level l has max(1, width >> l) by max(1, height >> l) texels. 20 bytes.
+struct Texture {
+    uint first_texel;           // index of level 0's first texel in texels
+    uint width;                 // of level 0
+    uint height;
+    uint level_count;           // 1 if smaller levels are not used
+    uint sampling;              // WRAP_* | WRAP_* << TEXTURE_WRAP_V_SHIFT | TEXTURE_LINEAR | TEXTURE_SRGB
+};
+
+// A light without extent. 56 bytes.
+struct Light {
+    vec3 position;              // metres relative to the frame origin; directional: unused
+    uint kind;                  // LIGHT_*
+    vec3 direction;             // unit, the way light travels; point: unused
+    float range;                // metres, +infinity: none
+    vec3 intensity;             // W/sr; directional: irradiance, W/m^2
+    float cone_scale;           // spot: see docs/shading.md, "Lights"
+    float cone_offset;
+    float spare;                // zero
+};
+
+// One triangle of an emissive draw. 8 bytes.
+struct EmissiveTriangle {
+    uint primitive;             // global triangle id
+    float cumulative;           // share of all power up to and including this entry; the last is 1
+};
+
+// What a path carries from one dispatch to the next. 52 bytes.
+struct PathState {
+    vec3 throughput;
+    uint pixel;                 // row * width + column in the whole image
+    vec3 radiance;              // gathered so far, W/(sr m^2)
+    uint sample_index;
+    float bsdf_pdf;             // 1/sr, of the last scattering; 0: emission met next counts fully
+    uint medium;                // material whose inside the path is in, or MATERIAL_NONE
+    uint bounce;                // scatterings so far
+    uint layers;                // blended surfaces met so far
+    uint flags;                 // zero
+};
+
+// A direction chosen by the surface.
+struct BsdfSample {
+    vec3 direction;             // unit
+    float pdf;                  // 1/sr; delta: probability of the choice
+    vec3 weight;                // value * |cosine| / pdf
+    uint flags;                 // SAMPLE_*; 0: nothing was sampled
+};
+
+// A direction chosen by the lights.
+struct LightSample {
+    vec3 direction;             // unit, from the surface to the light
+    float distance;             // metres, +infinity for environment and directional lights
+    vec3 radiance;              // arriving, W/(sr m^2); delta: irradiance across the direction, W/m^2
+    float pdf;                  // 1/sr including the choice of the light; delta: probability
+    vec3 target;                // end of the shadow segment, moved off the light by its error bound
+    uint flags;                 // SAMPLE_*; 0: nothing arrives
+};
+
+// What one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.
+struct PathStep {
+    Ray shadow_ray;             // occlusion; `pending` counts if nothing is met
+    Ray next_ray;               // closest hit
+    vec3 pending;               // radiance times throughput, W/(sr m^2)
+};
+
+#endif
