@@ -1,0 +1,62 @@
+//! A closed room whose walls all glow and reflect alike: the radiance everywhere is known.
+
+use glam::DVec3;
+
+use super::cornell::{diffuse, place_each};
+use super::shape::{Icosphere, Shapes};
+use crate::default_view::camera_looking_at;
+use crate::{Material, Scene};
+
+/// Parameters of [`furnace`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Furnace {
+    /// Diffuse reflectance of the walls, in [0, 1).
+    pub albedo: f32,
+    /// Radiance that the walls emit, W/(sr m^2), at least 0.
+    pub emission: f32,
+    /// Form of the room.
+    pub shape: FurnaceShape,
+}
+
+/// Form of the [`furnace`] room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum FurnaceShape {
+    /// A sphere of radius 1 m in 1,280 triangles.
+    #[default]
+    Sphere,
+    /// A cube of 2 m in 12 triangles.
+    Box,
+}
+
+impl Default for Furnace {
+    fn default() -> Self {
+        Self { albedo: 0.5, emission: 1.0, shape: FurnaceShape::Sphere }
+    }
+}
+
+/// A closed Lambertian room around the camera, fronts inwards. With emission E and albedo a, a path
+/// of at most n scatterings sees E (1 - a^(n+1)) / (1 - a) in every direction.
+///
+/// The camera stands away from the centre, so that no symmetry of the room sends its rays through
+/// vertices or edges.
+pub fn furnace(parameters: Furnace) -> Scene {
+    let Furnace { albedo, emission, shape } = parameters;
+    let material = Material { emission: [emission; 3], ..diffuse("wall", [albedo; 3]) };
+    let mut shapes = Shapes::new("wall", 0);
+    match shape {
+        FurnaceShape::Sphere => shapes.sphere(&Icosphere::new(3), DVec3::ZERO, 1.0, true),
+        // Corners swapped: what was outside is inside.
+        FurnaceShape::Box => shapes.block(DVec3::ONE, DVec3::NEG_ONE, [true; 6], 0.5),
+    }
+    let meshes = vec![shapes.finish()];
+    let eye = DVec3::new(0.11, 0.07, 0.23);
+    let camera = camera_looking_at("camera", eye, DVec3::new(-0.4, 0.19, -0.9), 1.0);
+    Scene {
+        name: "furnace".to_owned(),
+        instances: place_each(&meshes),
+        meshes,
+        materials: vec![material],
+        cameras: vec![camera],
+        ..Scene::default()
+    }
+}

@@ -1,0 +1,95 @@
+//! Scenes generated in code, so that nothing has to be downloaded to see a picture or run a test.
+//!
+//! A built-in scene is named by a word with optional parameters, `name:value` or
+//! `name:key=value,key=value`. The same name gives the same scene, bit for bit, on every machine
+//! that rounds f64 arithmetic as IEEE 754 says and shares one mathematics library.
+//!
+//! | name | parameters (default) | triangles |
+//! |---|---|---|
+//! | `cornell` | none | 38 |
+//! | `furnace` | `albedo` in [0, 1) (0.5), `emission` >= 0 (1), `shape` `sphere` or `box` (`sphere`) | 1,280 or 12 |
+//! | `spheres` | `triangles` from 10k to 10M (300k), also as `spheres:10k` | as asked, within 10 |
+//! | `atrium` | `detail` in [0.25, 4] (1) | about 70k at detail 1 |
+//! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
+//!
+//! Counts may be written with the suffixes `k` (thousand) and `M` (million).
+
+mod atrium;
+mod cornell;
+mod corridor;
+mod furnace;
+mod parameters;
+mod shape;
+mod spheres;
+mod texture;
+
+pub use atrium::{Atrium, atrium};
+pub use cornell::cornell;
+pub use corridor::{Corridor, corridor};
+pub use furnace::{Furnace, FurnaceShape, furnace};
+pub use spheres::{Spheres, spheres};
+
+use crate::{Scene, SceneError};
+use parameters::Parameters;
+
+/// Names of all built-in scenes, in the order that help texts list them.
+pub const NAMES: [&str; 5] = ["cornell", "furnace", "spheres", "atrium", "corridor"];
+
+/// Makes the built-in scene that `spec` names, such as `cornell` or `furnace:albedo=0.8,emission=2`.
+///
+/// `None` if the word before the first `:` is not the name of a built-in scene; it may then be a
+/// file.
+///
+/// # Errors
+/// Within `Some`: [`SceneError::Builtin`] for a parameter that the scene does not have, a value that
+/// is no number, or one out of range.
+pub fn builtin(spec: &str) -> Option<Result<Scene, SceneError>> {
+    let (name, rest) = match spec.split_once(':') {
+        Some((name, rest)) => (name, Some(rest)),
+        None => (spec, None),
+    };
+    let name = NAMES.into_iter().find(|known| *known == name)?;
+    let made = Parameters::parse(spec, rest).and_then(|parameters| make(name, parameters));
+    Some(made.map(|mut scene| {
+        spec.clone_into(&mut scene.name);
+        scene
+    }))
+}
+
+fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
+    match name {
+        "furnace" => {
+            let defaults = Furnace::default();
+            let albedo = given.number("albedo", f64::from(defaults.albedo), 0.0..=0.999_999)? as f32;
+            let emission = given.number("emission", f64::from(defaults.emission), 0.0..=1.0e9)? as f32;
+            let shape = match given.word("shape", "sphere", &["sphere", "box"])? {
+                "box" => FurnaceShape::Box,
+                _ => FurnaceShape::Sphere,
+            };
+            given.finish()?;
+            Ok(furnace(Furnace { albedo, emission, shape }))
+        }
+        "spheres" => {
+            given.name_positional("triangles")?;
+            let triangles = given.count("triangles", Spheres::default().triangles, Spheres::TRIANGLES)?;
+            given.finish()?;
+            Ok(spheres(Spheres { triangles }))
+        }
+        "atrium" => {
+            let detail = given.number("detail", Atrium::default().detail, Atrium::DETAIL)?;
+            given.finish()?;
+            Ok(atrium(Atrium { detail }))
+        }
+        "corridor" => {
+            let defaults = Corridor::default();
+            let reflectance = given.number("reflectance", f64::from(defaults.reflectance), 0.0..=1.0)? as f32;
+            let width = given.number("width", defaults.width, 0.5..=50.0)?;
+            given.finish()?;
+            Ok(corridor(Corridor { reflectance, width }))
+        }
+        _ => {
+            given.finish()?;
+            Ok(cornell())
+        }
+    }
+}

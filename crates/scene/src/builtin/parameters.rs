@@ -1,0 +1,110 @@
+//! The part of a built-in's name after the colon.
+
+use std::ops::RangeInclusive;
+
+use crate::SceneError;
+
+/// Parameters as written, each taken out once by the scene that knows it.
+pub(super) struct Parameters {
+    spec: String,
+    /// The value without a key, as in `spheres:10k`.
+    positional: Option<String>,
+    named: Vec<(String, String)>,
+}
+
+impl Parameters {
+    /// Splits `key=value,key=value`; one value without a key may stand in front.
+    pub fn parse(spec: &str, rest: Option<&str>) -> Result<Self, SceneError> {
+        let mut parsed = Self { spec: spec.to_owned(), positional: None, named: Vec::new() };
+        let Some(rest) = rest else { return Ok(parsed) };
+        for (place, part) in rest.split(',').enumerate() {
+            let part = part.trim();
+            match part.split_once('=') {
+                Some((key, value)) => {
+                    let key = key.trim();
+                    if parsed.named.iter().any(|(other, _)| other == key) {
+                        return Err(parsed.error(format!("parameter `{key}` is given twice; keep one")));
+                    }
+                    parsed.named.push((key.to_owned(), value.trim().to_owned()));
+                }
+                None if part.is_empty() => {
+                    return Err(parsed.error("a parameter is empty; write name:key=value".to_owned()));
+                }
+                None if place == 0 => parsed.positional = Some(part.to_owned()),
+                None => {
+                    return Err(parsed.error(format!("`{part}` has no key; write key={part}")));
+                }
+            }
+        }
+        Ok(parsed)
+    }
+
+    /// Gives the value without a key this key.
+    pub fn name_positional(&mut self, key: &str) -> Result<(), SceneError> {
+        if let Some(value) = self.positional.take() {
+            if self.named.iter().any(|(other, _)| other == key) {
+                return Err(self.error(format!("parameter `{key}` is given twice; keep one")));
+            }
+            self.named.push((key.to_owned(), value));
+        }
+        Ok(())
+    }
+
+    /// A real number within `range`.
+    pub fn number(&mut self, key: &str, default: f64, range: RangeInclusive<f64>) -> Result<f64, SceneError> {
+        let Some(text) = self.take(key) else { return Ok(default) };
+        match text.parse::<f64>() {
+            Ok(value) if range.contains(&value) => Ok(value),
+            _ => Err(self.out_of_range(key, &text, range.start(), range.end())),
+        }
+    }
+
+    /// A whole number within `range`, with `k` and `M` understood.
+    pub fn count(&mut self, key: &str, default: u64, range: RangeInclusive<u64>) -> Result<u64, SceneError> {
+        let Some(text) = self.take(key) else { return Ok(default) };
+        let (digits, factor) = match text.as_bytes().last() {
+            Some(b'k' | b'K') => (&text[..text.len() - 1], 1.0e3),
+            Some(b'm' | b'M') => (&text[..text.len() - 1], 1.0e6),
+            _ => (text.as_str(), 1.0),
+        };
+        // Saturates for huge values and is 0 for NaN, both of which the range refuses.
+        let value = digits.parse::<f64>().map(|value| (value * factor).round() as u64);
+        match value {
+            Ok(value) if range.contains(&value) => Ok(value),
+            _ => Err(self.out_of_range(key, &text, range.start(), range.end())),
+        }
+    }
+
+    /// One of a few words; the returned word is one of `choices` or the default.
+    pub fn word<'a>(&mut self, key: &str, default: &'a str, choices: &[&'a str]) -> Result<&'a str, SceneError> {
+        let Some(text) = self.take(key) else { return Ok(default) };
+        match choices.iter().find(|choice| **choice == text) {
+            Some(choice) => Ok(choice),
+            None => Err(self.error(format!("`{key}={text}`: must be one of {}", choices.join(", ")))),
+        }
+    }
+
+    /// Refuses what no scene took.
+    pub fn finish(self) -> Result<(), SceneError> {
+        if let Some((key, _)) = self.named.first() {
+            return Err(self.error(format!("there is no parameter `{key}`; remove it")));
+        }
+        if let Some(value) = &self.positional {
+            return Err(self.error(format!("`{value}` has no key; write key={value}")));
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, key: &str) -> Option<String> {
+        let place = self.named.iter().position(|(other, _)| other == key)?;
+        Some(self.named.swap_remove(place).1)
+    }
+
+    fn out_of_range(&self, key: &str, text: &str, low: &dyn std::fmt::Display, high: &dyn std::fmt::Display) -> SceneError {
+        self.error(format!("`{key}={text}`: must be a number from {low} to {high}"))
+    }
+
+    fn error(&self, problem: String) -> SceneError {
+        SceneError::Builtin { spec: self.spec.clone(), problem }
+    }
+}

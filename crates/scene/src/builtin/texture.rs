@@ -1,0 +1,85 @@
+//! Pictures computed in code: tiles, cloth, a pierced screen.
+
+use crate::{AlphaMode, Filter, Image, Material, Texture, TextureRef, Wrap};
+
+/// Texels a side of every picture here.
+const SIDE: u32 = 256;
+
+/// Fills a square image from a function of (u, v) in [0, 1)^2 that gives sRGB bytes and alpha.
+fn paint(name: &str, texel: impl Fn(f64, f64) -> [u8; 4]) -> Image {
+    let mut rgba8 = Vec::with_capacity((SIDE * SIDE * 4) as usize);
+    for row in 0..SIDE {
+        for column in 0..SIDE {
+            let centre = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE);
+            rgba8.extend(texel(centre(column), centre(row)));
+        }
+    }
+    Image { name: name.to_owned(), width: SIDE, height: SIDE, rgba8 }
+}
+
+/// A reproducible value in [0, 1] for each cell of a grid.
+fn grain(x: u32, y: u32) -> f64 {
+    let mut mixed = x.wrapping_mul(0x85EB_CA6B) ^ y.wrapping_mul(0xC2B2_AE35);
+    mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x2C1B_3C6D);
+    mixed = (mixed ^ (mixed >> 12)).wrapping_mul(0x297A_2D39);
+    f64::from(mixed ^ (mixed >> 15)) / f64::from(u32::MAX)
+}
+
+fn shade(color: [f64; 3], factor: f64, alpha: u8) -> [u8; 4] {
+    let [red, green, blue] = color.map(|channel| (channel * factor).clamp(0.0, 255.0).round() as u8);
+    [red, green, blue, alpha]
+}
+
+/// Four by four tiles of light and dark stone with joints; repeats.
+pub(super) fn tiles() -> Image {
+    paint("tiles", |u, v| {
+        let (x, y) = (u * 4.0, v * 4.0);
+        let (column, row) = (x as u32, y as u32);
+        let inset = (x.fract().min(1.0 - x.fract())).min(y.fract().min(1.0 - y.fract()));
+        if inset < 0.03 {
+            return shade([92.0, 86.0, 78.0], 1.0, 255);
+        }
+        let stone = if (column + row) % 2 == 0 { [206.0, 190.0, 162.0] } else { [128.0, 96.0, 78.0] };
+        let speck = grain((u * 256.0) as u32, (v * 256.0) as u32);
+        shade(stone, 0.88 + 0.08 * grain(column + 100, row) + 0.08 * speck, 255)
+    })
+}
+
+/// Woven cloth with a stripe of another colour and a diamond pattern; repeats.
+pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
+    paint(name, |u, v| {
+        let thread = if ((u * 128.0) as u32 + (v * 128.0) as u32) % 2 == 0 { 1.0 } else { 0.88 };
+        let diamond = ((u * 4.0).fract() - 0.5).abs() + ((v * 4.0).fract() - 0.5).abs() < 0.24;
+        let stripe = (v - 0.9).abs() < 0.04;
+        shade(if diamond || stripe { figure } else { ground }, thread, 255)
+    })
+}
+
+/// A bronze screen with round and square holes: alpha is 0 where it is pierced; repeats.
+pub(super) fn screen() -> Image {
+    paint("screen", |u, v| {
+        let (x, y) = ((u * 4.0).fract() - 0.5, (v * 4.0).fract() - 0.5);
+        let pierced = x.hypot(y) < 0.36 || x.abs().max(y.abs()) > 0.5 - 0.06 && (x.abs() - y.abs()).abs() < 0.05;
+        shade([150.0, 116.0, 62.0], 0.9 + 0.1 * grain((u * 256.0) as u32, (v * 256.0) as u32), u8::from(!pierced) * 255)
+    })
+}
+
+/// A repeating, filtered, mipmapped texture of image `image`.
+pub(super) fn repeating(image: usize) -> Texture {
+    Texture { image, wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, filter: Filter::Linear, mipmapped: true }
+}
+
+/// `material` with texture `texture` as its base colour, on texture coordinates 0 as they are.
+pub(super) fn textured(material: Material, texture: usize) -> Material {
+    let uv_transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    Material {
+        base_color: [1.0; 4],
+        base_color_texture: Some(TextureRef { texture, uv_set: 0, uv_transform }),
+        ..material
+    }
+}
+
+/// `material` where alpha below one half is a hole.
+pub(super) fn pierced(material: Material) -> Material {
+    Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, double_sided: true, ..material }
+}

@@ -1,0 +1,256 @@
+//! Built-in scenes: counts, closedness, winding, materials, determinism, parameters.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use rasray_scene::builtin::{NAMES, builtin};
+use rasray_scene::default_view::{bounds, is_lit};
+use rasray_scene::{AlphaMode, Environment, Mesh, Projection, Scene, SceneError};
+
+fn scene(spec: &str) -> Scene {
+    builtin(spec).unwrap_or_else(|| panic!("{spec} is a built-in")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn triangles(scene: &Scene) -> usize {
+    scene.instances.iter().map(|instance| scene.meshes[instance.mesh].triangle_count()).sum()
+}
+
+fn corners(mesh: &Mesh) -> impl Iterator<Item = [[f32; 3]; 3]> {
+    mesh.indices.chunks_exact(3).map(|corners| [0, 1, 2].map(|at| mesh.positions[corners[at] as usize]))
+}
+
+/// Directed edges, by position, that no triangle runs along in the other direction.
+fn open_edges<'a>(meshes: impl IntoIterator<Item = &'a Mesh>) -> Vec<([f32; 3], [f32; 3])> {
+    let key = |point: [f32; 3]| point.map(|value| (value + 0.0).to_bits());
+    let mut count: HashMap<_, i64> = HashMap::new();
+    for mesh in meshes {
+        for triangle in corners(mesh) {
+            for side in 0..3 {
+                let (from, to) = (key(triangle[side]), key(triangle[(side + 1) % 3]));
+                if from < to {
+                    *count.entry((from, to)).or_default() += 1;
+                } else {
+                    *count.entry((to, from)).or_default() -= 1;
+                }
+            }
+        }
+    }
+    let open = count.into_iter().filter(|(_, count)| *count != 0);
+    open.map(|((from, to), _)| (from.map(f32::from_bits), to.map(f32::from_bits))).collect()
+}
+
+/// Signed volume by the divergence theorem: positive if the fronts of a closed mesh face outwards.
+fn volume(mesh: &Mesh) -> f64 {
+    let point = |corner: [f32; 3]| DVec3::from_array(corner.map(f64::from));
+    corners(mesh).map(|[a, b, c]| point(a).dot(point(b).cross(point(c))) / 6.0).sum()
+}
+
+/// Every scene is well formed: indices, attribute lengths, unit normals on the front side.
+fn assert_well_formed(scene: &Scene) {
+    assert_eq!(scene.cameras.len(), 1, "{}", scene.name);
+    assert!(is_lit(scene), "{}", scene.name);
+    assert!(scene.warnings.is_empty());
+    for instance in &scene.instances {
+        let mesh = &scene.meshes[instance.mesh];
+        assert!(mesh.material < scene.materials.len());
+        let normals = mesh.normals.as_ref().expect("built-in meshes have normals");
+        assert_eq!(normals.len(), mesh.positions.len());
+        assert_eq!(mesh.uvs[0].as_ref().map(Vec::len), Some(mesh.positions.len()));
+        assert!(mesh.positions.iter().flatten().all(|value| value.is_finite()));
+        for indices in mesh.indices.chunks_exact(3) {
+            let at = |corner: u32| DVec3::from_array(mesh.positions[corner as usize].map(f64::from));
+            let [a, b, c] = [at(indices[0]), at(indices[1]), at(indices[2])];
+            let face = (b - a).cross(c - a);
+            assert!(face.length() > 1.0e-9, "{}: {} has a triangle without area", scene.name, mesh.name);
+            for &corner in indices {
+                let normal = DVec3::from_array(normals[corner as usize].map(f64::from));
+                assert!((normal.length() - 1.0).abs() < 1.0e-5, "{}: {}", scene.name, mesh.name);
+                let agreement = normal.dot(face.normalize());
+                assert!(agreement > 0.3, "{}: {} normal against winding: {agreement}", scene.name, mesh.name);
+            }
+        }
+    }
+    for texture in &scene.textures {
+        assert!(texture.image < scene.images.len());
+    }
+    for image in &scene.images {
+        assert_eq!(image.rgba8.len(), image.width as usize * image.height as usize * 4);
+    }
+}
+
+#[test]
+fn every_scene_is_well_formed_and_the_same_twice() {
+    for name in NAMES {
+        let spec = if name == "spheres" { "spheres:10k" } else { name };
+        let first = scene(spec);
+        assert_well_formed(&first);
+        assert_eq!(first.name, spec);
+        let second = scene(spec);
+        assert_eq!(first.meshes.len(), second.meshes.len());
+        for (one, other) in first.meshes.iter().zip(&second.meshes) {
+            assert_eq!(one.positions, other.positions);
+            assert_eq!(one.indices, other.indices);
+        }
+    }
+}
+
+#[test]
+fn names_that_are_no_built_ins_are_left_to_others() {
+    assert!(builtin("scene.gltf").is_none());
+    assert!(builtin("Cornell").is_none());
+    assert!(builtin("").is_none());
+    assert!(builtin("C:\\scenes\\cornell").is_none());
+}
+
+#[test]
+fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
+    let table = [
+        ("cornell:size=2", "no parameter `size`"),
+        ("cornell:big", "`big` has no key"),
+        ("furnace:albedo=1", "from 0 to 0.999999"),
+        ("furnace:albedo=nan", "`albedo=nan`"),
+        ("furnace:albedo=0.5,albedo=0.6", "given twice"),
+        ("furnace:shape=cone", "one of sphere, box"),
+        ("furnace:0.5", "has no key"),
+        ("furnace:", "empty"),
+        ("spheres:5k", "from 10000 to 10000000"),
+        ("spheres:11M", "from 10000 to 10000000"),
+        ("spheres:1e99", "from 10000"),
+        ("spheres:-10k", "from 10000"),
+        ("spheres:10k,triangles=20k", "given twice"),
+        ("spheres:k", "must be a number"),
+        ("atrium:detail=9", "from 0.25 to 4"),
+        ("corridor:width=0", "from 0.5 to 50"),
+    ];
+    for (spec, expected) in table {
+        let error = builtin(spec).expect("a built-in name").err().unwrap_or_else(|| panic!("{spec} was accepted"));
+        assert!(matches!(error, SceneError::Builtin { .. }), "{spec}");
+        let message = error.to_string();
+        assert!(message.contains(expected) && message.contains(spec), "{spec}: {message}");
+    }
+}
+
+#[test]
+fn cornell_is_open_at_the_front_only() {
+    let scene = scene("cornell");
+    assert_eq!(triangles(&scene), 38);
+    let shell: Vec<_> = scene.meshes.iter().filter(|mesh| !mesh.name.contains("block")).collect();
+    let open = open_edges(shell);
+    assert_eq!(open.len(), 4);
+    assert!(open.iter().all(|(from, to)| from[2] == 0.0 && to[2] == 0.0), "{open:?}");
+    for block in scene.meshes.iter().filter(|mesh| mesh.name.contains("block")) {
+        let open = open_edges([block]);
+        assert_eq!(open.len(), 4, "{}", block.name);
+        assert!(open.iter().all(|(from, to)| from[1] == 0.0 && to[1] == 0.0), "{open:?}");
+        // The missing bottom lies in the plane through the origin, so it adds nothing.
+        assert!(volume(block) > 0.003, "{}", volume(block));
+    }
+}
+
+#[test]
+fn cornell_has_its_colours_sides_and_light() {
+    let scene = scene("cornell");
+    let mesh = |name: &str| scene.meshes.iter().find(|mesh| mesh.name == name).expect("mesh");
+    assert!(mesh("red wall").positions.iter().all(|point| point[0] < 0.0));
+    assert!(mesh("green wall").positions.iter().all(|point| point[0] > 0.0));
+    let red = &scene.materials[mesh("red wall").material];
+    assert!(red.base_color[0] > 5.0 * red.base_color[1]);
+    assert!(scene.materials.iter().all(|material| material.metallic == 0.0 && material.specular == 0.0));
+    assert_eq!(scene.materials.iter().filter(|material| material.emission[0] > 0.0).count(), 1);
+    let light = mesh("light").normals.as_ref().expect("normals")[0];
+    assert_eq!(light, [0.0, -1.0, 0.0]);
+    // The camera stands in front of the opening, in the box's axis, and sees both sides of it.
+    let camera = &scene.cameras[0];
+    let eye = camera.world_from_camera.translation;
+    assert!(eye.z > 0.5 && eye.x == 0.0);
+    assert!(camera.world_from_camera.matrix3.z_axis.distance(DVec3::Z) < 1.0e-12);
+    let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
+    assert!((fov_y.to_degrees() - 39.3).abs() < 0.1, "{fov_y}");
+    let half_height = f64::from(fov_y / 2.0).tan() * eye.z;
+    assert!(half_height > 0.27 && half_height < 0.31, "{half_height}");
+}
+
+#[test]
+fn furnaces_are_closed_and_face_inwards() {
+    for (spec, count, enclosed) in [("furnace", 1280, 4.1), ("furnace:shape=box", 12, 8.0)] {
+        let scene = scene(spec);
+        assert_eq!(triangles(&scene), count);
+        assert!(open_edges(&scene.meshes).is_empty());
+        let volume = volume(&scene.meshes[0]);
+        assert!((volume + enclosed).abs() < 0.1, "{spec}: {volume}");
+        let (low, high) = bounds(&scene).expect("bounds");
+        let eye = scene.cameras[0].world_from_camera.translation;
+        assert!(eye.cmpgt(low).all() && eye.cmplt(high).all());
+    }
+    let set = scene("furnace:albedo=0.8,emission=2.5");
+    assert_eq!(set.materials[0].base_color, [0.8, 0.8, 0.8, 1.0]);
+    assert_eq!(set.materials[0].emission, [2.5; 3]);
+    assert_eq!(set.materials[0].specular, 0.0);
+}
+
+#[test]
+fn spheres_have_the_triangles_asked_for_and_are_closed() {
+    for (spec, count) in [("spheres:10k", 10_000), ("spheres", 300_000), ("spheres:123456", 123_456)] {
+        let scene = scene(spec);
+        let found = triangles(&scene);
+        assert!(found.abs_diff(count) <= 10, "{spec}: {found}");
+        assert!(open_edges(&scene.meshes).is_empty(), "{spec}");
+        assert!(scene.meshes.iter().all(|mesh| volume(mesh) > 0.0));
+        let (low, high) = bounds(&scene).expect("bounds");
+        assert!(low.min_element() >= -10.0 && high.max_element() <= 10.0);
+        assert!((high - low).min_element() > 14.0, "{spec} fills its cube: {low} {high}");
+    }
+    assert_eq!(triangles(&scene("spheres:0.5M")), triangles(&scene("spheres:500k")));
+}
+
+#[test]
+fn a_missing_triangle_opens_a_sphere() {
+    let mut scene = scene("spheres:10k");
+    let indices = &mut scene.meshes[0].indices;
+    indices.truncate(indices.len() - 3);
+    assert_eq!(open_edges(&scene.meshes).len(), 3);
+}
+
+#[test]
+fn atrium_has_textures_masks_sun_and_sky() {
+    let scene = scene("atrium");
+    let count = triangles(&scene);
+    assert!((50_000..=100_000).contains(&count), "{count}");
+    let textured: Vec<_> = scene.materials.iter().filter(|material| material.base_color_texture.is_some()).collect();
+    assert!(textured.len() >= 3);
+    assert!(scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Mask { cutoff: 0.5 }));
+    assert!(scene.materials.iter().any(|material| material.metallic == 1.0));
+    assert_eq!(scene.lights.len(), 1);
+    let Environment::LatLong { width, height, radiance } = &scene.environment else { panic!("a sky") };
+    assert_eq!(radiance.len(), (width * height) as usize);
+    // Blue at the top, where the rows begin.
+    assert!(radiance[0][2] > radiance[0][0]);
+    let (low, high) = bounds(&scene).expect("bounds");
+    assert_eq!(low.y, 0.0);
+    assert!(high.y > 8.0);
+    assert!(triangles(&self::scene("atrium:detail=0.25")) < count / 4);
+}
+
+#[test]
+fn the_pierced_screen_has_holes_and_bars() {
+    let scene = scene("atrium");
+    let screen = scene.images.iter().find(|image| image.name == "screen").expect("screen");
+    let holes = screen.rgba8.chunks_exact(4).filter(|texel| texel[3] == 0).count();
+    let share = holes as f64 / (f64::from(screen.width) * f64::from(screen.height));
+    assert!((0.3..0.6).contains(&share), "{share}");
+}
+
+#[test]
+fn corridor_is_closed_with_mirrors_as_far_apart_as_asked() {
+    let scene = scene("corridor:reflectance=0.9,width=3");
+    assert_eq!(triangles(&scene), 1300);
+    assert!(open_edges(&scene.meshes).is_empty());
+    let mirrors = scene.meshes.iter().find(|mesh| mesh.name == "mirrors").expect("mirrors");
+    let material = &scene.materials[mirrors.material];
+    assert_eq!((material.metallic, material.roughness), (1.0, 0.0));
+    assert_eq!(material.base_color[..3], [0.9; 3]);
+    assert!(mirrors.positions.iter().all(|point| point[0].abs() == 1.5));
+    let (low, high) = bounds(&scene).expect("bounds");
+    let eye = scene.cameras[0].world_from_camera.translation;
+    assert!(eye.cmpgt(low).all() && eye.cmplt(high).all());
+}
