@@ -14,6 +14,9 @@
 // The structure was not complete when it was traced; no answer was given.
 #define TRACE_NOT_READY 3u
 
+// In Hit.primitive: a fragment without a known triangle; a and b are the structure's.
+#define PRIMITIVE_UNKNOWN 0xFFFFFFFEu
+
 // Ray flags.
 // The ray only asks whether anything is hit.
 #define RAY_OCCLUDED 1u

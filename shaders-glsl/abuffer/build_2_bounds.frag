@@ -1,0 +1,19 @@
+// What: depth bounds of each cell.
+// Reads: geometry, header. Writes: bounds.
+// Source: MMRT section 3.1, first geometry pass.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/raster.glsl"
+#include "contract/alpha.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    uint cell;
+    CellCoverage coverage;
+    if (!abuffer_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, coverage)
+        || !alpha_accepts(primitive_and_face.x, coverage.barycentrics)) {
+        return;
+    }
+    abuffer_widen_bounds(abuffer_built, cell, coverage.z, coverage.extent);
+}

@@ -1,0 +1,19 @@
+// What: the scale of each cell's buckets, stored once so that build and trace use the same number.
+// Reads: bounds. Writes: bounds. Runs only where a cell has room for it (plane acceptance).
+// Source: MMRT section 3.1, equation of the bucket index.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/accessors.glsl"
+
+layout(local_size_x = ABUFFER_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+};
+
+void main() {
+    uint cell = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (cell < abuffer_cell_count(abuffer_built)) {
+        abuffer_store_scale(abuffer_built, cell);
+    }
+}

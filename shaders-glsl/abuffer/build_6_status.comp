@@ -1,0 +1,18 @@
+// What: declares the structure complete, or says what was missing.
+// Reads: header. Writes: header.status.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/accessors.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+};
+
+void main() {
+    bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
+        && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity;
+    uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
+}

@@ -1,0 +1,28 @@
+// What: proposes, for each triangle and face, the cells whose centres the triangle may cover.
+// Reads: geometry, header. Writes: nothing.
+// Source: MMRT section 3.1; instances replace the paper's geometry-shader amplification.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/raster.glsl"
+
+layout(location = 0) flat out uvec2 primitive_and_face;
+
+void main() {
+    uint primitive = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    uint face = uint(gl_InstanceIndex);
+    uint resolution = ABUFFER_HEADER(abuffer_built).resolution;
+    primitive_and_face = uvec2(primitive, face);
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    abuffer_face_vertices(primitive, face, a, b, c);
+    if (ABUFFER_COVERAGE == ABUFFER_COVERAGE_EXACT) {
+        gl_Position = coverage_proposal(a, b, c, corner, resolution);
+    } else {
+        vec3 p = corner == 0u ? a : (corner == 1u ? b : c);
+        float to_clip = float(resolution) / float(resolution + 2u);
+        // z = w / 2 lies between the near and the far plane wherever w is positive.
+        gl_Position = vec4(p.xy * to_clip, 0.5 * p.z, p.z);
+    }
+}

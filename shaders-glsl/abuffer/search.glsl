@@ -1,0 +1,147 @@
+// What: searches the lists of one cell for the nearest fragment that a ray hits within it.
+// Reads: bounds, lists, nodes, data, geometry (plane acceptance). Writes: nothing.
+// Source: MMRT section 3.3. The bucket range, the order and the early ends only skip fragments that
+// the acceptance would refuse, so hits do not depend on them.
+#ifndef ABUFFER_SEARCH_GLSL
+#define ABUFFER_SEARCH_GLSL
+
+#include "contract/trace_state.glsl"
+#include "ads/geometry.glsl"
+#include "ads/triangle.glsl"
+#include "abuffer/accessors.glsl"
+
+// One search, able to stop between two nodes.
+struct AbufferSearch {
+    uint cell;
+    float t_low;          // the ray's interval in the cell, widened by the errors of its ends
+    float t_high;
+    uint bucket;
+    uint link;            // next node; 0: begin the bucket
+    bool in_bucket;       // the bucket has been begun
+};
+
+// Whether the plane of a fragment's triangle is hit within the cell.
+bool abuffer_accept_plane(AbufferSearch search, vec3 eye, float cell_size, Ray ray, uint primitive, out float t, out vec2 barycentrics) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    t = 0.0;
+    barycentrics = vec2(0.0);
+    if (primitive == ray.exclude_primitive) {
+        return false;
+    }
+    geometry_vertices(primitive, a, b, c);
+    float t_error;
+    if (triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
+        return t > max(ray.t_min, t_error) && t >= search.t_low && t <= search.t_high;
+    }
+    if (!triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
+        return false;
+    }
+    if (!(t > ray.t_min && t >= search.t_low && t <= search.t_high)) {
+        return false;
+    }
+    // Outside of the triangle its plane stands for what else is in the cell. A ray that starts closer
+    // to the plane than a cell is wide may have left that very surface.
+    vec3 normal = normalize(cross(b - a, c - a));
+    vec3 from_eye = abs(ray.origin + t * ray.direction - eye);
+    float footprint = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
+    return abs(dot(normal, ray.origin - a)) > footprint;
+}
+
+// Returns true if the work budget ended before the search did.
+bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bool ordered, inout AbufferSearch search,
+    inout TraceState state, inout uint work) {
+    AbufferBounds bounds = abuffer_bounds(s, search.cell);
+    if (bounds.empty) {
+        return false;
+    }
+    vec3 eye = ABUFFER_HEADER(s).eye;
+    float cell_size = 2.0 / float(ABUFFER_HEADER(s).resolution);
+    float z_in = origin_z + search.t_low * direction_z;
+    float z_out = origin_z + search.t_high * direction_z;
+    float rounding = 4.8e-7 * (abs(origin_z) + max(abs(search.t_low), abs(search.t_high)) * abs(direction_z));
+    float near_z = min(z_in, z_out);
+    float far_z = max(z_in, z_out);
+    bool away = direction_z >= 0.0;
+    // Depths at the cell's centre that an accepted fragment can have.
+    float low = near_z;
+    float high = far_z;
+    if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+        low = near_z - bounds.extent - rounding;
+        high = far_z + bounds.extent + rounding;
+    } else if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_THICKNESS) {
+        low = near_z - ABUFFER_HEADER(s).thickness;
+    }
+    uint first = 0u;
+    uint last = ABUFFER_BUCKETS - 1u;
+    if (ABUFFER_SKIP != 0u) {
+        if (low > bounds.z_max || high < bounds.z_min) {
+            return false;
+        }
+        first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
+        last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
+        if (ABUFFER_ACCEPT != ABUFFER_ACCEPT_PLANE) {
+            // The scale is computed anew by each stage, so a fragment may lie one bucket off.
+            first = first - min(first, 1u);
+            last = min(last + 1u, ABUFFER_BUCKETS - 1u);
+        }
+    }
+    for (uint step_index = search.in_bucket ? search.bucket : 0u; step_index <= last - first; step_index++) {
+        uint bucket = away ? first + step_index : last - step_index;
+        uint link = search.link;
+        if (!search.in_bucket) {
+            link = away ? abuffer_head(s, search.cell, bucket) : abuffer_tail(s, search.cell, bucket);
+        }
+        search.in_bucket = false;
+        while (link != 0u) {
+            if (work >= WORK_BUDGET) {
+                search.bucket = step_index;
+                search.link = link;
+                search.in_bucket = true;
+                return true;
+            }
+            work++;
+            state.entries++;
+            AbufferNode node = abuffer_node(s, link);
+            uint current = link;
+            link = away ? node.next : node.prev;
+            bool past = away ? node.z > high : node.z < low;
+            if (past && ordered && ABUFFER_SKIP != 0u) {
+                return false;
+            }
+            if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+                if (node.z < low || node.z > high) {
+                    continue;
+                }
+                uint primitive = abuffer_data(s, current, 0u);
+                float t;
+                vec2 barycentrics;
+                state.tests++;
+                if (abuffer_accept_plane(search, eye, cell_size, ray, primitive, t, barycentrics) && t < ray.t_max
+                    && hit_is_better(state.best, t, primitive)) {
+                    state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+                }
+            } else if (node.z >= low && node.z < high) {
+                // The hit lies where the ray passes the fragment's depth, within the cell.
+                float t = clamp((node.z - origin_z) / direction_z, search.t_low, search.t_high);
+                t = direction_z == 0.0 ? search.t_low : t;
+                uint primitive = PRIMITIVE_UNKNOWN;
+                bool better = t < state.best.t;
+                if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+                    primitive = abuffer_data(s, current, 0u);
+                    better = hit_is_better(state.best, t, primitive);
+                } else if (t == state.best.t && state.best.primitive != PRIMITIVE_NONE) {
+                    better = abuffer_data(s, current, 0u) < abuffer_data(s, floatBitsToUint(state.best.a), 0u);
+                }
+                if (t > ray.t_min && t < ray.t_max && primitive != ray.exclude_primitive && better) {
+                    state.best = Hit(t, primitive, uintBitsToFloat(current), 0.0);
+                }
+            }
+        }
+        search.link = 0u;
+    }
+    return false;
+}
+
+#endif

@@ -1,0 +1,143 @@
+// What: what a triangle does to a cell of a face: whether it covers the centre, and at which depth;
+// and the screen triangle that makes the rasterizer visit at least those cells.
+// Reads, writes: nothing.
+// The rasterizer only proposes. Whether a cell is covered is decided here from the three vertices,
+// so the answer does not depend on the hardware's sub-pixel grid.
+#ifndef ADS_COVERAGE_GLSL
+#define ADS_COVERAGE_GLSL
+
+#include "ads/triangle.glsl"
+#include "ads/views.glsl"
+
+struct CellCoverage {
+    float z;             // depth of the triangle at the cell's centre, metres
+    float extent;        // largest |depth - z| of the triangle's plane within the cell, may be infinite
+    vec2 barycentrics;   // of vertices 1 and 2 at the centre
+};
+
+// Largest |depth - z| that the triangle's plane reaches within the cell, z being its depth at the
+// centre. Infinite where the plane is edge-on to some ray of the cell.
+float coverage_extent(vec3 a, vec3 b, vec3 c, vec3 center_direction, float z, uint resolution) {
+    // Depth over the cell is offset / (normal . direction): its extremes are at the corners.
+    vec3 normal = cross(b - a, c - a);
+    float facing = dot(normal, center_direction);
+    float swing = (abs(normal.x) + abs(normal.y)) / float(resolution);
+    float slack = 1.0e-5 * (abs(normal.x) + abs(normal.y) + abs(normal.z));
+    float smallest = abs(facing) - swing - slack;
+    if (!(smallest > 0.0)) {
+        return uintBitsToFloat(0x7F800000u);
+    }
+    return max(abs(facing) * z / smallest - z, 0.0) + 1.0e-5 * z;
+}
+
+vec3 coverage_center(ivec2 cell, uint resolution) {
+    return vec3(cell_center(cell.x, resolution), cell_center(cell.y, resolution), 1.0);
+}
+
+// a, b, c in face space. True iff the closed triangle covers the centre of the cell in front of the
+// eye. The ray through the centre has direction (x, y, 1), so its t is the depth.
+bool coverage_at_center(vec3 a, vec3 b, vec3 c, ivec2 cell, uint resolution, out CellCoverage coverage) {
+    vec3 direction = coverage_center(cell, resolution);
+    float t_error;
+    coverage.extent = 0.0;
+    if (!triangle_intersect(vec3(0.0), direction, a, b, c, coverage.z, coverage.barycentrics, t_error)
+        || !(coverage.z > 0.0)) {
+        return false;
+    }
+    coverage.extent = coverage_extent(a, b, c, direction, coverage.z, resolution);
+    return true;
+}
+
+// Homogeneous edge through p and q, wound so that the inside is positive for s = 1, moved outwards
+// by `margin` in x/z and by a bound of its own rounding.
+vec3 coverage_edge(vec3 p, vec3 q, float s, float margin) {
+    vec3 span = q - p;
+    vec3 edge = cross(p, span) * s;
+    vec3 pm = abs(p);
+    vec3 sm = abs(span);
+    float rounding = 6.0e-7 * ((pm.y * sm.z + pm.z * sm.y) + (pm.z * sm.x + pm.x * sm.z) + (pm.x * sm.y + pm.y * sm.x))
+        + 4.0e-7 * (abs(edge.x) + abs(edge.y) + abs(edge.z));
+    edge.z += margin * (abs(edge.x) + abs(edge.y)) + rounding;
+    return edge;
+}
+
+// Bounds in x/z and y/z (lower, upper) of what of the triangle lies in front of the eye, cut to the
+// face with its border. False where nothing does.
+bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
+    float limit = 1.0 + 2.0 / float(resolution);
+    bounds = vec4(-limit, -limit, limit, limit);
+    if (max(a.z, max(b.z, c.z)) <= 0.0) {
+        return false;
+    }
+    float nearest = min(a.z, min(b.z, c.z));
+    float farthest = max(a.z, max(b.z, c.z));
+    if (nearest > 1.0e-6 * farthest) {
+        vec2 pa = a.xy / a.z;
+        vec2 pb = b.xy / b.z;
+        vec2 pc = c.xy / c.z;
+        vec2 lower = min(pa, min(pb, pc)) - 1.0e-6;
+        vec2 upper = max(pa, max(pb, pc)) + 1.0e-6;
+        bounds = vec4(max(lower, vec2(-limit)), min(upper, vec2(limit)));
+    } else {
+        // The triangle reaches behind the eye: cut only by sides that all vertices lie beyond.
+        float w = limit;
+        bvec2 above = bvec2(a.x > w * a.z && b.x > w * b.z && c.x > w * c.z, a.y > w * a.z && b.y > w * b.z && c.y > w * c.z);
+        bvec2 below = bvec2(-a.x > w * a.z && -b.x > w * b.z && -c.x > w * c.z,
+            -a.y > w * a.z && -b.y > w * b.z && -c.y > w * c.z);
+        if (any(above) || any(below)) {
+            return false;
+        }
+    }
+    return bounds.x <= bounds.z && bounds.y <= bounds.w;
+}
+
+// Clip-space corner `corner` of a screen triangle that covers every cell whose centre the triangle
+// covers, whatever the hardware's snapping. The viewport holds the face with its border. Returns a
+// point outside the clip volume where nothing needs drawing.
+vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
+    vec4 bounds;
+    if (!coverage_bounds(a, b, c, resolution, bounds)) {
+        return vec4(2.0, 2.0, 2.0, 1.0);
+    }
+    float cell = 2.0 / float(resolution);
+    float margin = cell / 32.0;
+    bounds += vec4(-margin, -margin, margin, margin);
+    float to_clip = float(resolution) / float(resolution + 2u);
+    float nearest = min(a.z, min(b.z, c.z));
+    vec3 normal = cross(b - a, c - a);
+    float facing = dot(normal, a);
+    // Close to edge-on the winding is not certain, and edges moved the wrong way would lose cells.
+    bool winding_certain = abs(facing) > 1.0e-5 * length(a) * length(b - a) * length(c - a);
+    if (winding_certain && nearest > 1.0e-6 * max(a.z, max(b.z, c.z))) {
+        float orientation = facing < 0.0 ? -1.0 : 1.0;
+        vec3 e0 = coverage_edge(a, b, orientation, margin);
+        vec3 e1 = coverage_edge(b, c, orientation, margin);
+        vec3 e2 = coverage_edge(c, a, orientation, margin);
+        vec3 q0 = cross(e2, e0);
+        vec3 q1 = cross(e0, e1);
+        vec3 q2 = cross(e1, e2);
+        float s = dot(q0, e1) < 0.0 ? -1.0 : 1.0;
+        q0 *= s;
+        q1 *= s;
+        q2 *= s;
+        if (q0.z > 0.0 && q1.z > 0.0 && q2.z > 0.0) {
+            vec2 p0 = q0.xy / q0.z;
+            vec2 p1 = q1.xy / q1.z;
+            vec2 p2 = q2.xy / q2.z;
+            vec2 u = p1 - p0;
+            vec2 v = p2 - p0;
+            float area = abs(u.x * v.y - u.y * v.x);
+            vec2 size = bounds.zw - bounds.xy;
+            // Slivers dilate into long spikes: there the bounds are the smaller proposal.
+            if (area < 1.8 * 2.0 * size.x * size.y && max(max(abs(p0.x), abs(p0.y)), max(max(abs(p1.x), abs(p1.y)), max(abs(p2.x), abs(p2.y)))) < 64.0) {
+                vec2 p = corner == 0u ? p0 : (corner == 1u ? p1 : p2);
+                return vec4(p * to_clip, 0.5, 1.0);
+            }
+        }
+    }
+    // One triangle over the bounds: a corner of the rectangle and twice its sides.
+    vec2 p = bounds.xy + vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
+    return vec4(p * to_clip, 0.5, 1.0);
+}
+
+#endif

@@ -1,0 +1,59 @@
+// What: posed triangles, the one input all structures are built from.
+// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing.
+// Positions are metres relative to the frame origin.
+#ifndef ADS_GEOMETRY_GLSL
+#define ADS_GEOMETRY_GLSL
+
+#include "contract/types.glsl"
+
+#ifndef GEOMETRY_SET
+#define GEOMETRY_SET 0
+#endif
+
+struct GeometryHeader {
+    uint vertex_count;
+    uint triangle_count;
+    uint draw_count;
+    float largest_coordinate; // max-norm over all positions, metres
+};
+
+layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryHeaderBuffer {
+    GeometryHeader geometry_header;
+};
+layout(set = GEOMETRY_SET, binding = 1, scalar) readonly buffer GeometryPositionBuffer {
+    vec3 geometry_positions[];
+};
+layout(set = GEOMETRY_SET, binding = 2, scalar) readonly buffer GeometryIndexBuffer {
+    uint geometry_indices[];
+};
+layout(set = GEOMETRY_SET, binding = 3, scalar) readonly buffer GeometryDrawBuffer {
+    Draw geometry_draws[];
+};
+
+uint geometry_triangle_count() {
+    return geometry_header.triangle_count;
+}
+
+// Posed position of a vertex; the origin where the index is out of range.
+vec3 geometry_position(uint vertex) {
+    return vertex < geometry_header.vertex_count ? geometry_positions[vertex] : vec3(0.0);
+}
+
+// The three vertex indices of a global triangle id.
+uvec3 geometry_triangle(uint primitive) {
+    if (primitive >= geometry_header.triangle_count) {
+        return uvec3(0u);
+    }
+    uint first = 3u * primitive;
+    return uvec3(geometry_indices[first], geometry_indices[first + 1u], geometry_indices[first + 2u]);
+}
+
+// The three posed corners of a global triangle id.
+void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    uvec3 vertices = geometry_triangle(primitive);
+    a = geometry_position(vertices.x);
+    b = geometry_position(vertices.y);
+    c = geometry_position(vertices.z);
+}
+
+#endif

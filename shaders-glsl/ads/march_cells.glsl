@@ -1,0 +1,162 @@
+// What: walks the cells of one face that a ray crosses, by t, in closed form per boundary plane.
+// Reads, writes: nothing.
+// The boundary x/z = c is met at t = (c*Oz - Ox) / (Dx - c*Dz); the direction of steps is fixed by the
+// sign of Dx*Oz - Ox*Dz. Nothing is accumulated and no point is projected again, so steps are integers
+// and their number is bounded by the resolution. Where the ray passes a boundary within rounding, the
+// cells on the other side are visited as well: the visited cells are a superset of the exact ones.
+#ifndef ADS_MARCH_CELLS_GLSL
+#define ADS_MARCH_CELLS_GLSL
+
+#include "ads/views.glsl"
+
+#define MARCH_INFINITY uintBitsToFloat(0x7F800000u)
+
+// A walk through one face between two t.
+struct CellMarch {
+    vec3 origin;          // face space, metres from the eye
+    vec3 direction;
+    uint resolution;
+    float t_end;          // where the segment leaves the face or the ray ends
+    ivec2 cell;           // the cell the ray is in
+    float t_in;           // where it entered
+    float t_out;          // where it leaves
+    float error_in;       // bounds of the errors of t_in and t_out
+    float error_out;
+    ivec2 step_direction; // -1, 0 or 1 a side
+    bool step_x;          // which boundary t_out belongs to; both false: the segment ends in this cell
+    bool step_y;
+    uint neighbours;      // bits of 3x3 cells around `cell` that are still to be visited as well
+};
+
+// t at which the ray meets x/z = boundary, and a bound of its error. Infinite where it does not.
+float march_crossing(float boundary, float o, float d, float oz, float dz, int direction, out float error) {
+    precise float numerator = boundary * oz - o;
+    precise float denominator = d - boundary * dz;
+    error = 0.0;
+    if (direction > 0 ? !(denominator > 0.0) : !(denominator < 0.0)) {
+        return MARCH_INFINITY;
+    }
+    float t = numerator / denominator;
+    error = 6.0e-8 * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
+    return t;
+}
+
+// -1 where the point at t is within rounding of the cell's lower boundary, 1 of its upper one, else 0.
+int march_touching(float lower, float upper, float x, float z, float guard) {
+    if (abs(x - upper * z) <= guard) {
+        return 1;
+    }
+    return abs(x - lower * z) <= guard ? -1 : 0;
+}
+
+// Bits of the cells that touch the ray within rounding at t: beside `cell` along x, y, and both.
+uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
+    vec3 p = m.origin + t * m.direction;
+    float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
+    float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
+    float guard = 9.6e-7 * (size + abs(t) * speed) + 2.0 * t_error * speed;
+    int dx = !along_x ? 0 : march_touching(cell_boundary(m.cell.x, m.resolution), cell_boundary(m.cell.x + 1, m.resolution), p.x, p.z, guard);
+    int dy = !along_y ? 0 : march_touching(cell_boundary(m.cell.y, m.resolution), cell_boundary(m.cell.y + 1, m.resolution), p.y, p.z, guard);
+    uint bits = 0u;
+    bits |= dx != 0 ? 1u << uint(4 + dx) : 0u;
+    bits |= dy != 0 ? 1u << uint(4 + 3 * dy) : 0u;
+    bits |= dx != 0 && dy != 0 ? 1u << uint(4 + dx + 3 * dy) : 0u;
+    return bits;
+}
+
+// Finds where the ray leaves the current cell, and which neighbours it touches on the way out.
+void march_find_exit(inout CellMarch m) {
+    float error_x;
+    float error_y;
+    int next_x = m.cell.x + (m.step_direction.x > 0 ? 1 : 0);
+    int next_y = m.cell.y + (m.step_direction.y > 0 ? 1 : 0);
+    float tx = m.step_direction.x == 0 ? MARCH_INFINITY
+        : march_crossing(cell_boundary(next_x, m.resolution), m.origin.x, m.direction.x, m.origin.z, m.direction.z, m.step_direction.x, error_x);
+    float ty = m.step_direction.y == 0 ? MARCH_INFINITY
+        : march_crossing(cell_boundary(next_y, m.resolution), m.origin.y, m.direction.y, m.origin.z, m.direction.z, m.step_direction.y, error_y);
+    int side = int(m.resolution);
+    // The border is the last cell: there the segment ends instead of stepping on.
+    bool x_inside = m.step_direction.x > 0 ? m.cell.x < side : m.cell.x > -1;
+    bool y_inside = m.step_direction.y > 0 ? m.cell.y < side : m.cell.y > -1;
+    m.step_x = x_inside && tx <= ty && tx < m.t_end;
+    m.step_y = !m.step_x && y_inside && ty < m.t_end;
+    float t = m.step_x ? tx : (m.step_y ? ty : m.t_end);
+    m.t_out = max(t, m.t_in);
+    m.error_out = m.step_x ? error_x : (m.step_y ? error_y : 6.0e-8 * 16.0 * abs(m.t_end));
+    if (!(m.t_out < MARCH_INFINITY)) {
+        return;
+    }
+    uint touched = march_touched(m, m.t_out, m.error_out, !m.step_x, !m.step_y);
+    m.neighbours |= touched;
+    // A touched side cell has a twin beyond the boundary that is stepped over.
+    if (m.step_x) {
+        int d = m.step_direction.x;
+        m.neighbours |= (touched & (1u << 1)) != 0u ? 1u << uint(1 + d) : 0u;
+        m.neighbours |= (touched & (1u << 7)) != 0u ? 1u << uint(7 + d) : 0u;
+    } else if (m.step_y) {
+        int d = 3 * m.step_direction.y;
+        m.neighbours |= (touched & (1u << 3)) != 0u ? 1u << uint(3 + d) : 0u;
+        m.neighbours |= (touched & (1u << 5)) != 0u ? 1u << uint(5 + d) : 0u;
+    }
+}
+
+// Starts a walk. origin and direction are in face space; the segment [t_begin, t_end] lies in the
+// face's pyramid within rounding. t_error bounds the error of t_begin.
+CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
+    CellMarch m;
+    m.origin = origin;
+    m.direction = direction;
+    m.resolution = resolution;
+    m.t_end = t_end;
+    precise vec2 ahead = direction.xy * origin.z;
+    precise vec2 behind = origin.xy * direction.z;
+    m.step_direction = ivec2(ahead.x > behind.x ? 1 : (ahead.x < behind.x ? -1 : 0),
+        ahead.y > behind.y ? 1 : (ahead.y < behind.y ? -1 : 0));
+    vec3 p = origin + t_begin * direction;
+    vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
+    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the walk
+    // corrects itself because steps follow boundaries, not points.
+    q = vec2(q.x >= 0.0 ? min(q.x, float(resolution)) : -1.0, q.y >= 0.0 ? min(q.y, float(resolution)) : -1.0);
+    m.cell = ivec2(floor(q));
+    m.t_in = t_begin;
+    m.error_in = t_error;
+    m.t_out = t_begin;
+    m.error_out = t_error;
+    m.neighbours = 0u;
+    m.step_x = false;
+    m.step_y = false;
+    m.neighbours = march_touched(m, t_begin, t_error, true, true);
+    march_find_exit(m);
+    return m;
+}
+
+// Goes on to the next cell of the ray; false at the end of the segment.
+bool march_next(inout CellMarch m) {
+    if (!m.step_x && !m.step_y) {
+        return false;
+    }
+    m.cell += ivec2(m.step_x ? m.step_direction.x : 0, m.step_y ? m.step_direction.y : 0);
+    m.t_in = m.t_out;
+    m.error_in = m.error_out;
+    m.neighbours = 0u;
+    march_find_exit(m);
+    return true;
+}
+
+// Takes the next touched neighbour of the current cell; false where none is left.
+bool march_take_neighbour(inout CellMarch m, out ivec2 cell) {
+    cell = m.cell;
+    while (m.neighbours != 0u) {
+        int bit = findLSB(m.neighbours);
+        m.neighbours &= m.neighbours - 1u;
+        ivec2 candidate = m.cell + ivec2(bit % 3 - 1, bit / 3 - 1);
+        int side = int(m.resolution);
+        if (all(greaterThanEqual(candidate, ivec2(-1))) && all(lessThanEqual(candidate, ivec2(side)))) {
+            cell = candidate;
+            return true;
+        }
+    }
+    return false;
+}
+
+#endif

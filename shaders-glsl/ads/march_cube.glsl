@@ -1,0 +1,77 @@
+// What: cuts a ray into the segments it spends in the six faces' pyramids and in the near box.
+// Reads, writes: nothing.
+// The pyramids of the dominant axis partition space exactly; a ray changes pyramid only where two
+// coordinates are equal in magnitude, so there are at most seven segments. Around the eye, where
+// rounding no longer tells pyramids apart, a near box is cut out and its triangles are tested one by
+// one.
+#ifndef ADS_MARCH_CUBE_GLSL
+#define ADS_MARCH_CUBE_GLSL
+
+#include "ads/views.glsl"
+
+#define SEGMENT_NEAR 6u
+// Six planes, two sides of the near box, and the end.
+#define SEGMENT_LIMIT 10u
+
+struct Segment {
+    uint face;        // 0 to 5, or SEGMENT_NEAR
+    float t_begin;
+    float t_end;
+    float t_error;    // bounds the error of both ends
+};
+
+// t interval that a ray spends in the box |p|_max <= size, widened by rounding; empty if x > y.
+vec2 near_box_interval(vec3 origin, vec3 direction, float size) {
+    float t0 = -uintBitsToFloat(0x7F800000u);
+    float t1 = uintBitsToFloat(0x7F800000u);
+    for (int axis = 0; axis < 3; axis++) {
+        float o = origin[axis];
+        float d = direction[axis];
+        if (d == 0.0) {
+            if (abs(o) > size) {
+                return vec2(1.0, 0.0);
+            }
+        } else {
+            float ta = (-size - o) / d;
+            float tb = (size - o) / d;
+            t0 = max(t0, min(ta, tb));
+            t1 = min(t1, max(ta, tb));
+        }
+    }
+    float slack = 4.0e-7 * max(abs(t0), abs(t1));
+    return vec2(t0 - slack, t1 + slack);
+}
+
+// The smallest crossing of the planes x=+-y, y=+-z, z=+-x after t.
+float segment_crossing_after(vec3 o, vec3 d, float t) {
+    float next = uintBitsToFloat(0x7F800000u);
+    for (int i = 0; i < 3; i++) {
+        vec2 p = i == 0 ? o.xy : (i == 1 ? o.yz : o.zx);
+        vec2 q = i == 0 ? d.xy : (i == 1 ? d.yz : d.zx);
+        float minus = (p.y - p.x) / (q.x - q.y);
+        float plus = -(p.x + p.y) / (q.x + q.y);
+        next = q.x != q.y && minus > t ? min(next, minus) : next;
+        next = q.x != -q.y && plus > t ? min(next, plus) : next;
+    }
+    return next;
+}
+
+// The segment that begins at t. origin is relative to the eye; `near` is the ray's interval in the
+// near box.
+Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near) {
+    Segment segment;
+    segment.t_begin = t;
+    float next = segment_crossing_after(origin, direction, t);
+    next = near.x <= near.y && near.x > t ? min(next, near.x) : next;
+    next = near.x <= near.y && near.y > t ? min(next, near.y) : next;
+    segment.t_end = min(next, t_max);
+    float middle = segment.t_end < uintBitsToFloat(0x7F800000u) ? 0.5 * (t + segment.t_end) : t + 1.0 + abs(t);
+    bool in_near = near.x <= middle && middle <= near.y;
+    segment.face = in_near ? SEGMENT_NEAR : face_of(origin + middle * direction);
+    float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
+    float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
+    segment.t_error = 9.6e-7 * (abs(t) + size / speed);
+    return segment;
+}
+
+#endif

@@ -1,0 +1,137 @@
+// What: walks the cells of a regular grid that a ray crosses (3D-DDA), by t, in closed form.
+// Reads, writes: nothing.
+// Source: Amanatides and Woo 1987, with t of each boundary plane computed anew instead of accumulated
+// and with the neighbours that a ray touches within rounding visited as well, so that the visited
+// cells are a superset of the exact ones. Everything is in grid units: cell i spans [i, i + 1].
+#ifndef ADS_MARCH_GRID_GLSL
+#define ADS_MARCH_GRID_GLSL
+
+struct GridMarch {
+    vec3 origin;          // grid units
+    vec3 direction;
+    vec3 inverse;         // 1 / direction, unused where a component is zero
+    ivec3 size;           // cells a side
+    float t_end;
+    ivec3 cell;
+    float t_in;
+    float t_out;
+    float t_error;
+    int step_axis;        // -1 in the last cell
+    uint neighbours;      // bits of 3x3x3 cells around `cell` that are still to be visited as well
+};
+
+// Bits of the neighbours whose boundary the point at t touches within rounding.
+uint grid_touched(GridMarch m, float t, int skip_axis) {
+    ivec3 side = ivec3(0);
+    float largest = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
+    float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
+    float guard = 9.6e-7 * (largest + abs(t) * speed) + 2.0 * m.t_error * speed;
+    for (int axis = 0; axis < 3; axis++) {
+        float p = m.origin[axis] + t * m.direction[axis];
+        if (axis != skip_axis) {
+            side[axis] = abs(p - float(m.cell[axis] + 1)) <= guard ? 1 : (abs(p - float(m.cell[axis])) <= guard ? -1 : 0);
+        }
+    }
+    uint bits = 0u;
+    for (int i = 1; i < 8; i++) {
+        ivec3 chosen = ivec3(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+        if (all(equal(chosen * abs(side), chosen))) {
+            ivec3 offset = chosen * side;
+            bits |= 1u << uint(13 + offset.x + 3 * offset.y + 9 * offset.z);
+        }
+    }
+    return bits;
+}
+
+void grid_find_exit(inout GridMarch m) {
+    float t = m.t_end;
+    m.step_axis = -1;
+    for (int axis = 0; axis < 3; axis++) {
+        float d = m.direction[axis];
+        bool inside = d > 0.0 ? m.cell[axis] + 1 < m.size[axis] : m.cell[axis] > 0;
+        if (d != 0.0 && inside) {
+            float crossing = (float(m.cell[axis] + (d > 0.0 ? 1 : 0)) - m.origin[axis]) * m.inverse[axis];
+            if (crossing < t) {
+                t = crossing;
+                m.step_axis = axis;
+            }
+        }
+    }
+    m.t_out = max(t, m.t_in);
+    float d = m.step_axis >= 0 ? abs(m.inverse[m.step_axis]) * abs(m.origin[m.step_axis]) : 0.0;
+    m.t_error = 6.0e-8 * (8.0 * abs(m.t_out) + 2.0 * d);
+    uint touched = grid_touched(m, m.t_out, m.step_axis);
+    m.neighbours |= touched;
+    if (m.step_axis >= 0) {
+        int offset = (m.step_axis == 0 ? 1 : (m.step_axis == 1 ? 3 : 9)) * (m.direction[m.step_axis] > 0.0 ? 1 : -1);
+        m.neighbours |= offset > 0 ? touched << uint(offset) : touched >> uint(-offset);
+    }
+}
+
+// Starts a walk over [t_begin, t_end]; false where the ray does not meet the grid.
+bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_end, out GridMarch m) {
+    m.origin = origin;
+    m.direction = direction;
+    m.size = size;
+    m.inverse = vec3(0.0);
+    m.neighbours = 0u;
+    float t0 = t_begin;
+    float t1 = t_end;
+    float entry_slack = 9.6e-7 * abs(t_begin);
+    for (int axis = 0; axis < 3; axis++) {
+        float d = direction[axis];
+        float o = origin[axis];
+        if (d == 0.0) {
+            if (o < 0.0 || o > float(size[axis])) {
+                return false;
+            }
+            continue;
+        }
+        m.inverse[axis] = 1.0 / d;
+        float ta = (0.0 - o) * m.inverse[axis];
+        float tb = (float(size[axis]) - o) * m.inverse[axis];
+        float slack = 6.0e-8 * (8.0 * max(abs(ta), abs(tb)) + 2.0 * abs(o * m.inverse[axis]));
+        entry_slack = min(ta, tb) - slack > t0 ? 2.0 * slack : entry_slack;
+        t0 = max(t0, min(ta, tb) - slack);
+        t1 = min(t1, max(ta, tb) + slack);
+    }
+    if (!(t0 <= t1) || all(equal(direction, vec3(0.0)))) {
+        return false;
+    }
+    m.t_in = t0;
+    m.t_end = t1;
+    m.t_out = t0;
+    m.t_error = entry_slack;
+    m.cell = clamp(ivec3(floor(origin + t0 * direction)), ivec3(0), size - 1);
+    m.step_axis = -1;
+    m.neighbours = grid_touched(m, t0, -1);
+    grid_find_exit(m);
+    return true;
+}
+
+bool grid_next(inout GridMarch m) {
+    if (m.step_axis < 0) {
+        return false;
+    }
+    m.cell[m.step_axis] += m.direction[m.step_axis] > 0.0 ? 1 : -1;
+    m.t_in = m.t_out;
+    m.neighbours = 0u;
+    grid_find_exit(m);
+    return true;
+}
+
+bool grid_take_neighbour(inout GridMarch m, out ivec3 cell) {
+    cell = m.cell;
+    while (m.neighbours != 0u) {
+        int bit = findLSB(m.neighbours);
+        m.neighbours &= m.neighbours - 1u;
+        ivec3 candidate = m.cell + ivec3(bit % 3 - 1, (bit / 3) % 3 - 1, bit / 9 - 1);
+        if (all(greaterThanEqual(candidate, ivec3(0))) && all(lessThan(candidate, m.size))) {
+            cell = candidate;
+            return true;
+        }
+    }
+    return false;
+}
+
+#endif

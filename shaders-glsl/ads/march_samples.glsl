@@ -1,0 +1,57 @@
+// What: marches a segment in steps of equal length on the screen, as the MMRT paper does.
+// Reads, writes: nothing.
+// Source: MMRT section 3.3; McGuire and Mara 2014. Each sample tests one cell against the depths of
+// its step; cells between samples are not visited, which is the published approximation.
+// Steps are taken between fixed end points, 1/z being linear on the screen; nothing is accumulated.
+#ifndef ADS_MARCH_SAMPLES_GLSL
+#define ADS_MARCH_SAMPLES_GLSL
+
+#include "ads/views.glsl"
+
+struct SampleMarch {
+    vec2 place_begin;     // cells
+    vec2 place_end;
+    float z_begin;        // depth at both ends, metres, positive
+    float z_end;
+    float t_begin;
+    float t_end;
+    uint resolution;
+    uint count;           // samples
+};
+
+// origin and direction are in face space; the segment lies in the face's pyramid.
+SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples) {
+    SampleMarch m;
+    vec3 p = origin + t_begin * direction;
+    vec3 q = origin + t_end * direction;
+    m.z_begin = max(p.z, 1.0e-30);
+    m.z_end = max(q.z, 1.0e-30);
+    float side = float(resolution);
+    m.place_begin = clamp((p.xy / m.z_begin * 0.5 + 0.5) * side, vec2(0.0), vec2(side));
+    m.place_end = clamp((q.xy / m.z_end * 0.5 + 0.5) * side, vec2(0.0), vec2(side));
+    m.t_begin = t_begin;
+    m.t_end = t_end;
+    m.resolution = resolution;
+    vec2 span = abs(m.place_end - m.place_begin);
+    // A step is a cell of the longer axis, or more where the samples would not suffice.
+    m.count = uint(clamp(ceil(max(span.x, span.y)), 1.0, float(samples)));
+    return m;
+}
+
+// t at a share of the way on the screen.
+float samples_t(SampleMarch m, float share) {
+    float near_weight = (1.0 - share) * m.z_end;
+    float far_weight = share * m.z_begin;
+    return (m.t_begin * near_weight + m.t_end * far_weight) / (near_weight + far_weight);
+}
+
+// The cell of sample `i` and the t its step spans.
+void samples_cell(SampleMarch m, uint i, out ivec2 cell, out float t_in, out float t_out) {
+    float step_share = 1.0 / float(m.count);
+    vec2 place = mix(m.place_begin, m.place_end, (float(i) + 0.5) * step_share);
+    cell = min(ivec2(place), ivec2(m.resolution) - 1);
+    t_in = samples_t(m, float(i) * step_share);
+    t_out = samples_t(m, float(i + 1u) * step_share);
+}
+
+#endif

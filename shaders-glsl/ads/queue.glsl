@@ -1,0 +1,86 @@
+// What: a queue of rays and what became of them, slot by slot.
+// Reads, writes: the buffers of QUEUE_SET.
+// A slot whose ray has t_max < 0 is inactive and answers a miss at once. Rays that pause are listed
+// and traced again in the next round.
+#ifndef ADS_QUEUE_GLSL
+#define ADS_QUEUE_GLSL
+
+#include "contract/types.glsl"
+
+#ifndef QUEUE_SET
+#define QUEUE_SET 2
+#endif
+
+struct QueueHeader {
+    uint groups_x;        // indirect dispatch of the next round
+    uint groups_y;
+    uint groups_z;
+    uint capacity;        // slots
+    uint round;           // rounds begun for the rays now in the queue
+    uint listed;          // rays to trace in this round (from round 1 on)
+    uint paused;          // rays that paused in this round
+    uint unfinished;      // rays that were still paused after their last round, summed over traces
+    uint not_ready;       // rays that met a structure that was not complete, summed over traces
+    uint corrupted;       // rays that met an index outside its pool, summed over traces
+    uint cells_low;       // 64-bit sums of work, kept where counters are enabled
+    uint cells_high;
+    uint entries_low;
+    uint entries_high;
+    uint tests_low;
+    uint tests_high;
+};
+
+layout(set = QUEUE_SET, binding = 0, scalar) buffer QueueHeaderBuffer {
+    QueueHeader queue_header;
+};
+layout(set = QUEUE_SET, binding = 1, scalar) buffer QueueRayBuffer {
+    Ray queue_rays[];
+};
+layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
+    Hit queue_hits[];
+};
+layout(set = QUEUE_SET, binding = 3, scalar) buffer QueueStateBuffer {
+    TraceState queue_states[];
+};
+// Two lists of `capacity` slots: rounds alternate between them.
+layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
+    uint queue_list[];
+};
+layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
+    Surface queue_surfaces[];
+};
+
+uint queue_capacity() {
+    return queue_header.capacity;
+}
+
+Ray queue_ray(uint slot) {
+    return queue_rays[slot];
+}
+
+void queue_set_ray(uint slot, Ray ray) {
+    queue_rays[slot] = ray;
+}
+
+Hit queue_hit(uint slot) {
+    return queue_hits[slot];
+}
+
+void queue_set_hit(uint slot, Hit hit) {
+    queue_hits[slot] = hit;
+}
+
+Surface queue_surface(uint slot) {
+    return queue_surfaces[slot];
+}
+
+void queue_set_surface(uint slot, Surface surface) {
+    queue_surfaces[slot] = surface;
+}
+
+// A ray that asks nothing.
+Ray queue_inactive_ray() {
+    return Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0, PRIMITIVE_NONE, 0u, 0.0, 0.0);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// What: turns the rays that paused into the next round, or files them as unfinished after the last.
+// Reads, writes: the queue's header.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/queue.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant, scalar) uniform NextRoundConstants {
+    uint last;            // 1: no round follows
+};
+
+void main() {
+    uint paused = queue_header.paused;
+    queue_header.paused = 0u;
+    if (last != 0u) {
+        queue_header.unfinished += paused;
+        queue_header.listed = 0u;
+        queue_header.round = 0u;
+    } else {
+        queue_header.listed = paused;
+        queue_header.round += 1u;
+    }
+    queue_header.groups_x = last != 0u ? 0u : (paused + QUEUE_GROUP_SIZE - 1u) / QUEUE_GROUP_SIZE;
+    queue_header.groups_y = 1u;
+    queue_header.groups_z = 1u;
+}

@@ -1,0 +1,29 @@
+// What: what is shaded at each hit of a queue.
+// Reads: rays, hits, the structure, the scene. Writes: surfaces; a miss has no valid bits.
+#version 460
+#include "contract/extensions.glsl"
+#define SURFACES_ENABLED
+#include "ads/queue.glsl"
+#include "contract/trace_state.glsl"
+#include "contract/select.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform SurfaceConstants {
+    StructureRef surface_structure;
+    uint surface_count;
+};
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= surface_count) {
+        return;
+    }
+    Hit hit = queue_hit(slot);
+    if (hit.primitive == PRIMITIVE_NONE) {
+        queue_surfaces[slot].valid = 0u;
+        queue_surfaces[slot].primitive = PRIMITIVE_NONE;
+        return;
+    }
+    queue_set_surface(slot, surface_at(surface_structure, queue_ray(slot), hit));
+}

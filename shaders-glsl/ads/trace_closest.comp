@@ -1,0 +1,26 @@
+// What: the nearest hit of every ray of a queue.
+// Reads: rays (and states of paused ones), the structure. Writes: hits.
+// Source: the wavefront queue of pbrt-v4, section 15.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/trace_queue.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+void main() {
+    uint slot;
+    if (!trace_slot(gl_GlobalInvocationID.x, slot)) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    Hit hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
+    TraceState state = trace_state_begin(ray);
+    if (queue_header.round > 0u) {
+        state = queue_states[slot];
+    }
+    uint result = TRACE_MISS;
+    if (ray.t_max >= 0.0) {
+        result = trace_closest(trace_structure, ray, state, hit);
+    }
+    trace_file(slot, result, state, hit);
+}

@@ -1,0 +1,63 @@
+// What: traces the ray of one queue slot and files the answer; shared by the closest and the occluded
+// kernel of every structure.
+// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header.
+#ifndef ADS_TRACE_QUEUE_GLSL
+#define ADS_TRACE_QUEUE_GLSL
+
+#include "ads/queue.glsl"
+#include "contract/trace_state.glsl"
+#include "contract/select.glsl"
+
+layout(push_constant, scalar) uniform TraceConstants {
+    StructureRef trace_structure;
+    uint trace_count;
+};
+
+// Adds to the 64-bit sums of the header.
+void queue_add_work(uint cells, uint entries, uint tests) {
+    if (COUNTERS_ENABLED == 0u) {
+        return;
+    }
+    uint before = atomicAdd(queue_header.cells_low, cells);
+    if (before + cells < before) {
+        atomicAdd(queue_header.cells_high, 1u);
+    }
+    before = atomicAdd(queue_header.entries_low, entries);
+    if (before + entries < before) {
+        atomicAdd(queue_header.entries_high, 1u);
+    }
+    before = atomicAdd(queue_header.tests_low, tests);
+    if (before + tests < before) {
+        atomicAdd(queue_header.tests_high, 1u);
+    }
+}
+
+// The slot of this invocation; false where there is none.
+bool trace_slot(uint invocation, out uint slot) {
+    slot = invocation;
+    if (queue_header.round == 0u) {
+        return invocation < trace_count;
+    }
+    if (invocation >= queue_header.listed) {
+        return false;
+    }
+    slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
+    return true;
+}
+
+void trace_file(uint slot, uint result, TraceState state, Hit hit) {
+    if (result == TRACE_PAUSED) {
+        state.rounds += 1u;
+        queue_states[slot] = state;
+        uint place = atomicAdd(queue_header.paused, 1u);
+        queue_list[(queue_header.round & 1u) * queue_header.capacity + place] = slot;
+        return;
+    }
+    if (result == TRACE_NOT_READY) {
+        atomicAdd(queue_header.not_ready, 1u);
+    }
+    queue_add_work(state.cells, state.entries, state.tests);
+    queue_set_hit(slot, hit);
+}
+
+#endif

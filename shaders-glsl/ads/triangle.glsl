@@ -1,0 +1,101 @@
+// What: the watertight ray-triangle test and the depth of a triangle's plane.
+// Reads, writes: nothing.
+// Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no
+// contraction can change and which two triangles sharing an edge evaluate with the roles swapped, so
+// that one of them always accepts. Error bound of t after pbrt-v4, section 6.8.
+#ifndef ADS_TRIANGLE_GLSL
+#define ADS_TRIANGLE_GLSL
+
+// Cyclic shift that puts the largest component of `direction` into z. Ties go to x, then y.
+uint triangle_major_axis(vec3 direction) {
+    vec3 m = abs(direction);
+    return m.x >= m.y && m.x >= m.z ? 0u : (m.y >= m.z ? 1u : 2u);
+}
+
+vec3 triangle_permute(vec3 p, uint axis) {
+    return axis == 0u ? p.yzx : (axis == 1u ? p.zxy : p);
+}
+
+// Tests a closed, two-sided triangle against a ray. On acceptance t is in units of |direction|,
+// barycentrics are the weights of b and c, and t_error bounds the error of t. A ray in the plane of
+// the triangle, or a triangle without area, is not hit.
+bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics,
+    out float t_error) {
+    t = 0.0;
+    barycentrics = vec2(0.0);
+    t_error = 0.0;
+    uint axis = triangle_major_axis(direction);
+    vec3 d = triangle_permute(direction, axis);
+    precise vec3 pa = triangle_permute(a - origin, axis);
+    precise vec3 pb = triangle_permute(b - origin, axis);
+    precise vec3 pc = triangle_permute(c - origin, axis);
+    precise float sx = d.x / d.z;
+    precise float sy = d.y / d.z;
+    precise float ax = pa.x - sx * pa.z;
+    precise float ay = pa.y - sy * pa.z;
+    precise float bx = pb.x - sx * pb.z;
+    precise float by = pb.y - sy * pb.z;
+    precise float cx = pc.x - sx * pc.z;
+    precise float cy = pc.y - sy * pc.z;
+    precise float u0 = cx * by;
+    precise float u1 = cy * bx;
+    precise float v0 = ax * cy;
+    precise float v1 = ay * cx;
+    precise float w0 = bx * ay;
+    precise float w1 = by * ax;
+    bool front = u0 >= u1 && v0 >= v1 && w0 >= w1;
+    bool back = u0 <= u1 && v0 <= v1 && w0 <= w1;
+    if (!front && !back) {
+        return false;
+    }
+    precise float u = u0 - u1;
+    precise float v = v0 - v1;
+    precise float w = w0 - w1;
+    precise float det = u + v + w;
+    if (det == 0.0) {
+        return false;
+    }
+    precise float inverse = 1.0 / det;
+    precise float az = pa.z / d.z;
+    precise float bz = pb.z / d.z;
+    precise float cz = pc.z / d.z;
+    precise float scaled = u * az + v * bz + w * cz;
+    t = scaled * inverse;
+    barycentrics = vec2(v * inverse, w * inverse);
+    // Rounding keeps t within the corners' own range, which the exact value never leaves.
+    t = clamp(t, min(az, min(bz, cz)), max(az, max(bz, cz)));
+    float max_x = max(abs(ax), max(abs(bx), abs(cx)));
+    float max_y = max(abs(ay), max(abs(by), abs(cy)));
+    float max_z = max(abs(az), max(abs(bz), abs(cz)));
+    float max_e = max(abs(u), max(abs(v), abs(w)));
+    const float gamma2 = 1.1920930e-7;
+    const float gamma3 = 1.7881396e-7;
+    const float gamma5 = 2.9802331e-7;
+    float delta_z = gamma3 * max_z;
+    float delta_x = gamma5 * (max_x + max_z * abs(d.z));
+    float delta_y = gamma5 * (max_y + max_z * abs(d.z));
+    float delta_e = 2.0 * (gamma2 * max_x * max_y + delta_y * max_x + delta_x * max_y);
+    t_error = 3.0 * (gamma3 * max_e * max_z + delta_e * max_z + delta_z * max_e) * abs(inverse);
+    return true;
+}
+
+// Where a ray meets the plane of a triangle: t, and the barycentrics of b and c there, which may lie
+// outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
+bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
+    vec3 ab = b - a;
+    vec3 ac = c - a;
+    vec3 normal = cross(ab, ac);
+    float facing = dot(normal, direction);
+    t = 0.0;
+    barycentrics = vec2(0.0);
+    if (facing == 0.0) {
+        return false;
+    }
+    t = dot(normal, a - origin) / facing;
+    vec3 p = origin + t * direction - a;
+    float area = dot(normal, normal);
+    barycentrics = vec2(dot(cross(p, ac), normal), dot(cross(ab, p), normal)) / area;
+    return area > 0.0;
+}
+
+#endif

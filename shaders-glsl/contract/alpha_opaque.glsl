@@ -1,0 +1,12 @@
+// What: the alpha test of geometry without alpha: every candidate counts.
+// Reads, writes: nothing.
+// An embedder with masked materials provides a file with the same function instead.
+#ifndef CONTRACT_ALPHA_OPAQUE_GLSL
+#define CONTRACT_ALPHA_OPAQUE_GLSL
+
+// Whether the point of a triangle counts as a hit. barycentrics: weights of vertices 1 and 2.
+bool alpha_accepts(uint primitive, vec2 barycentrics) {
+    return true;
+}
+
+#endif

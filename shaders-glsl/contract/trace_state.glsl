@@ -1,0 +1,32 @@
+// What: a traversal's state at the start of a ray, and the rule by which hits are ranked.
+// Reads, writes: nothing.
+#ifndef CONTRACT_TRACE_STATE_GLSL
+#define CONTRACT_TRACE_STATE_GLSL
+
+#include "contract/types.glsl"
+
+// Constant ids 0 to 9 belong to the contract.
+layout(constant_id = 0) const uint COUNTERS_ENABLED = 0u;
+layout(constant_id = 1) const uint WORK_BUDGET = TRACE_WORK_BUDGET;
+
+// The state of a ray that has not been traced yet.
+TraceState trace_state_begin(Ray ray) {
+    TraceState state;
+    state.best = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
+    for (int i = 0; i < 8; i++) {
+        state.cursor[i] = 0u;
+    }
+    state.cells = 0u;
+    state.entries = 0u;
+    state.tests = 0u;
+    state.rounds = 0u;
+    return state;
+}
+
+// Whether a candidate at (t, primitive) replaces the best hit: nearer, or as near with a lower id,
+// so that the answer does not depend on the order in which candidates are met.
+bool hit_is_better(Hit best, float t, uint primitive) {
+    return t < best.t || (t == best.t && best.primitive != PRIMITIVE_NONE && primitive < best.primitive);
+}
+
+#endif
