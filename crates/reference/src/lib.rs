@@ -1,1 +1,3 @@
 //! rasray: reference.
+
+pub mod oracle;

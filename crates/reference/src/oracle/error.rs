@@ -1,0 +1,29 @@
+/// Why an oracle cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OracleError {
+    /// Indices come in threes.
+    #[error("{indices} indices are no multiple of three; pass three indices for each triangle")]
+    IncompleteTriangle {
+        /// How many were given.
+        indices: usize,
+    },
+    /// An index points past the positions.
+    #[error(
+        "triangle {primitive} uses position {index} of {positions}; indices must be below the number of positions"
+    )]
+    IndexOutOfRange {
+        /// Running index of the triangle.
+        primitive: usize,
+        /// The index.
+        index: u32,
+        /// How many positions there are.
+        positions: usize,
+    },
+    /// Ids are 32 bits wide and the last one means "none".
+    #[error("{triangles} triangles do not fit 32-bit ids; split the scene")]
+    TooManyTriangles {
+        /// How many were given.
+        triangles: usize,
+    },
+}

@@ -1,0 +1,241 @@
+//! Which triangle a ray truly hits: decided exactly on the single-precision data that the device got.
+//!
+//! A ray is inside a triangle iff no two of its three edge determinants have strictly different
+//! signs (edges and vertices count as inside); if all three are zero the ray lies in the triangle's
+//! plane and does not hit it. Signs are exact, see [`exact`]. `t` is the plane's, in double precision.
+//! Triangles without area are therefore never hit, and a closed mesh has no gaps.
+//!
+//! Single precision cannot be blamed for rays that it cannot tell apart. Every triangle therefore
+//! carries the interval that a careful single-precision test may report, and a ray for which more
+//! than one answer fits is *ambiguous*: its [`Verdict`] lists the admissible answers.
+
+mod bvh;
+mod contact;
+mod coverage;
+mod error;
+pub mod exact;
+mod ray;
+mod verdict;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::OracleError;
+pub use ray::Ray;
+pub use verdict::{Candidate, Occlusion, Outcome, Verdict};
+
+use bvh::Bvh;
+use contact::{Contact, ContactTest};
+use rayon::prelude::*;
+
+/// Coordinates beyond this magnitude have squares that single precision cannot hold; triangles that
+/// use them are dropped, as loaders must do too. Metres.
+pub const COORDINATE_LIMIT: f32 = 1.8e18;
+
+/// Up to this many triangles are tested one by one; more get a hierarchy.
+const BRUTE_FORCE_LIMIT: usize = 64;
+
+/// Decides whether a crossing of an alpha-masked triangle counts: `(primitive, [weight of vertex 1,
+/// weight of vertex 2])` to `true` for a hit. Called from several threads.
+pub type Accept<'a> = &'a (dyn Fn(u32, [f64; 2]) -> bool + Sync);
+
+/// The triangles of a scene, ready to be asked. Primitive ids are running triangle indices.
+pub struct Oracle<'a> {
+    triangles: Vec<[[f32; 3]; 3]>,
+    primitives: Vec<u32>,
+    bvh: Option<Bvh>,
+    accept: Option<Accept<'a>>,
+    dropped: usize,
+}
+
+impl std::fmt::Debug for Oracle<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("Oracle")
+            .field("triangles", &self.triangles.len())
+            .field("dropped", &self.dropped)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> Oracle<'a> {
+    /// Takes posed positions (metres, as uploaded) and three indices a triangle.
+    ///
+    /// Triangles with a coordinate that is not finite or beyond [`COORDINATE_LIMIT`] are never hit;
+    /// they keep their id and are counted in [`Oracle::dropped`]. `accept` is the alpha test; `None`
+    /// accepts everything.
+    ///
+    /// # Errors
+    /// If the number of indices is no multiple of three, an index has no position, or there are more
+    /// than `u32::MAX - 1` triangles.
+    pub fn new(
+        positions: &[[f32; 3]],
+        indices: &[u32],
+        accept: Option<Accept<'a>>,
+    ) -> Result<Self, OracleError> {
+        Self::with_search(positions, indices, accept, Search::Automatic)
+    }
+
+    /// As [`Oracle::new`], but every triangle is tested for every ray: the check of the hierarchy.
+    ///
+    /// # Errors
+    /// As [`Oracle::new`].
+    pub fn brute_force(
+        positions: &[[f32; 3]],
+        indices: &[u32],
+        accept: Option<Accept<'a>>,
+    ) -> Result<Self, OracleError> {
+        Self::with_search(positions, indices, accept, Search::BruteForce)
+    }
+
+    fn with_search(
+        positions: &[[f32; 3]],
+        indices: &[u32],
+        accept: Option<Accept<'a>>,
+        search: Search,
+    ) -> Result<Self, OracleError> {
+        if !indices.len().is_multiple_of(3) {
+            return Err(OracleError::IncompleteTriangle { indices: indices.len() });
+        }
+        let count = indices.len() / 3;
+        if count >= u32::MAX as usize {
+            return Err(OracleError::TooManyTriangles { triangles: count });
+        }
+        let mut triangles = Vec::with_capacity(count);
+        let mut primitives = Vec::with_capacity(count);
+        for (primitive, corners) in indices.as_chunks::<3>().0.iter().enumerate() {
+            let mut triangle = [[0.0_f32; 3]; 3];
+            for (vertex, &index) in triangle.iter_mut().zip(corners) {
+                *vertex = *positions.get(index as usize).ok_or(OracleError::IndexOutOfRange {
+                    primitive,
+                    index,
+                    positions: positions.len(),
+                })?;
+            }
+            // Written so that NaN fails.
+            if triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT) {
+                triangles.push(triangle);
+                primitives.push(primitive as u32);
+            }
+        }
+        let hierarchy = match search {
+            Search::BruteForce => false,
+            Search::Automatic => triangles.len() > BRUTE_FORCE_LIMIT,
+        };
+        let bvh = hierarchy.then(|| Bvh::build(&triangles));
+        Ok(Self { dropped: count - triangles.len(), triangles, primitives, bvh, accept })
+    }
+
+    /// Triangles that can be hit or are degenerate.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Triangles left out because a coordinate is not finite or too large.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// The nearest hit of a ray with `t_min < t < t_max`. Hits at equal t go to the lowest id.
+    /// A ray that is not valid ([`Ray::is_valid`]) hits nothing.
+    pub fn closest(&self, ray: &Ray) -> Verdict {
+        let Some(test) = ContactTest::new(ray) else { return Verdict::miss() };
+        let mut found = Found { contacts: Vec::new(), cutoff: f64::INFINITY };
+        match &self.bvh {
+            Some(bvh) => bvh.visit(&test, |slot, cutoff| {
+                self.consider(ray, &test, slot, &mut found);
+                *cutoff = found.cutoff;
+            }),
+            None => (0..self.triangles.len()).for_each(|slot| self.consider(ray, &test, slot, &mut found)),
+        }
+        let cutoff = found.cutoff;
+        found.contacts.retain(|(_, contact)| contact.t_low <= cutoff);
+        found.contacts.sort_unstable_by_key(|(slot, _)| *slot);
+        self.judge(&found.contacts)
+    }
+
+    /// [`Oracle::closest`] of many rays on all threads, in the order of the rays.
+    pub fn closest_batch(&self, rays: &[Ray]) -> Vec<Verdict> {
+        rays.par_iter().map(|ray| self.closest(ray)).collect()
+    }
+
+    /// Whether anything is hit with `t_min < t < t_max`.
+    pub fn occluded(&self, ray: &Ray) -> Occlusion {
+        let verdict = self.closest(ray);
+        let occluded = matches!(verdict.outcome, Outcome::Hit { .. });
+        // A certain hit anywhere in range settles the question, however unsure the nearest one is.
+        Occlusion { occluded, ambiguous: verdict.ambiguous && verdict.miss_allowed }
+    }
+
+    /// [`Oracle::occluded`] of many rays on all threads, in the order of the rays.
+    pub fn occluded_batch(&self, rays: &[Ray]) -> Vec<Occlusion> {
+        rays.par_iter().map(|ray| self.occluded(ray)).collect()
+    }
+
+    fn consider(&self, ray: &Ray, test: &ContactTest, slot: usize, found: &mut Found) {
+        let primitive = self.primitives[slot];
+        if ray.exclude_primitive == Some(primitive) {
+            return;
+        }
+        let Some(contact) = test.contact(&self.triangles[slot]) else { return };
+        if contact.t_low > found.cutoff {
+            return;
+        }
+        if self.accept.is_some_and(|accept| !accept(primitive, contact.barycentrics)) {
+            return;
+        }
+        // Nothing behind a certain hit can be an answer. Hits that single precision may miss stop nothing.
+        if contact.certain {
+            found.cutoff = found.cutoff.min(contact.t_high);
+        }
+        found.contacts.push((slot, contact));
+    }
+
+    /// `contacts` are sorted by primitive.
+    fn judge(&self, contacts: &[(usize, Contact)]) -> Verdict {
+        if contacts.is_empty() {
+            return Verdict::miss();
+        }
+        let hits = || contacts.iter().filter(|(_, contact)| contact.hit);
+        let nearest_t = hits().map(|(_, contact)| contact.t).fold(f64::INFINITY, f64::min);
+        // Two planes that meet in the ray's own point give t with a relative error below 2^-38 each.
+        let tie = nearest_t + nearest_t.abs() * 2.0_f64.powi(-36);
+        let outcome = match hits().find(|(_, contact)| contact.t <= tie) {
+            Some((slot, contact)) => Outcome::Hit {
+                primitive: self.primitives[*slot],
+                t: contact.t,
+                barycentrics: contact.barycentrics,
+            },
+            None => Outcome::Miss,
+        };
+        if let [(_, contact)] = contacts
+            && contact.certain
+        {
+            return Verdict { outcome, ambiguous: false, miss_allowed: false, candidates: Vec::new() };
+        }
+        let certain = contacts.iter().any(|(_, contact)| contact.certain);
+        let candidates = contacts
+            .iter()
+            .map(|(slot, contact)| Candidate {
+                primitive: self.primitives[*slot],
+                t_low: contact.t_low,
+                t_high: contact.t_high,
+                certain: contact.certain,
+            })
+            .collect();
+        let miss_allowed = !certain
+            && !coverage::covered(contacts.iter().map(|(slot, contact)| (&self.triangles[*slot], contact)));
+        Verdict { outcome, ambiguous: true, miss_allowed, candidates }
+    }
+}
+
+enum Search {
+    Automatic,
+    BruteForce,
+}
+
+struct Found {
+    contacts: Vec<(usize, Contact)>,
+    /// No answer lies beyond this t.
+    cutoff: f64,
+}

@@ -1,0 +1,35 @@
+/// A ray as the device gets it. Points on it are `origin + t * direction`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Metres.
+    pub origin: [f32; 3],
+    /// Hits count for `t > t_min`.
+    pub t_min: f32,
+    /// Need not be unit; finite and not zero.
+    pub direction: [f32; 3],
+    /// Hits count for `t < t_max`, in units of the direction's length; may be infinite.
+    pub t_max: f32,
+    /// A triangle that is never hit.
+    pub exclude_primitive: Option<u32>,
+}
+
+impl Ray {
+    /// A ray that counts hits from its origin to infinity.
+    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
+        Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY, exclude_primitive: None }
+    }
+
+    /// A ray that meets `point` at t = 1, up to the rounding of `point - origin`.
+    pub fn towards(origin: [f32; 3], point: [f32; 3]) -> Self {
+        Self::new(origin, std::array::from_fn(|axis| point[axis] - origin[axis]))
+    }
+
+    /// Whether origin and direction are finite, the direction is not zero, and no end is NaN.
+    /// (An empty range is valid and hits nothing.)
+    pub fn is_valid(&self) -> bool {
+        self.origin.iter().chain(&self.direction).all(|x| x.is_finite())
+            && self.direction.iter().any(|x| *x != 0.0)
+            && !self.t_min.is_nan()
+            && !self.t_max.is_nan()
+    }
+}

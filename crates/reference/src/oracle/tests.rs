@@ -1,0 +1,387 @@
+use super::*;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn point(&mut self, center: [f32; 3], radius: f64) -> [f32; 3] {
+        center.map(|x| (f64::from(x) + self.between(-radius, radius)) as f32)
+    }
+}
+
+type Mesh = (Vec<[f32; 3]>, Vec<u32>);
+
+fn sphere(center: [f32; 3], radius: f64, rows: u32) -> Mesh {
+    use std::f64::consts::PI;
+    let place = |direction: [f64; 3]| {
+        std::array::from_fn(|axis| (f64::from(center[axis]) + radius * direction[axis]) as f32)
+    };
+    let mut positions = vec![place([0.0, 0.0, 1.0])];
+    for row in 1..rows {
+        let polar = PI * f64::from(row) / f64::from(rows);
+        for column in 0..rows {
+            let azimuth = 2.0 * PI * f64::from(column) / f64::from(rows);
+            positions.push(place([polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos()]));
+        }
+    }
+    positions.push(place([0.0, 0.0, -1.0]));
+    let last = positions.len() as u32 - 1;
+    let at = |row: u32, column: u32| 1 + (row - 1) * rows + column % rows;
+    let mut indices = Vec::new();
+    for column in 0..rows {
+        indices.extend([0, at(1, column), at(1, column + 1)]);
+        for row in 1..rows - 1 {
+            let [a, b, c, d] =
+                [at(row, column), at(row + 1, column), at(row + 1, column + 1), at(row, column + 1)];
+            indices.extend([a, b, c, a, c, d]);
+        }
+        indices.extend([at(rows - 1, column), last, at(rows - 1, column + 1)]);
+    }
+    (positions, indices)
+}
+
+fn soup(triangles: &[[[f32; 3]; 3]]) -> Mesh {
+    (triangles.as_flattened().to_vec(), (0..triangles.len() as u32 * 3).collect())
+}
+
+fn cube() -> Mesh {
+    let positions: Vec<[f32; 3]> = (0..8_u32)
+        .map(|corner| std::array::from_fn(|axis| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 }))
+        .collect();
+    let mut indices = Vec::new();
+    for axis in 0..3 {
+        let (u, v) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));
+        for side in [0, 1 << axis] {
+            indices.extend([side, side | u, side | u | v, side, side | u | v, side | v]);
+        }
+    }
+    (positions, indices)
+}
+
+fn oracle<'a>((positions, indices): &Mesh) -> Oracle<'a> {
+    Oracle::new(positions, indices, None).expect("the mesh is well formed")
+}
+
+fn midpoint(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    std::array::from_fn(|axis| (0.5 * (f64::from(a[axis]) + f64::from(b[axis]))) as f32)
+}
+
+fn assert_all_hit(name: &str, oracle: &Oracle<'_>, rays: &[Ray]) {
+    let verdicts = oracle.closest_batch(rays);
+    for (index, (verdict, ray)) in verdicts.iter().zip(rays).enumerate() {
+        assert!(verdict.outcome.hit().is_some(), "{name}: ray {index} leaked: {ray:?} {verdict:?}");
+        assert!(!verdict.miss_allowed, "{name}: ray {index} may leak: {ray:?} {verdict:?}");
+    }
+}
+
+#[test]
+fn a_shared_diagonal_does_not_leak() {
+    let quad = soup(&[
+        [[0.0, 0.0, 2.0], [1.0, 0.0, 2.0], [1.0, 1.0, 2.0]],
+        [[0.0, 0.0, 2.0], [1.0, 1.0, 2.0], [0.0, 1.0, 2.0]],
+    ]);
+    let mut random = Random(1);
+    let rays: Vec<Ray> = (0..100)
+        .flat_map(|_| {
+            let origin = [
+                random.between(-2.0, 3.0) as f32,
+                random.between(-2.0, 3.0) as f32,
+                random.between(-3.0, 1.0) as f32,
+            ];
+            // The ends of the diagonal are corners of an open mesh, where rounding may pass by.
+            (1..1024).map(move |k| Ray::towards(origin, [k as f32 / 1024.0, k as f32 / 1024.0, 2.0]))
+        })
+        .collect();
+    assert_all_hit("diagonal", &oracle(&quad), &rays);
+}
+
+#[test]
+fn a_closed_sphere_does_not_leak_near_and_far() {
+    for center in [[0.0; 3], [148376.0, 1234.0, -223423.0]] {
+        let mesh = sphere(center, 2.0, 100);
+        let (positions, indices) = &mesh;
+        let mut random = Random(2);
+        let mut rays = Vec::new();
+        for vertex in positions {
+            rays.push(Ray::towards(random.point(center, 0.9), *vertex));
+        }
+        for corners in indices.as_chunks::<3>().0 {
+            for edge in 0..3 {
+                let [a, b] = [edge, (edge + 1) % 3].map(|i| positions[corners[i] as usize]);
+                rays.push(Ray::towards(random.point(center, 0.9), midpoint(a, b)));
+            }
+        }
+        for _ in 0..20_000 {
+            let origin = random.point(center, 0.9);
+            rays.push(Ray::new(origin, random.point([0.0; 3], 1.0)));
+        }
+        for _ in 0..1000 {
+            for pole in [positions[0], positions[positions.len() - 1]] {
+                rays.push(Ray::towards(random.point(center, 0.9), pole));
+            }
+        }
+        assert_all_hit("sphere", &oracle(&mesh), &rays);
+    }
+}
+
+#[test]
+fn a_fan_does_not_leak_at_its_center() {
+    let rim = |k: u32| {
+        let angle = f64::from(k % 1024) * std::f64::consts::TAU / 1024.0;
+        [angle.cos() as f32, angle.sin() as f32, 3.0]
+    };
+    let triangles: Vec<_> = (0..1024).map(|k| [[0.0, 0.0, 3.0], rim(k), rim(k + 1)]).collect();
+    let mut random = Random(3);
+    let rays: Vec<Ray> = (0..4000)
+        .map(|_| Ray::towards(random.point([0.0, 0.0, 0.0], 2.5), [0.0, 0.0, 3.0]))
+        .filter(|ray| ray.direction[2] > 0.1)
+        .collect();
+    assert_all_hit("fan", &oracle(&soup(&triangles)), &rays);
+}
+
+#[test]
+fn a_box_does_not_leak_at_corners_and_edges_and_t_is_exact() {
+    let (positions, indices) = cube();
+    let oracle = oracle(&(positions.clone(), indices));
+    let mut targets = positions.clone();
+    for (index, a) in positions.iter().enumerate() {
+        for b in &positions[index + 1..] {
+            if a.iter().zip(b).filter(|(x, y)| x != y).count() == 1 {
+                targets.push(midpoint(*a, *b));
+            }
+        }
+    }
+    assert_eq!(targets.len(), 20);
+    let mut random = Random(4);
+    let rays: Vec<Ray> = (0..20_000)
+        .map(|index| Ray::towards(random.point([0.1, 0.2, 0.3], 0.05), targets[index % 20]))
+        .collect();
+    assert_all_hit("box", &oracle, &rays);
+    for ray in &rays {
+        let (_, t) = oracle.closest(ray).outcome.hit().expect("checked above");
+        assert!((t - 1.0).abs() < 4.0 * 2.0_f64.powi(-24), "t = {t} for {ray:?}");
+    }
+}
+
+#[test]
+fn hits_on_pixel_edges_and_corners_are_found() {
+    for z in [0.5_f32, 1.0, 7.3, 100.0] {
+        let s = 1.5 * z;
+        let mesh = soup(&[[[-s, -s, z], [s, -s, z], [s, s, z]], [[-s, -s, z], [s, s, z], [-s, s, z]]]);
+        let mut rays = Vec::new();
+        for i in 0..=64 {
+            for j in 0..=64 {
+                let p = [(i as f32 / 32.0 - 1.0) * z, (j as f32 / 32.0 - 1.0) * z, z];
+                rays.push(Ray::towards([0.0; 3], p));
+                rays.push(Ray::towards([0.37 * z, -0.61 * z, 0.0], p));
+            }
+        }
+        assert_all_hit("pixel grid", &oracle(&mesh), &rays);
+    }
+}
+
+#[test]
+fn a_ray_in_a_triangles_plane_passes_it() {
+    let (mut positions, mut indices) = cube();
+    for position in &mut positions {
+        *position = [position[0] * 4.0, position[1] * 4.0, position[2] * 4.0 + 4.0];
+    }
+    let blade = positions.len() as u32;
+    positions.extend([[-1.0, 0.0, 2.0], [1.0, 0.0, 2.0], [0.0, 0.0, 6.0]]);
+    indices.extend([blade, blade + 1, blade + 2]);
+    let oracle = oracle(&(positions, indices));
+    let ray = Ray::towards([-3.0, 0.0, 4.0], [3.0, 0.0, 4.0]);
+    let verdict = oracle.closest(&ray);
+    let (primitive, t) = verdict.outcome.hit().expect("the box is hit");
+    assert!(primitive < 12);
+    assert_eq!(t, 7.0 / 6.0);
+    assert!(verdict.ambiguous && !verdict.miss_allowed, "{verdict:?}");
+    assert!(verdict.candidates.iter().any(|candidate| candidate.primitive == 12 && !candidate.certain));
+}
+
+#[test]
+fn triangles_without_area_are_never_hit() {
+    let flat: [[[f32; 3]; 3]; 4] = [
+        [[0.0, 0.0, 5.0], [1.0, 0.0, 5.0], [2.0, 0.0, 5.0]],
+        [[0.0, 0.0, 5.0], [0.0, 0.0, 5.0], [1.0, 0.0, 5.0]],
+        [[1.0, 1.0, 5.0]; 3],
+        [
+            [-1113.454_6, -79.049_614, -56.243_19],
+            [-1113.454_6, -87.092_27, -56.243_19],
+            [-1113.454_6, -79.209_015, -56.243_19],
+        ],
+    ];
+    let mut random = Random(5);
+    for triangle in flat {
+        let oracle = oracle(&soup(&[triangle]));
+        for index in 0..2000 {
+            let [a, b, _] = triangle;
+            let s = index as f32 / 2000.0;
+            let target: [f32; 3] = std::array::from_fn(|axis| a[axis] + s * (b[axis] - a[axis]));
+            let verdict = oracle.closest(&Ray::towards(random.point([0.0; 3], 1.0), target));
+            assert_eq!(verdict.outcome, Outcome::Miss);
+            assert!(verdict.miss_allowed);
+        }
+    }
+}
+
+#[test]
+fn the_hierarchy_and_brute_force_agree_on_everything() {
+    let mut random = Random(6);
+    for (center, rows) in [([0.0; 3], 24), ([1000.0, -20.0, 3.0], 16)] {
+        let (mut positions, mut indices) = sphere(center, 2.0, rows);
+        for _ in 0..400 {
+            let a = random.point(center, 3.0);
+            let size = 10.0_f64.powf(random.between(-7.0, 1.0));
+            let first = positions.len() as u32;
+            positions.extend([a, random.point(a, size), random.point(a, size)]);
+            indices.extend([first, first + 1, first + 2]);
+        }
+        let fast = Oracle::new(&positions, &indices, None).expect("well formed");
+        let slow = Oracle::brute_force(&positions, &indices, None).expect("well formed");
+        assert!(fast.bvh.is_some() && slow.bvh.is_none());
+        let mut rays = Vec::new();
+        for index in 0..9000 {
+            let origin = random.point(center, 4.0);
+            let corners = indices.as_chunks::<3>().0[random.bits() as usize % (indices.len() / 3)];
+            let [a, b, c] = corners.map(|corner| positions[corner as usize]);
+            let target = match index % 4 {
+                0 => a,
+                1 => midpoint(a, b),
+                2 => midpoint(midpoint(a, b), c),
+                _ => random.point(center, 3.0),
+            };
+            let mut ray = Ray::towards(origin, target);
+            if index % 5 == 0 {
+                ray.t_min = 0.5;
+                ray.t_max = 1.0;
+            }
+            if index % 7 == 0 {
+                ray.exclude_primitive = Some(random.bits() as u32 % (indices.len() as u32 / 3));
+            }
+            if index % 11 == 0 {
+                ray.direction[index % 3] = 0.0;
+            }
+            rays.push(ray);
+        }
+        let (fast, slow) = (fast.closest_batch(&rays), slow.closest_batch(&rays));
+        let hits = fast.iter().filter(|verdict| verdict.outcome != Outcome::Miss).count();
+        assert!(hits > 4000 && hits < 9000, "{hits} hits");
+        assert!(fast.iter().any(|verdict| verdict.ambiguous));
+        for ((fast, slow), ray) in fast.iter().zip(&slow).zip(&rays) {
+            assert_eq!(fast, slow, "{ray:?}");
+        }
+    }
+}
+
+#[test]
+fn most_rays_are_unambiguous_on_a_fine_mesh() {
+    let mesh = sphere([0.0; 3], 2.0, 400);
+    let oracle = oracle(&mesh);
+    let mut random = Random(7);
+    let rays: Vec<Ray> =
+        (0..20_000).map(|_| Ray::new(random.point([0.0; 3], 1.0), random.point([0.0; 3], 1.0))).collect();
+    let ambiguous = oracle.closest_batch(&rays).iter().filter(|verdict| verdict.ambiguous).count();
+    assert!(ambiguous < 40, "{ambiguous} of 20000 rays are ambiguous");
+}
+
+#[test]
+fn coplanar_twins_go_to_the_lowest_id_and_are_ambiguous() {
+    let triangle = [[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [0.0, 1.0, 5.0]];
+    let verdict = oracle(&soup(&[triangle, triangle])).closest(&Ray::new([0.0; 3], [0.0, 0.0, 1.0]));
+    assert_eq!(verdict.outcome.hit(), Some((0, 5.0)));
+    assert!(verdict.ambiguous && !verdict.miss_allowed);
+    assert_eq!(verdict.candidates.iter().map(|c| c.primitive).collect::<Vec<_>>(), [0, 1]);
+}
+
+#[test]
+fn the_range_is_open_and_its_ends_are_ambiguous() {
+    let oracle = oracle(&soup(&[[[-1.0, -1.0, 5.0], [1.0, -1.0, 5.0], [0.0, 1.0, 5.0]]]));
+    let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0]);
+    for (t_min, t_max, hit, ambiguous) in [
+        (0.0, 5.0, false, true),
+        (5.0, 9.0, false, true),
+        (0.0, 5.000_000_5, true, true),
+        (0.0, 5.1, true, false),
+        (4.9, 9.0, true, false),
+        (0.0, 4.9, false, false),
+        (9.0, 4.0, false, false),
+    ] {
+        let verdict = oracle.closest(&Ray { t_min, t_max, ..ray });
+        assert_eq!(verdict.outcome.hit().is_some(), hit, "{t_min} {t_max}");
+        assert_eq!(verdict.ambiguous, ambiguous, "{t_min} {t_max}");
+        let occlusion = oracle.occluded(&Ray { t_min, t_max, ..ray });
+        assert_eq!(occlusion, Occlusion { occluded: hit, ambiguous });
+    }
+}
+
+#[test]
+fn silhouettes_allow_a_miss_and_shared_edges_do_not() {
+    let left = [[0.0, -1.0, 5.0], [0.0, 1.0, 5.0], [-1.0, 0.0, 5.0]];
+    let right = [[0.0, 1.0, 5.0], [0.0, -1.0, 5.0], [1.0, 0.0, 5.0]];
+    let fold = [[0.0, 1.0, 5.0], [0.0, -1.0, 5.0], [-1.0, 0.0, 6.0]];
+    let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0]);
+    for (triangles, miss_allowed) in [
+        (vec![left], true),
+        (vec![left, right], false),
+        (vec![left, fold], true),
+        // Three triangles at one edge do not cancel; nothing is promised there.
+        (vec![left, fold, right], true),
+        (vec![left, left, right, right], false),
+    ] {
+        let verdict = oracle(&soup(&triangles)).closest(&ray);
+        assert!(verdict.outcome.hit().is_some() && verdict.ambiguous);
+        assert_eq!(verdict.miss_allowed, miss_allowed, "{triangles:?}");
+    }
+}
+
+#[test]
+fn the_alpha_test_and_the_excluded_primitive_are_respected() {
+    let triangle = |z: f32| [[-1.0, -1.0, z], [1.0, -1.0, z], [0.0, 1.0, z]];
+    let (positions, indices) = soup(&[triangle(1.0), triangle(2.0), triangle(3.0)]);
+    let accept = |primitive: u32, weights: [f64; 2]| {
+        assert!((weights[0] - 0.25).abs() < 1e-12 && (weights[1] - 0.5).abs() < 1e-12);
+        primitive != 0
+    };
+    let oracle = Oracle::new(&positions, &indices, Some(&accept)).expect("well formed");
+    let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0]);
+    assert_eq!(oracle.closest(&ray).outcome.hit(), Some((1, 2.0)));
+    let ray = Ray { exclude_primitive: Some(1), ..ray };
+    assert_eq!(oracle.closest(&ray).outcome.hit(), Some((2, 3.0)));
+}
+
+#[test]
+fn bad_input_is_refused_or_dropped() {
+    let positions = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, f32::NAN, 0.0], [0.0, 1.0, 0.0], [2e18, 0.0, 0.0]];
+    let refused = Oracle::new(&positions, &[0, 1], None).map(|_| ());
+    assert_eq!(refused, Err(OracleError::IncompleteTriangle { indices: 2 }));
+    let refused = Oracle::new(&positions, &[0, 1, 5], None).map(|_| ());
+    assert_eq!(refused, Err(OracleError::IndexOutOfRange { primitive: 0, index: 5, positions: 5 }));
+    let oracle = Oracle::new(&positions, &[0, 1, 2, 0, 1, 4, 0, 1, 3], None).expect("well formed");
+    assert_eq!((oracle.dropped(), oracle.triangle_count()), (2, 1));
+    let ray = Ray::new([0.25, 0.25, -1.0], [0.0, 0.0, 1.0]);
+    assert_eq!(oracle.closest(&ray).outcome.hit(), Some((2, 1.0)));
+    for bad in [f32::NAN, f32::INFINITY] {
+        let mut invalid = [ray; 3];
+        invalid[0].origin[1] = bad;
+        invalid[1].direction[2] = bad;
+        invalid[2].direction = [0.0; 3];
+        for ray in invalid {
+            assert!(!oracle.closest(&ray).ambiguous && oracle.closest(&ray).outcome == Outcome::Miss);
+        }
+    }
+    let empty = Oracle::new(&[], &[], None).expect("a scene may be empty");
+    assert_eq!(empty.closest(&ray).outcome, Outcome::Miss);
+}

@@ -1,0 +1,69 @@
+/// What a ray hits, in exact arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The nearest hit.
+    Hit {
+        /// Running index of the triangle.
+        primitive: u32,
+        /// In units of the direction's length; relative error below 2^-38.
+        t: f64,
+        /// Weights of vertices 1 and 2.
+        barycentrics: [f64; 2],
+    },
+    /// Nothing in range.
+    Miss,
+}
+
+impl Outcome {
+    /// The triangle and t of a hit.
+    pub fn hit(&self) -> Option<(u32, f64)> {
+        match *self {
+            Self::Hit { primitive, t, .. } => Some((primitive, t)),
+            Self::Miss => None,
+        }
+    }
+}
+
+/// A triangle that a careful single-precision test may report for an ambiguous ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// Running index of the triangle.
+    pub primitive: u32,
+    /// Least t that may be reported.
+    pub t_low: f64,
+    /// Greatest t that may be reported.
+    pub t_high: f64,
+    /// Whether the test must find this triangle, unless another one lies in front.
+    pub certain: bool,
+}
+
+/// The answer for one ray.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// In exact arithmetic.
+    pub outcome: Outcome,
+    /// Single precision may give another answer: the ray passes within rounding of an edge that
+    /// matters, two hits are within rounding of each other, or a hit is within rounding of the end
+    /// of the range.
+    pub ambiguous: bool,
+    /// Only for ambiguous rays: a miss is admissible too. False if some hit is certain, or if the
+    /// candidates meet in shared edges all around the ray, so that a watertight test finds one.
+    pub miss_allowed: bool,
+    /// Only for ambiguous rays: the admissible triangles by ascending id.
+    pub candidates: Vec<Candidate>,
+}
+
+impl Verdict {
+    pub(super) fn miss() -> Self {
+        Self { outcome: Outcome::Miss, ambiguous: false, miss_allowed: true, candidates: Vec::new() }
+    }
+}
+
+/// The answer to "is anything hit".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Occlusion {
+    /// In exact arithmetic.
+    pub occluded: bool,
+    /// Single precision may give the other answer.
+    pub ambiguous: bool,
+}
