@@ -3,6 +3,18 @@
 //! Nothing here knows of Vulkan. Transforms are kept in f64 until the pose; positions are metres,
 //! angles radians, times seconds, radiance W/(sr m^2).
 
+pub mod builtin;
+pub mod check;
+mod decode;
+pub mod default_view;
+mod error;
+pub mod gltf;
+mod limits;
+mod load;
 pub mod model;
 
+pub use decode::decode_image;
+pub use error::SceneError;
+pub use limits::{Limits, LoadOptions, SceneChoice};
+pub use load::load;
 pub use model::*;

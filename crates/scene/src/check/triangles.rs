@@ -1,0 +1,85 @@
+//! Indices and positions: what a triangle needs to be traced.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::{MAX_COORDINATE, warn};
+use crate::{Mesh, SceneError, Warning};
+
+/// Refuses indices that are not below the number of vertices, or not a multiple of three.
+pub(super) fn check_indices(path: &Path, mesh: &Mesh) -> Result<(), SceneError> {
+    if !mesh.indices.len().is_multiple_of(3) {
+        return Err(SceneError::invalid(
+            path,
+            mesh.name.clone(),
+            format!("{} indices do not make whole triangles", mesh.indices.len()),
+        ));
+    }
+    let vertices = mesh.positions.len() as u64;
+    match mesh.indices.iter().find(|&&index| u64::from(index) >= vertices) {
+        Some(&index) => Err(SceneError::IndexOutOfRange {
+            path: path.to_owned(),
+            mesh: mesh.name.clone(),
+            index: u64::from(index),
+            vertices,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Drops triangles with unusable corners, flushes subnormals, counts zero areas.
+pub(super) fn clean(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
+    let name = &mesh.name;
+    let mut unusable = Vec::new();
+    let mut flushed = 0;
+    for (vertex, position) in mesh.positions.iter_mut().enumerate() {
+        // Written so that NaN fails the comparison.
+        if !position.iter().all(|x| x.abs() <= MAX_COORDINATE) {
+            unusable.push(vertex as u32);
+            *position = [0.0; 3];
+        }
+        for x in position.iter_mut().filter(|x| x.is_subnormal()) {
+            *x = 0.0;
+            flushed += 1;
+        }
+    }
+    if !unusable.is_empty() {
+        let before = mesh.indices.len() / 3;
+        // `unusable` is ascending: it was filled in vertex order.
+        let usable = |corner: &u32| unusable.binary_search(corner).is_err();
+        mesh.indices = mesh
+            .indices
+            .chunks_exact(3)
+            .filter(|triangle| triangle.iter().all(usable))
+            .flatten()
+            .copied()
+            .collect();
+        let dropped = before - mesh.indices.len() / 3;
+        warn(warnings, "dropped-triangles", unusable.len(), || {
+            format!(
+                "mesh {name}: {} of {} vertices are not finite or exceed {MAX_COORDINATE:e} m; the {dropped} of {before} triangles that use them were dropped",
+                unusable.len(),
+                mesh.positions.len()
+            )
+        });
+    }
+    warn(warnings, "subnormal-coordinates", flushed, || {
+        format!("mesh {name}: {flushed} subnormal coordinates were set to 0")
+    });
+    let degenerate = mesh.indices.chunks_exact(3).filter(|corners| is_degenerate(mesh, corners)).count();
+    warn(warnings, "degenerate-triangles", degenerate, || {
+        format!("mesh {name}: {degenerate} triangles have no area; they are kept and never hit")
+    });
+}
+
+/// Whether the area of a triangle is zero, in f64.
+fn is_degenerate(mesh: &Mesh, corners: &[u32]) -> bool {
+    face_normal(&mesh.positions, corners) == DVec3::ZERO
+}
+
+/// Twice the area of a triangle along its normal, square metres.
+pub(super) fn face_normal(positions: &[[f32; 3]], corners: &[u32]) -> DVec3 {
+    let corner = |k: usize| DVec3::from(positions[corners[k] as usize].map(f64::from));
+    (corner(1) - corner(0)).cross(corner(2) - corner(0))
+}

@@ -1,0 +1,99 @@
+//! Encoded images to texels, within limits.
+
+use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
+
+use crate::{Image, Limits, SceneError, Warning};
+
+/// Longest side of an image, texels.
+const MAX_SIDE: u32 = 1 << 16;
+
+/// Decodes a PNG or JPEG image, told apart by its first bytes, to RGBA8 with the first
+/// row at the top. More than 8 bits a channel are rounded, with a warning; an image without alpha
+/// is opaque; grey becomes three equal channels. Values are taken as stored: no colour profile is applied.
+///
+/// `path` is the scene file, for messages; `name` names the image.
+///
+/// # Errors
+/// [`SceneError::Image`] if the bytes are of another format or broken, [`SceneError::TooLarge`] if
+/// the size in its header exceeds `limits.image_pixels`.
+pub fn decode_image(
+    path: &Path,
+    name: &str,
+    bytes: &[u8],
+    limits: &Limits,
+    warnings: &mut Vec<Warning>,
+) -> Result<Image, SceneError> {
+    let failed = |reason: String| SceneError::Image { path: path.to_owned(), image: name.to_owned(), reason };
+    let format = image::guess_format(bytes).map_err(|_| failed("neither PNG nor JPEG".to_owned()))?;
+    if !matches!(format, ImageFormat::Png | ImageFormat::Jpeg) {
+        return Err(failed(format!("{format:?} images are not supported; convert it to PNG or JPEG")));
+    }
+    // A last net: the decoders promise not to panic, and hostile files are what tests that promise.
+    let decoded = catch_unwind(AssertUnwindSafe(|| decode(path, name, bytes, format, limits)))
+        .map_err(|panic| SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })??;
+    let deep = !matches!(
+        decoded,
+        DynamicImage::ImageLuma8(_)
+            | DynamicImage::ImageLumaA8(_)
+            | DynamicImage::ImageRgb8(_)
+            | DynamicImage::ImageRgba8(_)
+    );
+    if deep {
+        warnings.push(Warning {
+            kind: "image-depth",
+            message: format!("image {name} has more than 8 bits a channel; it was rounded to 8"),
+        });
+    }
+    let texels = decoded.into_rgba8();
+    Ok(Image {
+        name: name.to_owned(),
+        width: texels.width(),
+        height: texels.height(),
+        rgba8: texels.into_raw(),
+    })
+}
+
+fn decode(
+    path: &Path,
+    name: &str,
+    bytes: &[u8],
+    format: ImageFormat,
+    limits: &Limits,
+) -> Result<DynamicImage, SceneError> {
+    let failed = |reason: image::ImageError| SceneError::Image {
+        path: path.to_owned(),
+        image: name.to_owned(),
+        reason: reason.to_string(),
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut bounds = image::Limits::default();
+    bounds.max_image_width = Some(MAX_SIDE);
+    bounds.max_image_height = Some(MAX_SIDE);
+    // 16 bytes a texel: four channels of f32, the widest a decoder hands out.
+    bounds.max_alloc = Some(limits.image_pixels.saturating_mul(16).saturating_add(1 << 20));
+    reader.limits(bounds);
+    let decoder = reader.into_decoder().map_err(failed)?;
+    let (width, height) = decoder.dimensions();
+    let pixels = u64::from(width) * u64::from(height);
+    Limits::check(
+        path,
+        &format!("the size in texels of image {name}"),
+        pixels,
+        limits.image_pixels,
+        "image_pixels",
+    )?;
+    DynamicImage::from_decoder(decoder).map_err(failed)
+}
+
+/// What a caught panic said.
+pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
+    panic
+        .downcast_ref::<String>()
+        .cloned()
+        .or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()))
+        .unwrap_or_else(|| "panic without a message".to_owned())
+}

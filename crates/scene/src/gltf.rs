@@ -1,0 +1,78 @@
+//! glTF 2.0 and GLB.
+//!
+//! The `gltf` crate is used for what it is good at, the typed JSON of a file; its wrappers, which
+//! index and unwrap freely, are never touched. Everything a file claims is checked here first:
+//! indices, types, byte ranges (in u128), the node graph (iteratively), references to other files.
+//!
+//! Units are taken as written: metres, radians, and for light the number in the file, which is
+//! read as radiometric: point and spot intensities as W/sr, directional illuminance as W/m^2,
+//! emission as W/(sr m^2). A photometric file is thus scaled by one constant, its picture by exposure.
+//!
+//! Scene order is depth-first over the nodes of the chosen scene, then the primitives of the node's
+//! mesh in order, then (with `EXT_mesh_gpu_instancing`) the instances of the node in order.
+
+mod accessor;
+mod buffers;
+mod cameras;
+mod container;
+mod document;
+mod elements;
+mod extensions;
+mod hierarchy;
+mod indices;
+mod instancing;
+mod json;
+mod lights;
+mod materials;
+mod primitives;
+mod textures;
+mod transforms;
+mod uri;
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use crate::decode::panic_message;
+use crate::load::{read_file, scene_name};
+use crate::{LoadOptions, Scene, SceneError};
+
+/// Loads a `.gltf` or `.glb` file; which of the two it is is decided by its first bytes. Files that
+/// it refers to are read from its folder or below.
+///
+/// # Errors
+/// [`SceneError`]: see [`crate::load`].
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+    let bytes = read_file(path, options.limits.file_bytes)?;
+    from_slice(path, &bytes, options)
+}
+
+/// Loads the bytes of a `.gltf` or `.glb` file as if they had been read from `path`, which need not
+/// exist: it names the scene, and its folder is where references are looked for.
+///
+/// # Errors
+/// [`SceneError`]: see [`crate::load`].
+pub fn from_slice(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, SceneError> {
+    // The last net under the checks: a panic of a library becomes an error that says so.
+    catch_unwind(AssertUnwindSafe(|| build(path, bytes, options))).unwrap_or_else(|panic| {
+        Err(SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })
+    })
+}
+
+fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, SceneError> {
+    let mut warnings = Vec::new();
+    let document = document::Document::open(path, bytes, options, &mut warnings)?;
+    let hierarchy = hierarchy::Hierarchy::of(&document)?;
+    let order = hierarchy.scene_order(&document, &options.scene)?;
+    let placed = elements::place(&document, &hierarchy, &order, &mut warnings)?;
+    let mut scene = Scene {
+        name: scene_name(path),
+        meshes: placed.meshes,
+        instances: placed.instances,
+        ..Scene::default()
+    };
+    materials::convert(&document, &mut scene, &mut warnings)?;
+    scene.lights = lights::place(&document, &hierarchy, &order, &mut warnings);
+    scene.cameras = cameras::place(&document, &hierarchy, &order, &mut warnings);
+    scene.warnings = warnings;
+    Ok(scene)
+}

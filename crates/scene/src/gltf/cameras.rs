@@ -1,0 +1,62 @@
+//! Cameras of the nodes, in the world.
+
+use std::f32::consts::PI;
+
+use ::gltf::json::camera::{Camera as JsonCamera, Type};
+use ::gltf::json::validation::Checked;
+use glam::{DAffine3, DMat3};
+
+use super::document::Document;
+use super::hierarchy::Hierarchy;
+use crate::{Camera, Projection, Warning};
+
+/// The cameras of the nodes in `order`. Scale and shear of the nodes are taken off; aspect ratio
+/// and clip planes of the file are not used: the image decides the one, rays need no other.
+pub(super) fn place(
+    document: &Document<'_>,
+    hierarchy: &Hierarchy,
+    order: &[usize],
+    warnings: &mut Vec<Warning>,
+) -> Vec<Camera> {
+    let mut cameras = Vec::new();
+    for &node in order {
+        let Some(index) = document.root.nodes[node].camera else { continue };
+        let source = &document.root.cameras[index.value()];
+        let node_name = document.root.nodes[node].name.clone();
+        let name =
+            node_name.or_else(|| source.name.clone()).unwrap_or_else(|| format!("camera{}", cameras.len()));
+        match (rigid(hierarchy.world[node]), projection(source)) {
+            (Some(world_from_camera), Some(projection)) => {
+                cameras.push(Camera { name, world_from_camera, projection });
+            }
+            _ => warnings.push(Warning {
+                kind: "bad-camera",
+                message: format!("camera {name}: its place or projection is degenerate; it was dropped"),
+            }),
+        }
+    }
+    cameras
+}
+
+/// The rigid map with the same place, view direction and up direction.
+fn rigid(world: DAffine3) -> Option<DAffine3> {
+    let back = world.matrix3.z_axis.try_normalize()?;
+    let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
+    let up = back.cross(right);
+    let rigid = DAffine3 { matrix3: DMat3::from_cols(right, up, back), translation: world.translation };
+    rigid.is_finite().then_some(rigid)
+}
+
+fn projection(source: &JsonCamera) -> Option<Projection> {
+    match source.type_ {
+        Checked::Valid(Type::Perspective) => {
+            let fov_y = source.perspective.as_ref()?.yfov;
+            (fov_y > 0.0 && fov_y < PI).then_some(Projection::Perspective { fov_y })
+        }
+        Checked::Valid(Type::Orthographic) => {
+            let half_height = source.orthographic.as_ref()?.ymag.abs();
+            (half_height > 0.0 && half_height.is_finite()).then_some(Projection::Orthographic { half_height })
+        }
+        Checked::Invalid => None,
+    }
+}

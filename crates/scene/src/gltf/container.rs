@@ -1,0 +1,61 @@
+//! GLB: a header and chunks around the JSON and the first buffer.
+
+use std::path::Path;
+
+use crate::SceneError;
+
+const MAGIC: &[u8; 4] = b"glTF";
+const HEADER: usize = 12;
+const CHUNK_HEADER: usize = 8;
+const JSON: u32 = u32::from_le_bytes(*b"JSON");
+const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
+
+/// The parts of a file. A `.gltf` has only JSON.
+pub(super) struct Container<'a> {
+    pub json: &'a [u8],
+    pub binary: Option<&'a [u8]>,
+}
+
+/// Splits a file. Chunks of unknown type are skipped, as the format asks.
+pub(super) fn split<'a>(path: &Path, bytes: &'a [u8]) -> Result<Container<'a>, SceneError> {
+    if bytes.get(..4) != Some(MAGIC) {
+        return Ok(Container { json: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), binary: None });
+    }
+    let truncated =
+        || SceneError::syntax(path, format!("the GLB container is truncated at byte {}", bytes.len()));
+    let word = |at: usize| -> Option<u32> {
+        bytes.get(at..at + 4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
+    };
+    let version = word(4).ok_or_else(truncated)?;
+    if version != 2 {
+        return Err(SceneError::syntax(path, format!("GLB version {version}; only version 2 is supported")));
+    }
+    let length = word(8).ok_or_else(truncated)? as usize;
+    if length > bytes.len() {
+        return Err(truncated());
+    }
+    let mut json = None;
+    let mut binary = None;
+    let mut at = HEADER;
+    while at + CHUNK_HEADER <= length {
+        let size = word(at).ok_or_else(truncated)? as usize;
+        let kind = word(at + 4).ok_or_else(truncated)?;
+        let start = at + CHUNK_HEADER;
+        let chunk = bytes.get(start..length).and_then(|rest| rest.get(..size)).ok_or_else(|| {
+            SceneError::syntax(path, format!("the GLB chunk at byte {at} ends behind the file"))
+        })?;
+        match kind {
+            JSON if json.is_none() => json = Some(chunk),
+            BINARY if binary.is_none() => binary = Some(chunk),
+            _ => {}
+        }
+        if json.is_none() {
+            break;
+        }
+        // A chunk ends on a multiple of four; writers that forget the padding are forgiven.
+        at = start + size;
+    }
+    let json =
+        json.ok_or_else(|| SceneError::syntax(path, "the first chunk of the GLB container is not JSON"))?;
+    Ok(Container { json, binary })
+}

@@ -1,0 +1,72 @@
+//! `KHR_lights_punctual`: lights of the nodes, in the world.
+
+use std::f32::consts::FRAC_PI_2;
+
+use ::gltf::json::Root;
+use ::gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
+use ::gltf::json::validation::Checked;
+use glam::DVec3;
+
+use super::document::Document;
+use super::hierarchy::Hierarchy;
+use crate::{Light, Warning};
+
+/// The lights of a file.
+pub(super) fn of(root: &Root) -> &[JsonLight] {
+    root.extensions
+        .as_ref()
+        .and_then(|found| found.khr_lights_punctual.as_ref())
+        .map_or(&[], |found| &found.lights)
+}
+
+/// The lights of the nodes in `order`. Scale moves a light but does not change how bright it is or
+/// how far it reaches.
+pub(super) fn place(
+    document: &Document<'_>,
+    hierarchy: &Hierarchy,
+    order: &[usize],
+    warnings: &mut Vec<Warning>,
+) -> Vec<Light> {
+    let mut lights = Vec::new();
+    for &node in order {
+        let extensions = document.root.nodes[node].extensions.as_ref();
+        let Some(reference) = extensions.and_then(|found| found.khr_lights_punctual.as_ref()) else {
+            continue;
+        };
+        let source = &of(&document.root)[reference.light.value()];
+        let world = hierarchy.world[node];
+        let direction = world.transform_vector3(DVec3::NEG_Z).try_normalize();
+        match light(source, world.translation, direction) {
+            Some(light) => lights.push(light),
+            None => warnings.push(Warning {
+                kind: "bad-light",
+                message: format!(
+                    "nodes[{node}]: its light has no direction, cone, or finite place and intensity; it was dropped"
+                ),
+            }),
+        }
+    }
+    lights
+}
+
+fn light(source: &JsonLight, position: DVec3, direction: Option<DVec3>) -> Option<Light> {
+    let intensity = source.color.map(|x| (x * source.intensity).max(0.0));
+    if !position.is_finite() || !intensity.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let range = source.range.filter(|&range| range > 0.0).unwrap_or(f32::INFINITY);
+    match source.type_ {
+        Checked::Valid(Type::Point) => Some(Light::Point { position, intensity, range }),
+        Checked::Valid(Type::Directional) => {
+            Some(Light::Directional { direction: direction?, irradiance: intensity })
+        }
+        Checked::Valid(Type::Spot) => {
+            let Spot { inner_cone_angle, outer_cone_angle } = *source.spot.as_ref()?;
+            let outer_cone = outer_cone_angle.clamp(0.0, FRAC_PI_2);
+            let inner_cone = inner_cone_angle.clamp(0.0, outer_cone);
+            (outer_cone > 0.0).then_some(())?;
+            Some(Light::Spot { position, direction: direction?, intensity, range, inner_cone, outer_cone })
+        }
+        Checked::Invalid => None,
+    }
+}
