@@ -1,0 +1,120 @@
+// Path tracing with light sampling, one step a closest hit.
+// Reads: scene tables through scene/*.glsl. Writes: nothing but its state argument.
+// Source: docs/shading.md, "Paths"; Veach 1997 for the power heuristic.
+#ifndef INTEGRATORS_PATH_GLSL
+#define INTEGRATORS_PATH_GLSL
+
+#include "scene/bsdf.glsl"
+#include "scene/light.glsl"
+#include "scene/random.glsl"
+
+PathState path_begin(uint pixel, uint sample_index) {
+    return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u);
+}
+
+// Weight of the technique with density `used` beside one with density `other`.
+float path_power_heuristic(float used, float other) {
+    if (!(other > 0.0)) return 1.0;
+    float ratio = other / used;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+// Share of light left after `distance` metres inside a material.
+vec3 path_transmittance(uint material_index, float distance) {
+    Material material = scene_material(material_index);
+    if (!(material.attenuation_distance < 3.0e38) || !(material.attenuation_distance > 0.0)) return vec3(1.0);
+    vec3 color = clamp(material.attenuation_color, 1.0e-6, 1.0);
+    return pow(color, vec3(distance / material.attenuation_distance));
+}
+
+// Weight of emission met by the last scattering.
+float path_emission_weight(PathState state, float light_pdf) {
+    return state.bsdf_pdf > 0.0 ? path_power_heuristic(state.bsdf_pdf, light_pdf) : 1.0;
+}
+
+// Light sampling at the surface.
+void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked) {
+    vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_LIGHT_KIND));
+    LightSample light = light_sample(s, random);
+    if (light.flags == 0u) return;
+    vec3 value = bsdf_evaluate(s, o, light.direction) * abs(dot(s.normal, light.direction));
+    float weight = (light.flags & SAMPLE_DELTA) != 0u
+        ? 1.0 : path_power_heuristic(light.pdf, bsdf_pdf(s, o, light.direction));
+    vec3 pending = state.throughput * value * light.radiance * (weight / light.pdf);
+    if (!(largest_component(pending) > 0.0)) return;
+    asked.pending = pending;
+    asked.shadow_ray = light_shadow_ray(s, light);
+}
+
+// Goes on straight behind a blended surface.
+void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float footprint, inout PathStep asked) {
+    state.layers += 1u;
+    // Shadow rays end here, so light sampling cannot have found what is met next.
+    state.bsdf_pdf = 0.0;
+    asked.next_ray = spawn_ray(s, direction, uintBitsToFloat(0x7F800000u));
+    asked.next_ray.cone_width = footprint;
+    asked.next_ray.cone_spread = ray.cone_spread;
+}
+
+// Scatters; leaves next_ray inactive where the path ends.
+void path_scatter(inout PathState state, Ray ray, Surface s, vec3 o, float footprint, inout PathStep asked) {
+    vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_BSDF_LOBE));
+    BsdfSample chosen = bsdf_sample(s, o, random);
+    if (chosen.flags == 0u) return;
+    state.throughput *= chosen.weight;
+    bool delta = (chosen.flags & SAMPLE_DELTA) != 0u;
+    state.bsdf_pdf = delta ? 0.0 : chosen.pdf;
+    if ((chosen.flags & SAMPLE_TRANSMITTED) != 0u && s.thickness > 0.0) {
+        state.medium = s.side == 1u ? s.material : MATERIAL_NONE;
+    }
+    if (state.bounce >= PATH_ROULETTE_BOUNCE) {
+        float survival = min(0.95, largest_component(state.throughput));
+        uint dimension = random_dimension(state.bounce, RANDOM_ROULETTE);
+        if (!(random_float(state.pixel, state.sample_index, dimension) < survival)) return;
+        state.throughput /= survival;
+    }
+    state.bounce += 1u;
+    asked.next_ray = spawn_ray(s, chosen.direction, uintBitsToFloat(0x7F800000u));
+    asked.next_ray.cone_width = footprint;
+    asked.next_ray.cone_spread = delta ? ray.cone_spread
+                                       : max(ray.cone_spread, 0.5 * s.roughness * s.roughness);
+}
+
+// One step: `ray` was traced, `s` is what it met (valid 0: nothing). Adds emission to the state and
+// asks for a shadow ray and a next ray; the path has ended where next_ray.t_max < 0.
+PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) {
+    PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0));
+    float speed = length(ray.direction);
+    vec3 direction = ray.direction / speed;
+    if (s.valid == 0u) {
+        float weight = path_emission_weight(state, environment_pdf(direction));
+        state.radiance += state.throughput * environment_radiance(direction) * weight;
+        return asked;
+    }
+    float distance = s.t * speed;
+    float footprint = ray.cone_width + ray.cone_spread * distance;
+    if (SHADING_TRANSMISSION && state.medium != MATERIAL_NONE) {
+        state.throughput *= path_transmittance(state.medium, distance);
+    }
+    if (SHADING_BLEND && s.opacity < 1.0 && state.layers < PATH_LAYER_LIMIT) {
+        uint dimension = RANDOM_OPACITY_FIRST + state.layers;
+        if (!(random_float(state.pixel, state.sample_index, dimension) < s.opacity)) {
+            path_pass(state, ray, s, direction, footprint, asked);
+            return asked;
+        }
+        state.layers += 1u;
+    }
+    if (largest_component(s.emission) > 0.0) {
+        float weight = 1.0;
+        if (state.bsdf_pdf > 0.0) {
+            weight = path_emission_weight(state, light_pdf_emitter(s.primitive, ray.origin, s.position));
+        }
+        state.radiance += state.throughput * s.emission * weight;
+    }
+    if (state.bounce >= max_bounces) return asked;
+    path_sample_light(state, s, -direction, asked);
+    path_scatter(state, ray, s, -direction, footprint, asked);
+    return asked;
+}
+
+#endif

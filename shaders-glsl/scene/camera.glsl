@@ -1,0 +1,30 @@
+// Rays of a pixel.
+// Reads: frame. Writes: nothing. Source: docs/shading.md, "Functions".
+#ifndef SCENE_CAMERA_GLSL
+#define SCENE_CAMERA_GLSL
+
+#include "scene/accessors.glsl"
+#include "scene/random.glsl"
+
+// `pixel_position` in pixels from the top left corner; the centre of the first pixel is (0.5, 0.5).
+Ray camera_ray(vec2 pixel_position) {
+    Frame frame = scene_frame();
+    float x = (2.0 * pixel_position.x / float(frame.width) - 1.0) * frame.half_width;
+    float y = (1.0 - 2.0 * pixel_position.y / float(frame.height)) * frame.half_height;
+    vec3 across = frame.camera_right * x + frame.camera_up * y;
+    bool perspective = frame.projection == PROJECTION_PERSPECTIVE;
+    vec3 origin = perspective ? frame.camera_position : frame.camera_position + across;
+    vec3 direction = perspective ? normalize(frame.camera_forward + across) : frame.camera_forward;
+    return Ray(origin, 0.0, direction, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, frame.cone_width,
+               frame.cone_spread);
+}
+
+// Uniform within the pixel.
+vec2 camera_pixel_position(uint pixel, uint sample_index) {
+    uint width = scene_frame().width;
+    vec2 corner = vec2(pixel % width, pixel / width);
+    return corner + vec2(random_float(pixel, sample_index, RANDOM_CAMERA_X),
+                         random_float(pixel, sample_index, RANDOM_CAMERA_Y));
+}
+
+#endif

@@ -1,0 +1,161 @@
+// Directions chosen by the lights, and the density with which they would choose a given one.
+// Reads: frame, lights, emissive triangles, geometry, materials, textures, environment. Writes: nothing.
+// Source: docs/shading.md, "Lights"; KHR_lights_punctual for range and cone.
+#ifndef SCENE_LIGHT_GLSL
+#define SCENE_LIGHT_GLSL
+
+#include "scene/emission.glsl"
+#include "scene/environment.glsl"
+#include "scene/spawn.glsl"
+
+#define LIGHT_INFINITY uintBitsToFloat(0x7F800000u)
+
+// Kinds of light the scene has: punctual, emissive triangles, environment.
+uint light_kind_count(Frame frame) {
+    return uint(frame.light_count > 0u) + uint(frame.emissive_count > 0u) + frame.environment_sampled;
+}
+
+LightSample light_sample_none() {
+    return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
+}
+
+LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
+    LightSample chosen = light_sample_none();
+    uint index = min(uint(pick * float(frame.light_count)), frame.light_count - 1u);
+    Light light = scene_light(index);
+    chosen.pdf = 1.0 / float(frame.light_count);
+    chosen.flags = SAMPLE_VALID | SAMPLE_DELTA;
+    if (light.kind == LIGHT_DIRECTIONAL) {
+        chosen.direction = -light.direction;
+        chosen.distance = LIGHT_INFINITY;
+        chosen.radiance = light.intensity;
+        return chosen;
+    }
+    vec3 towards = light.position - from;
+    float squared = dot(towards, towards);
+    if (!(squared > 0.0)) return light_sample_none();
+    chosen.distance = sqrt(squared);
+    chosen.direction = towards / chosen.distance;
+    chosen.target = light.position;
+    float ratio = chosen.distance / light.range;
+    float window = clamp(1.0 - ratio * ratio * ratio * ratio, 0.0, 1.0);
+    if (light.kind == LIGHT_SPOT) {
+        float cone = clamp(dot(light.direction, -chosen.direction) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+        window *= cone * cone;
+    }
+    chosen.radiance = light.intensity * (window / squared);
+    return chosen;
+}
+
+// First entry whose cumulative share exceeds `random`.
+uint light_search_emissive(uint count, float random) {
+    uint low = 0u;
+    uint high = count - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (scene_emissive_cumulative(middle) > random) high = middle;
+        else low = middle + 1u;
+    }
+    return low;
+}
+
+float light_emissive_share(uint entry) {
+    float above = scene_emissive_cumulative(entry);
+    return entry == 0u ? above : above - scene_emissive_cumulative(entry - 1u);
+}
+
+// 1/sr of a point uniform on a triangle, as seen along the unit `direction` from `distance` away.
+// 0 edge-on.
+float light_area_pdf(vec3 normal, float twice_area, vec3 direction, float distance) {
+    float projected = 0.5 * twice_area * abs(dot(normal, direction));
+    return projected > 0.0 ? distance * distance / projected : 0.0;
+}
+
+LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place) {
+    LightSample chosen = light_sample_none();
+    uint entry = light_search_emissive(frame.emissive_count, pick);
+    uint primitive = scene_emissive_triangle(entry).primitive;
+    float root = sqrt(place.x);
+    vec2 barycentrics = vec2(root * (1.0 - place.y), root * place.y);
+    vec3 weights = barycentric_weights(barycentrics);
+    vec3 a, b, c;
+    geometry_vertices(primitive, a, b, c);
+    float error;
+    vec3 position = triangle_point(weights, a, b, c, error);
+
+    vec3 towards = position - from;
+    float squared = dot(towards, towards);
+    if (!(squared > 0.0)) return chosen;
+    chosen.distance = sqrt(squared);
+    chosen.direction = towards / chosen.distance;
+    float twice_area;
+    vec3 normal = triangle_normal(b - a, c - a, twice_area);
+    float density = light_area_pdf(normal, twice_area, chosen.direction, chosen.distance);
+    chosen.pdf = light_emissive_share(entry) * density;
+    if (!(chosen.pdf > 0.0)) return light_sample_none();
+
+    bool counter_clockwise = dot(normal, chosen.direction) < 0.0;
+    bool mirrored = (scene_draw_flags(scene_draw_of(primitive)) & DRAW_MIRRORED) != 0u;
+    chosen.radiance = emission_at(primitive, barycentrics, counter_clockwise != mirrored);
+    chosen.target = spawn_position(position, error, normal, -chosen.direction);
+    chosen.flags = SAMPLE_VALID;
+    return chosen;
+}
+
+// A direction from the surface to a light, one random number for each of: kind, light or row, place.
+LightSample light_sample(Surface s, vec4 random) {
+    Frame frame = scene_frame();
+    uint kinds = light_kind_count(frame);
+    if (kinds == 0u) return light_sample_none();
+    uint kind = min(uint(random.x * float(kinds)), kinds - 1u);
+    LightSample chosen;
+    uint punctual = uint(frame.light_count > 0u);
+    uint emissive = uint(frame.emissive_count > 0u);
+    if (kind < punctual) {
+        chosen = light_sample_punctual(frame, s.position, random.y);
+    } else if (kind < punctual + emissive) {
+        chosen = light_sample_emissive(frame, s.position, random.y, random.zw);
+    } else {
+        chosen = light_sample_none();
+        chosen.direction = environment_sample(random.y, random.zw, chosen.radiance, chosen.pdf);
+        chosen.distance = LIGHT_INFINITY;
+        chosen.flags = chosen.pdf > 0.0 ? SAMPLE_VALID : 0u;
+    }
+    chosen.pdf /= float(kinds);
+    return chosen;
+}
+
+// The ray that asks whether the sample is seen from the surface.
+Ray light_shadow_ray(Surface s, LightSample chosen) {
+    if (chosen.distance < LIGHT_INFINITY) return spawn_segment(s, chosen.target);
+    Ray ray = spawn_ray(s, chosen.direction, LIGHT_INFINITY);
+    ray.flags = RAY_OCCLUDED;
+    return ray;
+}
+
+// 1/sr with which light_sample chooses `position` on `primitive` from `origin`; 0 if it never does.
+float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
+    Frame frame = scene_frame();
+    if (frame.emissive_count == 0u || primitive == PRIMITIVE_NONE) return 0.0;
+    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+    if (draw.first_emissive == EMISSIVE_NONE) return 0.0;
+    vec3 a, b, c;
+    geometry_vertices(primitive, a, b, c);
+    vec3 towards = position - origin;
+    float distance = length(towards);
+    if (!(distance > 0.0)) return 0.0;
+    float twice_area;
+    vec3 normal = triangle_normal(b - a, c - a, twice_area);
+    float density = light_area_pdf(normal, twice_area, towards / distance, distance);
+    uint entry = draw.first_emissive + primitive - draw.first_triangle;
+    return light_emissive_share(entry) * density / float(light_kind_count(frame));
+}
+
+// 1/sr with which light_sample chooses the environment in `direction`.
+float environment_pdf(vec3 direction) {
+    Frame frame = scene_frame();
+    if (frame.environment_sampled == 0u) return 0.0;
+    return environment_pdf_alone(direction) / float(light_kind_count(frame));
+}
+
+#endif

@@ -1,0 +1,163 @@
+// From a hit to what is shaded there.
+// Reads: geometry, every scene table but lights and environment. Writes: nothing.
+// Source: docs/shading.md, "Surfaces"; Akenine-Moeller et al. 2019 for the texture level.
+#ifndef SCENE_SURFACE_GLSL
+#define SCENE_SURFACE_GLSL
+
+#include "ads/geometry.glsl"
+#include "scene/attributes.glsl"
+#include "scene/texture.glsl"
+
+// Cosine to which a shading normal is bent that faces away from the ray.
+#define SHADING_NORMAL_COSINE 0.01
+
+Surface surface_miss(Ray ray) {
+    Surface s;
+    s.position = vec3(0.0);
+    s.position_error = 0.0;
+    s.geometric_normal = vec3(0.0);
+    s.primitive = PRIMITIVE_NONE;
+    s.normal = vec3(0.0);
+    s.valid = 0u;
+    s.base_color = vec3(0.0);
+    s.metallic = 0.0;
+    s.emission = vec3(0.0);
+    s.roughness = 1.0;
+    s.transmission = 0.0;
+    s.ior = 1.5;
+    s.opacity = 1.0;
+    s.thickness = 0.0;
+    s.attenuation_color = vec3(1.0);
+    s.attenuation_distance = uintBitsToFloat(0x7F800000u);
+    s.specular = 0.0;
+    s.side = 1u;
+    s.t = ray.t_max;
+    s.material = MATERIAL_NONE;
+    return s;
+}
+
+// Area of the triangle's texture coordinates per square metre; 0 where either has no area.
+float surface_uv_area(DrawShading draw, uint uv_set, uvec3 triangle, float twice_area) {
+    vec2 a = attribute_uv_at(draw, uv_set, triangle.x);
+    vec2 ab = attribute_uv_at(draw, uv_set, triangle.y) - a;
+    vec2 ac = attribute_uv_at(draw, uv_set, triangle.z) - a;
+    return twice_area > 0.0 ? abs(ab.x * ac.y - ab.y * ac.x) / twice_area : 0.0;
+}
+
+vec4 surface_texel(TextureRef reference, DrawShading draw, uvec3 triangle, vec3 weights, float twice_area,
+                   float footprint) {
+    if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
+    vec2 uv = attribute_uv(draw, reference.uv_set, triangle, weights);
+    float area = footprint > 0.0 ? surface_uv_area(draw, reference.uv_set, triangle, twice_area) : 0.0;
+    return texture_sample(reference, uv, texture_level(reference, area, footprint));
+}
+
+// Tangent along growing u (w: sign of the bitangent), from the vertices or else from the triangle's
+// texture coordinates. Zero where there is none.
+vec4 surface_tangent(DrawShading draw, Material material, uvec3 triangle, vec3 weights, vec3 ab, vec3 ac) {
+    vec4 tangent = attribute_tangent(draw, triangle, weights);
+    if (dot(tangent.xyz, tangent.xyz) > 0.0) return tangent;
+    uint uv_set = material.normal_texture.uv_set;
+    vec2 a = attribute_uv_at(draw, uv_set, triangle.x);
+    vec2 u = attribute_uv_at(draw, uv_set, triangle.y) - a;
+    vec2 v = attribute_uv_at(draw, uv_set, triangle.z) - a;
+    float determinant = u.x * v.y - u.y * v.x;
+    // v grows downwards in images, so the bitangent points against it.
+    float turn = determinant < 0.0 ? -1.0 : 1.0;
+    float mirrored = (draw.flags & DRAW_MIRRORED) != 0u ? 1.0 : -1.0;
+    return determinant == 0.0 ? vec4(0.0) : vec4((ab * v.y - ac * u.y) * turn, turn * mirrored);
+}
+
+vec3 surface_mapped_normal(vec3 normal, vec4 tangent, vec3 texel, float scale) {
+    vec3 along = tangent.xyz - normal * dot(normal, tangent.xyz);
+    float squared = dot(along, along);
+    if (!(squared > 0.0)) return normal;
+    along *= inversesqrt(squared);
+    vec3 across = cross(normal, along) * tangent.w;
+    vec3 local = (texel * 2.0 - 1.0) * vec3(scale, scale, 1.0);
+    vec3 mapped = along * local.x + across * local.y + normal * local.z;
+    float mapped_squared = dot(mapped, mapped);
+    return mapped_squared > 0.0 ? mapped * inversesqrt(mapped_squared) : normal;
+}
+
+// The shading normal on the side of the geometric normal, facing the ray. `o` is the unit direction to
+// where the ray came from.
+vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal, vec3 o) {
+    float squared = dot(interpolated, interpolated);
+    if (!(squared > 0.0)) return geometric_normal;
+    vec3 normal = interpolated * inversesqrt(squared);
+    if (dot(normal, geometric_normal) < 0.0) normal -= 2.0 * dot(normal, geometric_normal) * geometric_normal;
+    float cosine = dot(normal, o);
+    if (cosine < SHADING_NORMAL_COSINE) normal = normalize(normal + (SHADING_NORMAL_COSINE - cosine) * o);
+    return normal;
+}
+
+// `barycentrics` are the weights of vertices 1 and 2. Fills every field.
+Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
+    Surface s = surface_miss(ray);
+    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+    Material material = scene_material(draw.material);
+    uvec3 triangle = geometry_triangle(primitive);
+    vec3 weights = barycentric_weights(barycentrics);
+    vec3 a, b, c;
+    geometry_vertices(primitive, a, b, c);
+
+    s.position = triangle_point(weights, a, b, c, s.position_error);
+
+    vec3 ab = b - a;
+    vec3 ac = c - a;
+    float twice_area;
+    vec3 normal = triangle_normal(ab, ac, twice_area);
+    float speed = length(ray.direction);
+    vec3 o = -ray.direction / speed;
+    // Only a corrupt hit is on a triangle without a normal.
+    if (normal == vec3(0.0)) normal = o;
+    bool counter_clockwise = dot(normal, o) >= 0.0;
+    s.geometric_normal = counter_clockwise ? normal : -normal;
+    s.side = counter_clockwise == ((draw.flags & DRAW_MIRRORED) == 0u) ? 1u : 0u;
+
+    float cosine = max(dot(s.geometric_normal, o), 1.0e-4);
+    float footprint = (ray.cone_width + ray.cone_spread * t * speed) / cosine;
+
+    vec3 interpolated = attribute_normal(draw, triangle, weights);
+    // Attributes describe the front; seen from behind they are turned.
+    float facing = s.side == 1u ? 1.0 : -1.0;
+    if (SHADING_TEXTURES && material.normal_texture.texture != TEXTURE_NONE) {
+        vec3 front = dot(interpolated, interpolated) > 0.0 ? normalize(interpolated) : s.geometric_normal * facing;
+        vec4 tangent = surface_tangent(draw, material, triangle, weights, ab, ac);
+        vec4 texel = surface_texel(material.normal_texture, draw, triangle, weights, twice_area, footprint);
+        interpolated = surface_mapped_normal(front, tangent, texel.xyz, material.normal_scale);
+    }
+    s.normal = surface_shading_normal(interpolated * facing, s.geometric_normal, o);
+
+    vec4 texel = surface_texel(material.base_color_texture, draw, triangle, weights, twice_area, footprint);
+    vec4 base_color = attribute_base_color(draw, material, triangle, weights, texel);
+    s.opacity = SHADING_BLEND && (material.flags & MATERIAL_ALPHA_BLEND) != 0u ? clamp(base_color.a, 0.0, 1.0) : 1.0;
+    s.primitive = primitive;
+    s.material = draw.material;
+    s.t = t;
+    s.valid = SURFACE_POSITION | SURFACE_NORMAL | SURFACE_MATERIAL | SURFACE_PRIMITIVE | SURFACE_EMISSION;
+    if ((material.flags & MATERIAL_UNLIT) != 0u) {
+        s.emission = base_color.rgb;
+        return s;
+    }
+
+    s.base_color = clamp(base_color.rgb, 0.0, 1.0);
+    vec4 metal = surface_texel(material.metallic_roughness_texture, draw, triangle, weights, twice_area, footprint);
+    s.metallic = clamp(material.metallic * metal.b, 0.0, 1.0);
+    s.roughness = clamp(material.roughness * metal.g, 0.0, 1.0);
+    if (s.side == 1u || (material.flags & MATERIAL_DOUBLE_SIDED) != 0u) {
+        vec4 glow = surface_texel(material.emission_texture, draw, triangle, weights, twice_area, footprint);
+        s.emission = material.emission * glow.rgb;
+    }
+    vec4 clear = surface_texel(material.transmission_texture, draw, triangle, weights, twice_area, footprint);
+    s.transmission = SHADING_TRANSMISSION ? clamp(material.transmission * clear.r, 0.0, 1.0) : 0.0;
+    s.ior = material.ior;
+    s.thickness = material.thickness;
+    s.attenuation_color = material.attenuation_color;
+    s.attenuation_distance = material.attenuation_distance;
+    s.specular = material.specular;
+    return s;
+}
+
+#endif

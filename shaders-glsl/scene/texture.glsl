@@ -1,0 +1,102 @@
+// Textures sampled from one buffer of texels: wrapping, nearest, bilinear and trilinear filtering.
+// Reads: textures, texels. Writes: nothing. Source: docs/shading.md, "Textures".
+#ifndef SCENE_TEXTURE_GLSL
+#define SCENE_TEXTURE_GLSL
+
+#include "scene/accessors.glsl"
+#include "scene/features.glsl"
+
+float srgb_decode(float encoded) {
+    return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+// Brings a coordinate near [0, 1] (mirror: [0, 2)), so that integers are exact afterwards.
+// Anything that is not finite becomes 0.
+float texture_reduce(float u, uint wrap) {
+    if (!(abs(u) < 1.0e9)) return 0.0;
+    if (wrap == WRAP_REPEAT) return u - floor(u);
+    if (wrap == WRAP_MIRROR) return u - 2.0 * floor(u * 0.5);
+    return clamp(u, -0.5, 1.5);
+}
+
+// Texel index for x in [-size, 2 size].
+int texture_wrap(int x, int size, uint wrap) {
+    if (wrap == WRAP_REPEAT) {
+        if (x < 0) x += size;
+        if (x >= size) x -= size;
+    } else if (wrap == WRAP_MIRROR) {
+        if (x >= 2 * size) x -= 2 * size;
+        if (x < 0) x = -1 - x;
+        if (x >= size) x = 2 * size - 1 - x;
+    }
+    return clamp(x, 0, size - 1);
+}
+
+vec4 texture_fetch(Texture source, uint first_texel, ivec2 size, ivec2 texel) {
+    uint wrap_u = source.sampling & 3u;
+    uint wrap_v = (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u;
+    int x = texture_wrap(texel.x, size.x, wrap_u);
+    int y = texture_wrap(texel.y, size.y, wrap_v);
+    vec4 value = scene_texel(first_texel + uint(y * size.x + x));
+    if ((source.sampling & TEXTURE_SRGB) != 0u) {
+        value.rgb = vec3(srgb_decode(value.r), srgb_decode(value.g), srgb_decode(value.b));
+    }
+    return value;
+}
+
+// One level; uv is reduced already.
+vec4 texture_sample_level(Texture source, vec2 uv, uint level) {
+    uint first_texel = source.first_texel;
+    uvec2 size = uvec2(source.width, source.height);
+    for (uint l = 0u; l < level; l++) {
+        first_texel += size.x * size.y;
+        size = max(size >> 1, uvec2(1u));
+    }
+    ivec2 extent = ivec2(size);
+    vec2 place = uv * vec2(extent);
+    if ((source.sampling & TEXTURE_LINEAR) == 0u) {
+        return texture_fetch(source, first_texel, extent, ivec2(floor(place)));
+    }
+    place -= 0.5;
+    vec2 corner = floor(place);
+    vec2 share = place - corner;
+    ivec2 texel = ivec2(corner);
+    vec4 top = mix(texture_fetch(source, first_texel, extent, texel),
+                   texture_fetch(source, first_texel, extent, texel + ivec2(1, 0)), share.x);
+    vec4 bottom = mix(texture_fetch(source, first_texel, extent, texel + ivec2(0, 1)),
+                      texture_fetch(source, first_texel, extent, texel + ivec2(1, 1)), share.x);
+    return mix(top, bottom, share.y);
+}
+
+// RGBA, colour decoded to linear where the texture holds sRGB. White where there is no texture.
+vec4 texture_sample(TextureRef reference, vec2 uv, float level) {
+    if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE) return vec4(1.0);
+    Texture source = scene_texture(reference.texture);
+    vec2 place = vec2(dot(reference.row_u, vec3(uv, 1.0)), dot(reference.row_v, vec3(uv, 1.0)));
+    place.x = texture_reduce(place.x, source.sampling & 3u);
+    place.y = texture_reduce(place.y, (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u);
+    float last = float(source.level_count - 1u);
+    float used = level > 0.0 ? min(level, last) : 0.0;
+    if ((source.sampling & TEXTURE_LINEAR) == 0u) {
+        return texture_sample_level(source, place, uint(used + 0.5));
+    }
+    float lower = floor(used);
+    vec4 value = texture_sample_level(source, place, uint(lower));
+    if (used > lower) {
+        value = mix(value, texture_sample_level(source, place, uint(lower) + 1u), used - lower);
+    }
+    return value;
+}
+
+// Level for a footprint of `footprint` metres across on a surface whose texture coordinates (before
+// the transform) cover `uv_area` per square metre. 0 for a footprint of 0.
+float texture_level(TextureRef reference, float uv_area, float footprint) {
+    if (!SHADING_TEXTURES || reference.texture == TEXTURE_NONE || !(footprint > 0.0)) return 0.0;
+    Texture source = scene_texture(reference.texture);
+    float determinant = reference.row_u.x * reference.row_v.y - reference.row_u.y * reference.row_v.x;
+    float texels = uv_area * abs(determinant) * float(source.width) * float(source.height);
+    if (!(texels > 0.0)) return 0.0;
+    return 0.5 * log2(texels) + log2(footprint);
+}
+
+#endif
