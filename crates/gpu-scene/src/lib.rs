@@ -1,1 +1,33 @@
-//! rasray: gpu-scene.
+//! Scenes on a Vulkan device: posed geometry, materials, texels and lights.
+//!
+//! [`SceneTables`] packs a scene into plain arrays, byte for byte what the shaders read (see
+//! `docs/shading.md`). It needs no device, so its contents can be checked anywhere. Only the
+//! [`Parts`] that a render can observe are packed.
+//!
+//! Static geometry is posed once, in f64, when the tables are made: `world_from_mesh * position`,
+//! minus the frame origin, rounded to f32. What structures build from and what an oracle should
+//! read is [`Posed::positions`].
+
+mod attributes;
+mod distribution;
+mod emissive;
+mod environment;
+mod error;
+pub mod layout;
+mod lights;
+mod materials;
+pub mod mips;
+mod origin;
+mod parts;
+mod pose;
+mod tables;
+mod textures;
+mod view;
+
+pub use environment::EnvironmentTables;
+pub use error::GpuSceneError;
+pub use origin::{frame_origin_spacing, snap_frame_origin};
+pub use parts::{Parts, TextureKind};
+pub use pose::{LARGEST_COORDINATE, Posed};
+pub use tables::SceneTables;
+pub use view::View;

@@ -1,0 +1,95 @@
+//! Which parts of a scene are packed.
+
+/// Texture kinds in the order of `Material`'s texture fields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextureKind {
+    /// Base colour and alpha.
+    BaseColor,
+    /// Metallic and roughness.
+    MetallicRoughness,
+    /// Tangent-space normals.
+    Normal,
+    /// Emission.
+    Emission,
+    /// Transmission.
+    Transmission,
+}
+
+/// Which parts of a scene are packed and uploaded. A part that is left out reads as absent: no
+/// attribute, no texture, no light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    /// Shading normals.
+    pub normals: bool,
+    /// Tangents.
+    pub tangents: bool,
+    /// Texture coordinates of set 0 and set 1.
+    pub uvs: [bool; 2],
+    /// Vertex colours.
+    pub colors: bool,
+    /// Base colour textures. Those of alpha-masked materials are packed whenever `alpha` is on.
+    pub base_color_textures: bool,
+    /// Metallic-roughness textures.
+    pub metallic_roughness_textures: bool,
+    /// Normal maps.
+    pub normal_textures: bool,
+    /// Emission textures.
+    pub emission_textures: bool,
+    /// Transmission textures.
+    pub transmission_textures: bool,
+    /// Alpha masks. Off: masked draws count as opaque everywhere.
+    pub alpha: bool,
+    /// Point, directional and spot lights.
+    pub lights: bool,
+    /// Emissive triangles as lights to sample.
+    pub emissive_triangles: bool,
+    /// The environment.
+    pub environment: bool,
+}
+
+impl Parts {
+    /// Everything the scene has.
+    pub const ALL: Self = Self {
+        normals: true,
+        tangents: true,
+        uvs: [true; 2],
+        colors: true,
+        base_color_textures: true,
+        metallic_roughness_textures: true,
+        normal_textures: true,
+        emission_textures: true,
+        transmission_textures: true,
+        alpha: true,
+        lights: true,
+        emissive_triangles: true,
+        environment: true,
+    };
+
+    /// Geometry and alpha masks: all that rays which only ask for visibility observe.
+    pub const VISIBILITY: Self = Self {
+        normals: false,
+        tangents: false,
+        uvs: [true; 2],
+        colors: true,
+        base_color_textures: false,
+        metallic_roughness_textures: false,
+        normal_textures: false,
+        emission_textures: false,
+        transmission_textures: false,
+        alpha: true,
+        lights: false,
+        emissive_triangles: false,
+        environment: false,
+    };
+
+    /// Whether textures of a kind are packed for a material that is, or is not, alpha-masked.
+    pub fn has_texture(&self, kind: TextureKind, masked: bool) -> bool {
+        match kind {
+            TextureKind::BaseColor => self.base_color_textures || (masked && self.alpha),
+            TextureKind::MetallicRoughness => self.metallic_roughness_textures,
+            TextureKind::Normal => self.normal_textures,
+            TextureKind::Emission => self.emission_textures,
+            TextureKind::Transmission => self.transmission_textures,
+        }
+    }
+}

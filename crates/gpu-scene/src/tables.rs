@@ -1,0 +1,134 @@
+//! A scene packed into the tables that shaders read. No Vulkan.
+
+use glam::DVec3;
+use rasray_scene::{AlphaMode, Scene};
+use rasray_shaders_glsl::constants::contract::{DRAW_ALPHA_MASKED, DRAW_STATIC};
+
+use crate::{
+    GpuSceneError, Parts, Posed, View,
+    attributes::pack_attributes,
+    emissive::pack_emissive,
+    environment::{EnvironmentTables, pack_environment},
+    layout::{DrawShading, EmissiveTriangle, Frame, Light, Material, Texture},
+    lights::pack_light,
+    materials::pack_materials,
+    origin::{frame_origin_spacing, snap_frame_origin},
+};
+
+/// All tables of a scene. Positions are metres relative to `frame_origin`.
+#[derive(Clone, Debug, Default)]
+pub struct SceneTables {
+    /// World, metres.
+    pub frame_origin: DVec3,
+    /// Posed geometry.
+    pub posed: Posed,
+    /// One per draw.
+    pub draw_shadings: Vec<DrawShading>,
+    /// Normals and tangents in world space, words.
+    pub posed_attributes: Vec<f32>,
+    /// Texture coordinates and colours, words.
+    pub vertex_attributes: Vec<f32>,
+    /// As in the scene.
+    pub materials: Vec<Material>,
+    /// One for every pair of scene texture and use.
+    pub textures: Vec<Texture>,
+    /// Texels of all levels, red in the lowest byte.
+    pub texels: Vec<u32>,
+    /// Point, directional and spot lights.
+    pub lights: Vec<Light>,
+    /// Triangles that are sampled as lights.
+    pub emissive_triangles: Vec<EmissiveTriangle>,
+    /// What a ray sees that leaves the scene.
+    pub environment: EnvironmentTables,
+}
+
+impl SceneTables {
+    /// Packs those parts of `scene` that are asked for, with positions relative to `frame_origin`
+    /// (world, metres). Static geometry is posed here, once, in f64.
+    ///
+    /// # Errors
+    /// The scene names something it does not have, or needs more vertices, words or texels than 32
+    /// bits number.
+    pub fn new(scene: &Scene, frame_origin: DVec3, parts: &Parts) -> Result<Self, GpuSceneError> {
+        let posed = Posed::new(scene, frame_origin, |instance| draw_flags(scene, instance, parts))?;
+        if posed.dropped_triangles > 0 {
+            tracing::warn!(
+                "{} triangles have a vertex that is not finite or farther than {} m once placed, and are not drawn",
+                posed.dropped_triangles,
+                crate::LARGEST_COORDINATE
+            );
+        }
+        let mut attributes = pack_attributes(scene, &posed, parts)?;
+        let (materials, textures) = pack_materials(scene, parts)?;
+        let emissive_triangles = if parts.emissive_triangles {
+            pack_emissive(scene, &posed, &mut attributes.draw_shadings)
+        } else {
+            Vec::new()
+        };
+        let lights = scene.lights.iter().filter(|_| parts.lights);
+        let environment = if parts.environment {
+            pack_environment(&scene.environment)?
+        } else {
+            EnvironmentTables::default()
+        };
+        Ok(Self {
+            frame_origin,
+            posed,
+            draw_shadings: attributes.draw_shadings,
+            posed_attributes: attributes.posed,
+            vertex_attributes: attributes.vertex,
+            materials,
+            textures: textures.textures,
+            texels: textures.texels,
+            lights: lights.map(|light| pack_light(light, frame_origin)).collect(),
+            emissive_triangles,
+            environment,
+        })
+    }
+
+    /// The default frame origin for an eye (world, metres): see [`snap_frame_origin`].
+    pub fn default_frame_origin(scene: &Scene, eye: DVec3) -> DVec3 {
+        snap_frame_origin(eye, frame_origin_spacing(world_diagonal(scene)))
+    }
+
+    /// The frame record for a view: everything but the tables themselves.
+    pub fn frame(&self, view: &View) -> Frame {
+        let mut frame = Frame {
+            triangle_count: self.posed.triangle_count() as u32,
+            light_count: self.lights.len() as u32,
+            emissive_count: self.emissive_triangles.len() as u32,
+            environment_kind: self.environment.kind,
+            environment_width: self.environment.width,
+            environment_height: self.environment.height,
+            environment_sampled: u32::from(self.environment.emits),
+            environment_radiance: self.environment.constant,
+            ..Frame::default()
+        };
+        view.write(&mut frame, self.frame_origin);
+        frame
+    }
+}
+
+fn draw_flags(scene: &Scene, instance: usize, parts: &Parts) -> u32 {
+    let mesh = scene.instances.get(instance).and_then(|instance| scene.meshes.get(instance.mesh));
+    let material = mesh.and_then(|mesh| scene.materials.get(mesh.material));
+    let masked = material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask { .. }));
+    DRAW_STATIC | if masked && parts.alpha { DRAW_ALPHA_MASKED } else { 0 }
+}
+
+/// Diagonal of the box around all placed meshes, metres; 0 for an empty scene. Vertices that are
+/// not usable once placed do not count.
+fn world_diagonal(scene: &Scene) -> f64 {
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for instance in &scene.instances {
+        let Some(mesh) = scene.meshes.get(instance.mesh) else { continue };
+        for position in &mesh.positions {
+            let world = instance.world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
+            if world.abs().max_element() <= f64::from(crate::LARGEST_COORDINATE) {
+                lower = lower.min(world);
+                upper = upper.max(world);
+            }
+        }
+    }
+    if lower.x <= upper.x { (upper - lower).length() } else { 0.0 }
+}

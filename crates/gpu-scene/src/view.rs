@@ -1,0 +1,110 @@
+//! The camera as shaders read it.
+
+use glam::DVec3;
+use rasray_scene::{Camera, Projection};
+use rasray_shaders_glsl::constants::scene::{PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE};
+
+use crate::layout::Frame;
+
+/// What is rendered: a camera, the size of the image, and the seed of its random numbers.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Placement and projection, world.
+    pub camera: Camera,
+    /// Pixels a row of the whole image, at least 1.
+    pub width: u32,
+    /// Rows of the whole image, at least 1.
+    pub height: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+}
+
+impl View {
+    /// Where the camera stands, world, metres.
+    pub fn eye(&self) -> DVec3 {
+        self.camera.world_from_camera.translation
+    }
+
+    /// Writes the fields of `frame` that depend on the view; `frame_origin` is in metres, world.
+    /// The axes of the camera are made unit: scale in its placement does not change the picture.
+    pub fn write(&self, frame: &mut Frame, frame_origin: DVec3) {
+        let axes = self.camera.world_from_camera.matrix3;
+        let unit = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3().to_array();
+        let (width, height) = (f64::from(self.width.max(1)), f64::from(self.height.max(1)));
+        let aspect = width / height;
+        frame.camera_position = (self.eye() - frame_origin).as_vec3().to_array();
+        frame.camera_right = unit(axes.x_axis, DVec3::X);
+        frame.camera_up = unit(axes.y_axis, DVec3::Y);
+        frame.camera_forward = unit(-axes.z_axis, DVec3::NEG_Z);
+        frame.width = self.width.max(1);
+        frame.height = self.height.max(1);
+        frame.seed = self.seed;
+        match self.camera.projection {
+            Projection::Perspective { fov_y } => {
+                let half_height = (0.5 * f64::from(fov_y)).tan();
+                frame.projection = PROJECTION_PERSPECTIVE;
+                frame.half_height = half_height as f32;
+                frame.half_width = (half_height * aspect) as f32;
+                frame.cone_spread = (2.0 * half_height / height).atan() as f32;
+                frame.cone_width = 0.0;
+            }
+            Projection::Orthographic { half_height } => {
+                let half_height = f64::from(half_height);
+                frame.projection = PROJECTION_ORTHOGRAPHIC;
+                frame.half_height = half_height as f32;
+                frame.half_width = (half_height * aspect) as f32;
+                frame.cone_spread = 0.0;
+                frame.cone_width = (2.0 * half_height / height) as f32;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DAffine3, DMat3};
+
+    fn camera(projection: Projection) -> Camera {
+        let linear = DMat3::from_rotation_y(std::f64::consts::FRAC_PI_2) * 3.0;
+        let world_from_camera = DAffine3::from_mat3_translation(linear, DVec3::new(1e6, 2.0, 3.0));
+        Camera { name: "test".to_owned(), world_from_camera, projection }
+    }
+
+    #[test]
+    fn a_turned_and_scaled_camera_looks_along_its_own_z() {
+        let view = View {
+            camera: camera(Projection::Perspective { fov_y: std::f32::consts::FRAC_PI_2 }),
+            width: 200,
+            height: 100,
+            seed: 7,
+        };
+        let mut frame = Frame::default();
+        view.write(&mut frame, DVec3::new(1e6, 0.0, 0.0));
+        assert_eq!(frame.camera_position, [0.0, 2.0, 3.0]);
+        for (axis, expected) in [
+            (frame.camera_forward, [-1.0, 0.0, 0.0]),
+            (frame.camera_right, [0.0, 0.0, -1.0]),
+            (frame.camera_up, [0.0, 1.0, 0.0]),
+        ] {
+            assert!((0..3).all(|i| (axis[i] - expected[i]).abs() < 1e-7), "{axis:?}");
+        }
+        assert!((frame.half_height - 1.0).abs() < 1e-6 && (frame.half_width - 2.0).abs() < 1e-6);
+        assert!((frame.cone_spread - 0.02).abs() < 1e-5 && frame.cone_width == 0.0);
+        assert_eq!((frame.width, frame.height, frame.seed), (200, 100, 7));
+    }
+
+    #[test]
+    fn a_parallel_projection_has_pixels_of_one_size() {
+        let view = View {
+            camera: camera(Projection::Orthographic { half_height: 4.0 }),
+            width: 30,
+            height: 40,
+            seed: 0,
+        };
+        let mut frame = Frame::default();
+        view.write(&mut frame, DVec3::ZERO);
+        assert_eq!((frame.half_height, frame.half_width), (4.0, 3.0));
+        assert_eq!((frame.cone_width, frame.cone_spread), (0.2, 0.0));
+    }
+}

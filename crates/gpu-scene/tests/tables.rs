@@ -1,0 +1,263 @@
+//! Packing of whole scenes, without a device.
+
+use glam::{DAffine3, DMat3, DVec3};
+use rasray_gpu_scene::{GpuSceneError, LARGEST_COORDINATE, Parts, SceneTables, View, layout};
+use rasray_scene::{
+    AlphaMode, Camera, Environment, Filter, Image, Instance, Light, Material, Mesh, Projection, Scene,
+    Texture, TextureRef, Wrap,
+};
+use rasray_shaders_glsl::constants::{contract, scene as numbers};
+
+const IDENTITY_ROWS: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn texture_ref(texture: usize) -> TextureRef {
+    TextureRef { texture, uv_set: 0, uv_transform: IDENTITY_ROWS }
+}
+
+/// A square of two triangles in the xy plane, with all attributes.
+fn square(material: usize) -> Mesh {
+    Mesh {
+        name: "square".to_owned(),
+        positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        normals: Some(vec![[0.0, 0.0, 1.0]; 4]),
+        tangents: Some(vec![[1.0, 0.0, 0.0, 1.0]; 4]),
+        uvs: [Some(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]), None],
+        colors: Some(vec![[1.0, 0.5, 0.25, 1.0]; 4]),
+        indices: vec![0, 1, 2, 0, 2, 3],
+        material,
+    }
+}
+
+fn instance(mesh: usize, world_from_mesh: DAffine3) -> Instance {
+    Instance { name: format!("instance of {mesh}"), mesh, world_from_mesh }
+}
+
+/// Three instances of two meshes: plain, mirrored and scaled, and an emissive one.
+fn scene() -> Scene {
+    let image = |name: &str, width: u32, height: u32, byte: u8| Image {
+        name: name.to_owned(),
+        width,
+        height,
+        rgba8: vec![byte; (width * height * 4) as usize],
+    };
+    let texture = |image: usize, mipmapped: bool| Texture {
+        image,
+        wrap_u: Wrap::Mirror,
+        wrap_v: Wrap::Clamp,
+        filter: Filter::Linear,
+        mipmapped,
+    };
+    Scene {
+        name: "three squares".to_owned(),
+        meshes: vec![square(0), square(1)],
+        instances: vec![
+            instance(0, DAffine3::from_translation(DVec3::new(1e6, 0.0, 0.25))),
+            instance(0, DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(-2.0, 1.0, 1.0)))),
+            instance(1, DAffine3::IDENTITY),
+        ],
+        materials: vec![
+            Material {
+                base_color_texture: Some(texture_ref(0)),
+                metallic_roughness_texture: Some(texture_ref(0)),
+                normal_texture: Some(texture_ref(1)),
+                alpha_mode: AlphaMode::Mask { cutoff: 0.25 },
+                ..Material::default()
+            },
+            Material {
+                emission: [2.0, 2.0, 2.0],
+                emission_texture: Some(texture_ref(1)),
+                double_sided: true,
+                ..Material::default()
+            },
+        ],
+        textures: vec![texture(0, true), texture(1, false)],
+        images: vec![image("large", 4, 2, 100), image("small", 2, 2, 255)],
+        lights: vec![Light::Directional { direction: DVec3::NEG_Y, irradiance: [1.0; 3] }],
+        environment: Environment::Constant([0.5; 3]),
+        ..Scene::default()
+    }
+}
+
+fn pack(scene: &Scene, origin: DVec3, parts: &Parts) -> SceneTables {
+    SceneTables::new(scene, origin, parts).expect("the scene is well formed")
+}
+
+#[test]
+fn positions_indices_and_draws_follow_scene_order() {
+    let origin = DVec3::new(1e6, 0.0, 0.0);
+    let tables = pack(&scene(), origin, &Parts::ALL);
+    let posed = &tables.posed;
+    assert_eq!(posed.triangle_count(), 6);
+    assert_eq!(posed.positions.len(), 12);
+    assert_eq!(posed.indices[..6], [0, 1, 2, 0, 2, 3]);
+    assert_eq!(posed.indices[12..], [8, 9, 10, 8, 10, 11]);
+    assert_eq!(posed.draw_of_triangle, [0, 0, 1, 1, 2, 2]);
+    assert_eq!(posed.positions[2], [1.0, 1.0, 0.25], "the origin is taken off in f64");
+    assert_eq!(posed.positions[5], [(-2.0f64 - 1e6) as f32, 0.0, 0.0]);
+    assert_eq!(posed.draws[1].first_triangle, 2);
+    assert_eq!(posed.draws[0].flags, contract::DRAW_STATIC | contract::DRAW_ALPHA_MASKED);
+    assert_eq!(posed.draws[2].flags, contract::DRAW_STATIC);
+    assert_eq!(posed.upper, [1.0, 1.0, 0.25]);
+    assert_eq!(posed.lower, [-1_000_002.0, 0.0, 0.0]);
+}
+
+#[test]
+fn attributes_are_posed_once_per_instance_and_shared_where_they_can_be() {
+    let tables = pack(&scene(), DVec3::ZERO, &Parts::ALL);
+    let [plain, mirrored, emissive] = tables.draw_shadings[..] else { panic!("three draws") };
+    assert_eq!(
+        (plain.flags, mirrored.flags),
+        (contract::DRAW_ALPHA_MASKED, contract::DRAW_ALPHA_MASKED | numbers::DRAW_MIRRORED)
+    );
+    assert_eq!((plain.uv0, plain.colors), (mirrored.uv0, mirrored.colors));
+    assert_ne!(plain.normals, mirrored.normals);
+    assert_ne!(plain.uv0, emissive.uv0);
+    assert_eq!(plain.uv1, numbers::ATTRIBUTE_NONE);
+    assert_eq!((mirrored.first_vertex, mirrored.first_triangle, mirrored.instance), (4, 2, 1));
+    let tangent = &tables.posed_attributes[mirrored.tangents as usize..][..4];
+    assert_eq!(tangent, [-1.0, 0.0, 0.0, -1.0]);
+    let normal = &tables.posed_attributes[mirrored.normals as usize..][..3];
+    assert_eq!(normal, [0.0, 0.0, 1.0]);
+    assert_eq!(tables.vertex_attributes[plain.uv0 as usize..][2..4], [1.0, 0.0]);
+    assert_eq!(tables.vertex_attributes[plain.colors as usize..][..4], [1.0, 0.5, 0.25, 1.0]);
+}
+
+#[test]
+fn one_entry_for_each_texture_and_use_one_run_of_texels_for_each_image_and_encoding() {
+    let tables = pack(&scene(), DVec3::ZERO, &Parts::ALL);
+    let [masked, emissive] = tables.materials[..] else { panic!("two materials") };
+    // Base colour (sRGB), metallic-roughness (linear) and normal (linear) of one, emission (sRGB).
+    assert_eq!(tables.textures.len(), 4);
+    let texture = |slot: layout::TextureUse| tables.textures[slot.texture as usize];
+    let color = texture(masked.base_color_texture);
+    let linear = texture(masked.metallic_roughness_texture);
+    assert_eq!((color.width, color.height, color.level_count), (4, 2, 3));
+    let wraps = numbers::WRAP_MIRROR | numbers::WRAP_CLAMP << numbers::TEXTURE_WRAP_V_SHIFT;
+    assert_eq!(color.sampling, wraps | numbers::TEXTURE_LINEAR | numbers::TEXTURE_SRGB);
+    assert_eq!(linear.sampling, wraps | numbers::TEXTURE_LINEAR);
+    assert_ne!(color.first_texel, linear.first_texel);
+    assert_eq!(texture(emissive.emission_texture).level_count, 1);
+    assert_eq!(tables.texels.len(), 2 * (8 + 2 + 1) + 2 * 4);
+    assert!(tables.texels[color.first_texel as usize..][..11].iter().all(|&texel| texel == 0x6464_6464));
+    assert_eq!(masked.transmission_texture.texture, numbers::TEXTURE_NONE);
+    assert_eq!((masked.flags, masked.alpha_cutoff), (numbers::MATERIAL_ALPHA_MASK, 0.25));
+    assert_eq!(emissive.flags, numbers::MATERIAL_DOUBLE_SIDED);
+}
+
+#[test]
+fn emissive_triangles_are_chosen_by_power() {
+    let mut scene = scene();
+    // A second emissive instance, four times as large.
+    scene.instances.push(instance(1, DAffine3::from_scale(DVec3::splat(2.0))));
+    let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    let entries: Vec<_> = tables.emissive_triangles.iter().map(|e| (e.primitive, e.cumulative)).collect();
+    assert_eq!(entries, [(4, 0.1), (5, 0.2), (6, 0.6), (7, 1.0)]);
+    let first: Vec<u32> = tables.draw_shadings.iter().map(|draw| draw.first_emissive).collect();
+    assert_eq!(first, [numbers::EMISSIVE_NONE, numbers::EMISSIVE_NONE, 0, 2]);
+    // A black emission texture leaves nothing to sample.
+    scene.images[1].rgba8.fill(0);
+    let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    assert!(tables.emissive_triangles.is_empty());
+    assert!(tables.draw_shadings.iter().all(|draw| draw.first_emissive == numbers::EMISSIVE_NONE));
+    // Nor does an unlit material.
+    scene.images[1].rgba8.fill(255);
+    scene.materials[1].unlit = true;
+    assert!(pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
+}
+
+#[test]
+fn what_is_not_observed_is_not_packed() {
+    let tables = pack(&scene(), DVec3::ZERO, &Parts::VISIBILITY);
+    assert!(tables.posed_attributes.is_empty() && tables.lights.is_empty());
+    assert!(tables.emissive_triangles.is_empty() && !tables.environment.emits);
+    // The mask's texture and coordinates stay; the emissive square's coordinates go.
+    assert_eq!(tables.textures.len(), 1);
+    assert_ne!(tables.draw_shadings[0].uv0, numbers::ATTRIBUTE_NONE);
+    assert_eq!(tables.draw_shadings[2].uv0, numbers::ATTRIBUTE_NONE);
+    assert_eq!(tables.materials[0].normal_texture.texture, numbers::TEXTURE_NONE);
+    let opaque = Parts { alpha: false, ..Parts::VISIBILITY };
+    let tables = pack(&scene(), DVec3::ZERO, &opaque);
+    assert!(tables.textures.is_empty() && tables.texels.is_empty());
+    assert_eq!(tables.posed.draws[0].flags, contract::DRAW_STATIC);
+    assert_eq!(tables.materials[0].flags, 0);
+    let posed = |parts| pack(&scene(), DVec3::ZERO, &parts).posed.positions;
+    assert_eq!(posed(Parts::ALL), posed(Parts::VISIBILITY));
+}
+
+#[test]
+fn triangles_that_leave_the_range_of_f32_are_collapsed_and_counted() {
+    let mut scene = scene();
+    scene.instances[1].world_from_mesh = DAffine3::from_scale(DVec3::new(1e30, 1.0, 1.0));
+    scene.instances[2].world_from_mesh = DAffine3::from_translation(DVec3::new(f64::NAN, 0.0, 0.0));
+    let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    let posed = &tables.posed;
+    assert_eq!(posed.dropped_triangles, 4);
+    assert_eq!(posed.triangle_count(), 6, "ids do not shift");
+    assert!(posed.positions.iter().flatten().all(|x| x.is_finite() && x.abs() <= LARGEST_COORDINATE));
+    for triangle in posed.indices[6..].chunks_exact(3) {
+        assert!(triangle[0] == triangle[1] && triangle[1] == triangle[2]);
+    }
+    assert!(tables.emissive_triangles.is_empty(), "a collapsed light has no area");
+}
+
+#[test]
+fn malformed_scenes_are_errors_that_say_what_is_missing() {
+    let broken = |change: &dyn Fn(&mut Scene)| {
+        let mut scene = scene();
+        change(&mut scene);
+        match SceneTables::new(&scene, DVec3::ZERO, &Parts::ALL) {
+            Err(error @ GpuSceneError::Malformed { .. }) => error.to_string(),
+            other => panic!("expected a malformed scene, got {other:?}"),
+        }
+    };
+    assert!(broken(&|s| s.instances[0].mesh = 9).contains("mesh 9"));
+    assert!(broken(&|s| s.meshes[0].material = 7).contains("material 7"));
+    assert!(broken(&|s| s.meshes[1].indices[4] = 4).contains("vertex 4"));
+    assert!(broken(&|s| s.meshes[1].indices[4] = u32::MAX).contains("vertex"));
+    assert!(broken(&|s| s.textures[0].image = 5).contains("image 5"));
+    assert!(broken(&|s| s.materials[0].normal_texture = Some(texture_ref(3))).contains("texture 3"));
+    assert!(broken(&|s| s.images[0].rgba8.truncate(31)).contains("large"));
+    assert!(broken(&|s| s.meshes[0].normals = Some(vec![[0.0; 3]; 3])).contains("3 normals"));
+}
+
+#[test]
+fn a_scene_without_triangles_has_an_environment_and_nothing_else() {
+    let scene = Scene { environment: Environment::Constant([1.0; 3]), ..Scene::default() };
+    let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
+    let camera = Camera {
+        name: "eye".to_owned(),
+        world_from_camera: DAffine3::IDENTITY,
+        projection: Projection::Perspective { fov_y: 1.0 },
+    };
+    let frame = tables.frame(&View { camera, width: 8, height: 4, seed: 3 });
+    assert_eq!((frame.triangle_count, frame.light_count, frame.emissive_count), (0, 0, 0));
+    assert_eq!((frame.environment_sampled, frame.environment_radiance), (1, [1.0; 3]));
+    assert_eq!((frame.width, frame.height, frame.seed), (8, 4, 3));
+    assert_eq!(tables.posed.lower, [0.0; 3]);
+    assert_eq!(
+        SceneTables::default_frame_origin(&scene, DVec3::new(3.4, 0.0, 0.0)),
+        DVec3::new(3.0, 0.0, 0.0)
+    );
+}
+
+#[test]
+fn the_default_frame_origin_is_near_the_eye_and_stays_on_its_grid() {
+    let scene = scene();
+    // The scene reaches from -2 to 1e6 + 1: an eighth of that is above 2^16 metres.
+    let eye = DVec3::new(9e5, 10.0, -70_000.0);
+    let origin = SceneTables::default_frame_origin(&scene, eye);
+    assert_eq!(origin, DVec3::new(14.0 * 65_536.0, 0.0, -65_536.0));
+    assert_eq!(SceneTables::default_frame_origin(&scene, eye + DVec3::splat(3.0)), origin);
+}
+
+#[test]
+fn records_have_the_sizes_that_the_shaders_declare() {
+    assert_eq!(size_of::<layout::Draw>(), 16);
+    assert_eq!(size_of::<layout::Frame>(), 136);
+    assert_eq!(size_of::<layout::DrawShading>(), 44);
+    assert_eq!(size_of::<layout::TextureUse>(), 32);
+    assert_eq!(size_of::<layout::Material>(), 256);
+    assert_eq!(size_of::<layout::Texture>(), 20);
+    assert_eq!(size_of::<layout::Light>(), 56);
+    assert_eq!(size_of::<layout::EmissiveTriangle>(), 8);
+}
