@@ -1,0 +1,18 @@
+// What: the ambient-occlusion ray of every slot, from the surface that its camera ray met.
+// Reads: surfaces of the queue, frame (the seed). Writes: shadow rays.
+// Source: docs/shading.md, "Ambient occlusion".
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/queue.glsl"
+#include "integrators/storage.glsl"
+#include "integrators/ambient_occlusion.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+void main() {
+    uint slot;
+    if (!wave_slot(slot)) {
+        return;
+    }
+    shadow_rays[slot] = ambient_occlusion_ray(queue_surface(slot), wave_range, wave_pixel(slot), wave_sample);
+}

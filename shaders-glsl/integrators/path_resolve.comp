@@ -1,0 +1,18 @@
+// What: adds the light that was sampled in this round to every path whose shadow ray met nothing.
+// Reads: shadow rays and hits, pending radiance. Writes: path states.
+// Source: docs/shading.md, "Paths".
+#version 460
+#include "contract/extensions.glsl"
+#include "integrators/storage.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+void main() {
+    uint slot;
+    if (!wave_slot(slot)) {
+        return;
+    }
+    if (shadow_ray_is_free(slot)) {
+        path_states[slot].radiance += pending_radiance[slot];
+    }
+}

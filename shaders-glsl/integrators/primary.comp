@@ -1,0 +1,27 @@
+// What: the camera ray of every slot of a wave, through a random point of its pixel or its centre.
+// Reads: frame. Writes: rays of the queue.
+// Source: docs/shading.md, "Functions".
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/queue.glsl"
+#include "integrators/storage.glsl"
+#include "scene/camera.glsl"
+
+layout(constant_id = 93) const bool PIXEL_CENTRES = false;
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+vec2 pixel_centre(uint pixel) {
+    uint width = scene_frame().width;
+    return vec2(pixel % width, pixel / width) + 0.5;
+}
+
+void main() {
+    uint slot;
+    if (!wave_slot(slot)) {
+        return;
+    }
+    uint pixel = wave_pixel(slot);
+    vec2 position = PIXEL_CENTRES ? pixel_centre(pixel) : camera_pixel_position(pixel, wave_sample);
+    queue_set_ray(slot, camera_ray(position));
+}
