@@ -1,1 +1,86 @@
-//! rasray: gpu.
+//! Vulkan for rasray: a device made here or handed in, memory, buffers, pipelines, a recorder, timings.
+//!
+//! This crate knows no scene, no window and no ray-tracing structure. It makes Vulkan safe enough for the
+//! crates above and stays out of the way of a host that has a renderer already.
+//!
+//! # Contracts
+//!
+//! **Who owns what.** [`Device::create`] owns instance, device and queue. [`Device::from_raw`] owns none of
+//! them: the host keeps everything it hands in and destroys it after the last object made from the [`Device`]
+//! is gone. Buffers, set layouts, binding sets, pipelines and timers are cheap handles to counted values;
+//! each keeps its device alive, a binding set keeps its buffers and layout, a pipeline its set layouts. A value
+//! is destroyed when its last handle is dropped, so what a pending command buffer uses must outlive it.
+//!
+//! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
+//! [`Device::submit`], [`Device::upload`] and [`Device::download`] submit and wait with a timeout; they are for
+//! applications and tests. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
+//! Submissions keep what they use alive until the device is done with it.
+//!
+//! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission of
+//! [`Device::submit`] begins with a barrier against all earlier ones and ends with one towards host reads.
+//!
+//! **Errors.** Creation returns [`GpuError`]. Recording does not return errors: the first mistake is kept, what
+//! follows is not recorded, and [`Recorder::finish`] or the submission reports it.
+//!
+//! **After a timeout** the device may still be running the work. The device is then *abandoned*: nothing made
+//! from it is destroyed any more, and every later submission fails with [`GpuError::Abandoned`].
+//!
+//! **Threads.** All types but [`Recorder`] can be shared between threads. Submissions are serialised.
+//!
+//! # Example
+//!
+//! ```no_run
+//! use rasray_gpu::*;
+//! # fn main() -> Result<(), GpuError> {
+//! let device = Device::create(&DeviceDesc::default())?;
+//! let buffer = device.create_buffer(&BufferDesc {
+//!     name: "values",
+//!     size: 1024,
+//!     usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_DST | BufferUsage::TRANSFER_SRC,
+//!     location: MemoryLocation::Device,
+//! })?;
+//! device.submit(|recorder| {
+//!     recorder.begin_pass("clear");
+//!     recorder.fill(&buffer, 0, buffer.size(), 7);
+//!     recorder.end_pass();
+//! })?;
+//! assert!(device.download_as::<u32>(&buffer, 0, 256)?.iter().all(|&value| value == 7));
+//! # Ok(()) }
+//! ```
+
+mod access;
+mod binding;
+mod buffer;
+mod choose;
+mod core;
+mod device;
+mod error;
+mod features;
+mod instance;
+mod limits;
+mod memory;
+mod messages;
+mod pipeline;
+mod queue;
+mod raw;
+mod recorder;
+mod timers;
+mod transfer;
+
+pub use access::Access;
+pub use ash;
+pub use ash::vk;
+pub use binding::{BindingSet, BufferRange, SetLayout};
+pub use buffer::{Buffer, BufferDesc, BufferUsage, RawBuffer};
+pub use choose::{DeviceKind, DeviceSummary};
+pub use device::{Device, DeviceDesc};
+pub use error::{GpuError, Result};
+pub use features::{Feature, Requirements};
+pub use limits::Limits;
+pub use memory::{Allocation, Memory, MemoryLocation, PooledMemory};
+pub use messages::ValidationLog;
+pub use pipeline::{ComputePipeline, ComputePipelineDesc, RasterOptions, RasterPipeline, RasterPipelineDesc};
+pub use queue::{SubmitOptions, Submitted};
+pub use raw::RawDevice;
+pub use recorder::{Recorder, RenderArea};
+pub use timers::{PassTiming, TimerKind, Timers, Timing};

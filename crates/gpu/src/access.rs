@@ -1,0 +1,124 @@
+//! Kinds of memory access, for barriers.
+
+use std::ops::{BitOr, BitOrAssign};
+
+use ash::vk;
+
+/// Who touches memory, and how. Values combine with `|`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Access(u32);
+
+impl Access {
+    /// No access: only orders execution.
+    pub const NONE: Access = Access(0);
+    /// Storage buffers read by compute shaders.
+    pub const COMPUTE_READ: Access = Access(1);
+    /// Storage buffers written by compute shaders, atomics included.
+    pub const COMPUTE_WRITE: Access = Access(1 << 1);
+    /// Storage buffers read by vertex and geometry shaders.
+    pub const VERTEX_READ: Access = Access(1 << 2);
+    /// Storage buffers written by vertex and geometry shaders, atomics included.
+    pub const VERTEX_WRITE: Access = Access(1 << 3);
+    /// Storage buffers read by fragment shaders.
+    pub const FRAGMENT_READ: Access = Access(1 << 4);
+    /// Storage buffers written by fragment shaders, atomics included.
+    pub const FRAGMENT_WRITE: Access = Access(1 << 5);
+    /// Sources of copies.
+    pub const TRANSFER_READ: Access = Access(1 << 6);
+    /// Targets of copies and fills.
+    pub const TRANSFER_WRITE: Access = Access(1 << 7);
+    /// Arguments of indirect dispatches and draws.
+    pub const INDIRECT_READ: Access = Access(1 << 8);
+    /// Reads by the host after it waited.
+    pub const HOST_READ: Access = Access(1 << 9);
+    /// Writes by the host.
+    pub const HOST_WRITE: Access = Access(1 << 10);
+    /// Anything.
+    pub const ALL: Access = Access((1 << 11) - 1);
+
+    /// Reads and writes of compute shaders.
+    pub const COMPUTE: Access = Access(Self::COMPUTE_READ.0 | Self::COMPUTE_WRITE.0);
+    /// Reads and writes of fragment shaders.
+    pub const FRAGMENT: Access = Access(Self::FRAGMENT_READ.0 | Self::FRAGMENT_WRITE.0);
+    /// Reads and writes of copies and fills.
+    pub const TRANSFER: Access = Access(Self::TRANSFER_READ.0 | Self::TRANSFER_WRITE.0);
+
+    /// Whether every access of `other` is in this one.
+    pub const fn contains(self, other: Access) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// Stages and accesses as Vulkan has them. `graphics` and `geometry` say whether the queue knows those
+    /// stages.
+    pub(crate) fn scope(self, graphics: bool, geometry: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
+        use vk::{AccessFlags2 as Flags, PipelineStageFlags2 as Stages};
+        if self == Self::ALL {
+            return (Stages::ALL_COMMANDS | Stages::HOST, Flags::MEMORY_READ | Flags::MEMORY_WRITE);
+        }
+        let vertex = match (graphics, geometry) {
+            (true, true) => Stages::VERTEX_SHADER | Stages::GEOMETRY_SHADER,
+            (true, false) => Stages::VERTEX_SHADER,
+            (false, _) => Stages::NONE,
+        };
+        let fragment = if graphics { Stages::FRAGMENT_SHADER } else { Stages::NONE };
+        let table = [
+            (Self::COMPUTE_READ, Stages::COMPUTE_SHADER, Flags::SHADER_STORAGE_READ),
+            (
+                Self::COMPUTE_WRITE,
+                Stages::COMPUTE_SHADER,
+                Flags::SHADER_STORAGE_READ | Flags::SHADER_STORAGE_WRITE,
+            ),
+            (Self::VERTEX_READ, vertex, Flags::SHADER_STORAGE_READ),
+            (Self::VERTEX_WRITE, vertex, Flags::SHADER_STORAGE_READ | Flags::SHADER_STORAGE_WRITE),
+            (Self::FRAGMENT_READ, fragment, Flags::SHADER_STORAGE_READ),
+            (Self::FRAGMENT_WRITE, fragment, Flags::SHADER_STORAGE_READ | Flags::SHADER_STORAGE_WRITE),
+            (Self::TRANSFER_READ, Stages::ALL_TRANSFER, Flags::TRANSFER_READ),
+            (Self::TRANSFER_WRITE, Stages::ALL_TRANSFER, Flags::TRANSFER_WRITE),
+            (Self::INDIRECT_READ, Stages::DRAW_INDIRECT, Flags::INDIRECT_COMMAND_READ),
+            (Self::HOST_READ, Stages::HOST, Flags::HOST_READ),
+            (Self::HOST_WRITE, Stages::HOST, Flags::HOST_WRITE),
+        ];
+        let mut scope = (Stages::NONE, Flags::NONE);
+        for (access, stages, flags) in table {
+            if self.contains(access) && stages != Stages::NONE {
+                scope.0 |= stages;
+                scope.1 |= flags;
+            }
+        }
+        scope
+    }
+}
+
+impl BitOr for Access {
+    type Output = Access;
+
+    fn bitor(self, other: Access) -> Access {
+        Access(self.0 | other.0)
+    }
+}
+
+impl BitOrAssign for Access {
+    fn bitor_assign(&mut self, other: Access) {
+        self.0 |= other.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn accesses_combine_and_leave_out_stages_the_queue_lacks() {
+        let access = Access::COMPUTE_WRITE | Access::FRAGMENT_READ;
+        let (stages, flags) = access.scope(true, false);
+        assert_eq!(
+            stages,
+            vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::FRAGMENT_SHADER
+        );
+        assert!(flags.contains(vk::AccessFlags2::SHADER_STORAGE_WRITE));
+        let (stages, _) = access.scope(false, false);
+        assert_eq!(stages, vk::PipelineStageFlags2::COMPUTE_SHADER);
+        let (stages, flags) = Access::VERTEX_READ.scope(false, false);
+        assert_eq!((stages, flags), (vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE));
+    }
+}

@@ -1,0 +1,364 @@
+//! Buffers.
+
+use std::ops::{BitOr, BitOrAssign};
+use std::ptr::NonNull;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk;
+
+use crate::core::Core;
+use crate::device::Device;
+use crate::error::{GpuError, Result};
+use crate::features::Feature;
+use crate::memory::{Allocation, MemoryLocation};
+
+/// What a buffer is used for. Values combine with `|`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct BufferUsage(u32);
+
+impl BufferUsage {
+    /// Read and written by shaders; also by address where [`Feature::BufferDeviceAddress`] is enabled.
+    pub const STORAGE: BufferUsage = BufferUsage(1);
+    /// Arguments of indirect dispatches and draws.
+    pub const INDIRECT: BufferUsage = BufferUsage(1 << 1);
+    /// Source of copies and downloads.
+    pub const TRANSFER_SRC: BufferUsage = BufferUsage(1 << 2);
+    /// Target of copies, fills and uploads.
+    pub const TRANSFER_DST: BufferUsage = BufferUsage(1 << 3);
+    /// All of them.
+    pub const ALL: BufferUsage = BufferUsage((1 << 4) - 1);
+
+    /// Whether every use of `other` is in this one.
+    pub const fn contains(self, other: BufferUsage) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    fn flags(self, addresses: bool) -> vk::BufferUsageFlags {
+        let mut flags = vk::BufferUsageFlags::empty();
+        let table = [
+            (Self::STORAGE, vk::BufferUsageFlags::STORAGE_BUFFER),
+            (Self::INDIRECT, vk::BufferUsageFlags::INDIRECT_BUFFER),
+            (Self::TRANSFER_SRC, vk::BufferUsageFlags::TRANSFER_SRC),
+            (Self::TRANSFER_DST, vk::BufferUsageFlags::TRANSFER_DST),
+        ];
+        for (usage, flag) in table {
+            if self.contains(usage) {
+                flags |= flag;
+            }
+        }
+        if addresses && self.contains(Self::STORAGE) {
+            flags |= vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+        }
+        flags
+    }
+}
+
+impl BitOr for BufferUsage {
+    type Output = BufferUsage;
+
+    fn bitor(self, other: BufferUsage) -> BufferUsage {
+        BufferUsage(self.0 | other.0)
+    }
+}
+
+impl BitOrAssign for BufferUsage {
+    fn bitor_assign(&mut self, other: BufferUsage) {
+        self.0 |= other.0;
+    }
+}
+
+/// A buffer to be made.
+#[derive(Debug, Clone, Copy)]
+pub struct BufferDesc<'a> {
+    /// Name for errors and tools.
+    pub name: &'a str,
+    /// Size in bytes; 0 becomes 16, so that empty input needs no special case.
+    pub size: u64,
+    /// What it is used for; must not be empty.
+    pub usage: BufferUsage,
+    /// Who reads and writes it.
+    pub location: MemoryLocation,
+}
+
+/// A buffer of a host, see [`Device::buffer_from_raw`].
+#[derive(Debug, Clone, Copy)]
+pub struct RawBuffer<'a> {
+    /// Name for errors and tools.
+    pub name: &'a str,
+    /// The buffer.
+    pub raw: vk::Buffer,
+    /// Its size in bytes.
+    pub size: u64,
+    /// What it was made for.
+    pub usage: BufferUsage,
+}
+
+/// A buffer. Clones are handles to the same buffer.
+#[derive(Clone)]
+pub struct Buffer {
+    pub(crate) inner: Arc<BufferInner>,
+}
+
+pub(crate) struct BufferInner {
+    pub(crate) core: Arc<Core>,
+    raw: vk::Buffer,
+    name: String,
+    size: u64,
+    usage: BufferUsage,
+    address: Option<u64>,
+    /// The lock keeps host accesses of different threads apart.
+    mapped: Option<Mutex<Mapped>>,
+    /// `None` for a buffer of a host.
+    owned: Option<OwnedMemory>,
+}
+
+/// Host address of the first byte of a buffer.
+struct Mapped(NonNull<u8>);
+
+// SAFETY: the memory behind the address belongs to the buffer alone and may be touched from any thread, one at a
+// time, which the lock around this value ensures.
+unsafe impl Send for Mapped {}
+
+struct OwnedMemory {
+    allocation: Option<Allocation>,
+    bytes: u64,
+}
+
+impl std::fmt::Debug for Buffer {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Buffer").field("name", &self.name()).field("size", &self.size()).finish()
+    }
+}
+
+impl Device {
+    /// Makes a buffer. Its content is undefined.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfDeviceMemory`] with the name of the buffer, [`GpuError::InvalidUse`] if no usage is
+    /// given, or what the driver reports. That it may be too large for a storage binding is found by
+    /// [`Device::create_binding_set`].
+    pub fn create_buffer(&self, desc: &BufferDesc<'_>) -> Result<Buffer> {
+        let core = &self.core;
+        let size = if desc.size == 0 { 16 } else { desc.size };
+        let usage = desc.usage.flags(self.has(Feature::BufferDeviceAddress));
+        if usage.is_empty() {
+            return Err(GpuError::InvalidUse {
+                name: desc.name.to_owned(),
+                reason: "a buffer needs at least one usage".to_owned(),
+            });
+        }
+        if size > core.limits.max_memory_allocation {
+            return Err(GpuError::OutOfDeviceMemory {
+                name: desc.name.to_owned(),
+                asked: size,
+                limit: core.limits.max_memory_allocation,
+                allocated: self.allocated_bytes(),
+            });
+        }
+        let info =
+            vk::BufferCreateInfo::default().size(size).usage(usage).sharing_mode(vk::SharingMode::EXCLUSIVE);
+        let out_of_memory = |result| match result {
+            vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => GpuError::OutOfDeviceMemory {
+                name: desc.name.to_owned(),
+                asked: size,
+                limit: core.limits.device_local_bytes,
+                allocated: self.allocated_bytes(),
+            },
+            other => GpuError::from_vulkan(other, desc.name),
+        };
+        // SAFETY: size and usage are not empty, and the address usage is set only if its feature is enabled.
+        let raw = unsafe { core.device.create_buffer(&info, None) }.map_err(out_of_memory)?;
+        core.name_object(raw, desc.name);
+        // From here on dropping `inner` destroys the buffer and gives its memory back.
+        let mut inner = BufferInner {
+            core: core.clone(),
+            raw,
+            name: desc.name.to_owned(),
+            size,
+            usage: desc.usage,
+            address: None,
+            mapped: None,
+            owned: Some(OwnedMemory { allocation: None, bytes: 0 }),
+        };
+        // SAFETY: the buffer was just made from this device.
+        let requirements = unsafe { core.device.get_buffer_memory_requirements(raw) };
+        let allocation = core.allocate(requirements, desc.location, desc.name)?;
+        let (memory, offset, mapped) = (allocation.memory, allocation.offset, allocation.mapped);
+        inner.owned = Some(OwnedMemory { allocation: Some(allocation), bytes: requirements.size });
+        // SAFETY: the piece fulfils the requirements of the buffer (contract of `Memory`), which is unbound.
+        unsafe { core.device.bind_buffer_memory(raw, memory, offset) }.map_err(out_of_memory)?;
+        if desc.location != MemoryLocation::Device {
+            let pointer = mapped.ok_or_else(|| GpuError::InvalidUse {
+                name: desc.name.to_owned(),
+                reason: "the memory source did not map memory for the host".to_owned(),
+            })?;
+            inner.mapped = Some(Mutex::new(Mapped(pointer)));
+        }
+        inner.address = self.address_of(raw, desc.usage);
+        Ok(Buffer { inner: Arc::new(inner) })
+    }
+
+    /// Wraps a buffer of a host, so that it can be bound and recorded. It is not destroyed here, has no host
+    /// access and does not count as allocated.
+    ///
+    /// # Safety
+    /// The buffer was made from this device with exactly this size and at least this usage (with
+    /// `VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT` where [`Feature::BufferDeviceAddress`] is enabled and the
+    /// usage holds [`BufferUsage::STORAGE`]), is bound to memory, and outlives every handle of the returned
+    /// value and all work recorded with it.
+    pub unsafe fn buffer_from_raw(&self, raw: &RawBuffer<'_>) -> Buffer {
+        let inner = BufferInner {
+            core: self.core.clone(),
+            raw: raw.raw,
+            name: raw.name.to_owned(),
+            size: raw.size,
+            usage: raw.usage,
+            address: self.address_of(raw.raw, raw.usage),
+            mapped: None,
+            owned: None,
+        };
+        Buffer { inner: Arc::new(inner) }
+    }
+
+    fn address_of(&self, raw: vk::Buffer, usage: BufferUsage) -> Option<u64> {
+        if !self.has(Feature::BufferDeviceAddress) || !usage.contains(BufferUsage::STORAGE) {
+            return None;
+        }
+        let info = vk::BufferDeviceAddressInfo::default().buffer(raw);
+        // SAFETY: the feature is enabled, and the buffer has the address usage and memory.
+        Some(unsafe { self.core.device.get_buffer_device_address(&info) })
+    }
+}
+
+impl Buffer {
+    /// Name for errors and tools.
+    pub fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// Size in bytes.
+    pub fn size(&self) -> u64 {
+        self.inner.size
+    }
+
+    /// What it was made for.
+    pub fn usage(&self) -> BufferUsage {
+        self.inner.usage
+    }
+
+    /// The Vulkan buffer.
+    pub fn raw(&self) -> vk::Buffer {
+        self.inner.raw
+    }
+
+    /// Device address of the first byte, where [`Feature::BufferDeviceAddress`] is enabled and the usage holds
+    /// [`BufferUsage::STORAGE`].
+    pub fn address(&self) -> Option<u64> {
+        self.inner.address
+    }
+
+    /// Whether the host can read and write it.
+    pub fn is_host_visible(&self) -> bool {
+        self.inner.mapped.is_some()
+    }
+
+    /// Writes bytes from the host. The device must not be using the range.
+    ///
+    /// # Errors
+    /// [`GpuError::InvalidUse`] for a device-local buffer, [`GpuError::OutOfRange`] beyond its end.
+    pub fn write(&self, offset: u64, bytes: &[u8]) -> Result<()> {
+        self.check_range(offset, bytes.len() as u64)?;
+        let mapped = self.mapped()?.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the mapping spans the buffer, the range lies in it, the lock keeps other threads out, and
+        // `bytes` cannot overlap memory that only this buffer knows.
+        unsafe {
+            let target = mapped.0.as_ptr().add(offset as usize);
+            std::ptr::copy_nonoverlapping(bytes.as_ptr(), target, bytes.len());
+        }
+        Ok(())
+    }
+
+    /// Reads bytes to the host. The device must not be writing the range, and must have made its writes
+    /// visible to the host (every submission of [`Device::submit`] ends so).
+    ///
+    /// # Errors
+    /// As [`Buffer::write`].
+    pub fn read_into(&self, offset: u64, bytes: &mut [u8]) -> Result<()> {
+        self.check_range(offset, bytes.len() as u64)?;
+        let mapped = self.mapped()?.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: as in `write`, with source and target exchanged.
+        unsafe {
+            let source = mapped.0.as_ptr().add(offset as usize);
+            std::ptr::copy_nonoverlapping(source, bytes.as_mut_ptr(), bytes.len());
+        }
+        Ok(())
+    }
+
+    /// Reads `size` bytes to the host, see [`Buffer::read_into`].
+    ///
+    /// # Errors
+    /// As [`Buffer::write`].
+    pub fn read(&self, offset: u64, size: u64) -> Result<Vec<u8>> {
+        self.check_range(offset, size)?;
+        let mut bytes = vec![0; size as usize];
+        self.read_into(offset, &mut bytes)?;
+        Ok(bytes)
+    }
+
+    /// An error unless the range lies within the buffer.
+    pub(crate) fn check_range(&self, offset: u64, size: u64) -> Result<()> {
+        if offset.checked_add(size).is_some_and(|end| end <= self.size()) {
+            return Ok(());
+        }
+        Err(GpuError::OutOfRange { name: self.name().to_owned(), offset, size, buffer_size: self.size() })
+    }
+
+    /// An error unless the buffer was made for this.
+    pub(crate) fn check_usage(&self, usage: BufferUsage, what: &str) -> Result<()> {
+        if self.usage().contains(usage) {
+            return Ok(());
+        }
+        Err(GpuError::InvalidUse {
+            name: self.name().to_owned(),
+            reason: format!("was not created for {what}"),
+        })
+    }
+
+    fn mapped(&self) -> Result<&Mutex<Mapped>> {
+        self.inner.mapped.as_ref().ok_or_else(|| GpuError::InvalidUse {
+            name: self.name().to_owned(),
+            reason: "is device-local: use upload and download".to_owned(),
+        })
+    }
+}
+
+impl Drop for BufferInner {
+    fn drop(&mut self) {
+        let Some(owned) = self.owned.take() else { return };
+        if !self.core.is_usable() {
+            std::mem::forget(owned);
+            return;
+        }
+        // SAFETY: made from this device; binding sets and submissions that use it hold handles, so none is left,
+        // and embedders keep what they record alive.
+        unsafe { self.core.device.destroy_buffer(self.raw, None) };
+        if let Some(allocation) = owned.allocation {
+            // SAFETY: the only buffer bound to this piece was just destroyed.
+            unsafe { self.core.free(allocation, owned.bytes) };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_are_asked_for_only_where_enabled_and_useful() {
+        let address = vk::BufferUsageFlags::SHADER_DEVICE_ADDRESS;
+        assert!(!BufferUsage::STORAGE.flags(false).contains(address));
+        assert!(BufferUsage::STORAGE.flags(true).contains(address));
+        assert!(!BufferUsage::TRANSFER_SRC.flags(true).contains(address));
+        assert!((BufferUsage::STORAGE | BufferUsage::INDIRECT).contains(BufferUsage::INDIRECT));
+    }
+}

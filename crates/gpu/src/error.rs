@@ -1,0 +1,191 @@
+//! What can go wrong, named after the thing it happened to and with the fix where there is one.
+
+use ash::vk;
+
+use crate::features::Feature;
+
+/// Result of this crate.
+pub type Result<T> = std::result::Result<T, GpuError>;
+
+/// An error of the Vulkan layer.
+#[derive(Debug, Clone, thiserror::Error)]
+#[non_exhaustive]
+pub enum GpuError {
+    /// The Vulkan loader library could not be opened.
+    #[error("the Vulkan loader could not be loaded ({reason}): install it (Debian package libvulkan1)")]
+    LoaderMissing {
+        /// What the dynamic linker said.
+        reason: String,
+    },
+    /// The loader knows only Vulkan 1.0 or 1.1.
+    #[error("the Vulkan loader supports version {found} only: install a loader for Vulkan 1.2 or newer")]
+    LoaderTooOld {
+        /// The version found, as `major.minor`.
+        found: String,
+    },
+    /// Validation was asked for and its layer is not installed.
+    #[error(
+        "validation was asked for, but VK_LAYER_KHRONOS_validation is not installed: \
+         install the Debian package vulkan-validationlayers or switch validation off"
+    )]
+    ValidationLayerMissing,
+    /// There is no Vulkan driver or no device.
+    #[error(
+        "no Vulkan device was found: install a driver (a software one is in the Debian package \
+         mesa-vulkan-drivers)"
+    )]
+    NoDevice,
+    /// No device has the index or name asked for.
+    #[error(
+        "no Vulkan device matches `{preference}`: give an index or a part of a name from this list\n{devices}"
+    )]
+    NoMatchingDevice {
+        /// The preference as given.
+        preference: String,
+        /// One line for each device.
+        devices: String,
+    },
+    /// Devices exist, but none has what is required.
+    #[error("no Vulkan device has everything that is required:\n{devices}")]
+    NoSuitableDevice {
+        /// One line for each device, with what it lacks.
+        devices: String,
+    },
+    /// Something was used whose feature was not enabled.
+    #[error(
+        "{what} needs the device feature {feature}: add it to the requirements the device is created with"
+    )]
+    FeatureNotEnabled {
+        /// The feature that is needed.
+        feature: Feature,
+        /// What needs it.
+        what: String,
+    },
+    /// A buffer is larger than a storage buffer binding may be.
+    #[error(
+        "buffer `{name}` has {size} bytes, but a storage buffer binding ends at {limit} bytes on this device: \
+         reach it by device address or make it smaller"
+    )]
+    TooLarge {
+        /// Name of the buffer.
+        name: String,
+        /// Size of the binding in bytes.
+        size: u64,
+        /// Largest binding in bytes.
+        limit: u64,
+    },
+    /// Memory is exhausted, or the memory limit given for this device would be exceeded.
+    #[error(
+        "no memory for `{name}`: {asked} bytes asked for, {limit} bytes are the limit, {allocated} are in use"
+    )]
+    OutOfDeviceMemory {
+        /// Name of the buffer.
+        name: String,
+        /// Bytes asked for.
+        asked: u64,
+        /// Limit in bytes: the one given, else what the device can hold.
+        limit: u64,
+        /// Bytes in use through this device when it failed.
+        allocated: u64,
+    },
+    /// The driver has no host memory left.
+    #[error("the driver ran out of host memory during {during}")]
+    OutOfHostMemory {
+        /// Name of the object or pass.
+        during: String,
+    },
+    /// A device limit would be exceeded.
+    #[error("`{name}`: {what} is {asked}, but this device allows at most {limit}")]
+    LimitExceeded {
+        /// Name of the object or pass.
+        name: String,
+        /// The quantity.
+        what: &'static str,
+        /// Value asked for.
+        asked: u64,
+        /// Largest value allowed.
+        limit: u64,
+    },
+    /// A range lies outside its buffer.
+    #[error("{size} bytes at offset {offset} do not lie within buffer `{name}` of {buffer_size} bytes")]
+    OutOfRange {
+        /// Name of the buffer.
+        name: String,
+        /// Start of the range in bytes.
+        offset: u64,
+        /// Length of the range in bytes.
+        size: u64,
+        /// Size of the buffer in bytes.
+        buffer_size: u64,
+    },
+    /// Words that are no SPIR-V module.
+    #[error("shader of `{name}` is no SPIR-V module: {reason}")]
+    InvalidShader {
+        /// Name of the pipeline.
+        name: String,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// A call that the contract of this crate forbids.
+    #[error("`{name}`: {reason}")]
+    InvalidUse {
+        /// Name of the object or pass.
+        name: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The device was lost, usually by a fault in a shader or by the watchdog of the system.
+    #[error("the device was lost during {during}: a shader ran too long or touched memory it may not")]
+    DeviceLost {
+        /// Name of the object or pass.
+        during: String,
+    },
+    /// The device did not finish in time.
+    #[error(
+        "the device did not finish `{pass}` within {seconds} s: give it less work at once or a longer timeout"
+    )]
+    Timeout {
+        /// Label of the pass, or of all passes of the submission.
+        pass: String,
+        /// The timeout in seconds.
+        seconds: f64,
+    },
+    /// An earlier submission timed out, so this device takes no more work.
+    #[error("`{during}` was not submitted: an earlier submission timed out, create a new device")]
+    Abandoned {
+        /// What was to be submitted.
+        during: String,
+    },
+    /// Any other failure reported by Vulkan.
+    #[error("Vulkan reported {result} during {during}")]
+    Vulkan {
+        /// Name of the object, pass or call.
+        during: String,
+        /// The result code.
+        result: vk::Result,
+    },
+}
+
+impl GpuError {
+    /// The typed error for a result code of Vulkan; `during` names the object, pass or call.
+    pub(crate) fn from_vulkan(result: vk::Result, during: &str) -> Self {
+        let during = during.to_owned();
+        match result {
+            vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost { during },
+            vk::Result::ERROR_OUT_OF_HOST_MEMORY => Self::OutOfHostMemory { during },
+            _ => Self::Vulkan { during, result },
+        }
+    }
+}
+
+/// Turns a result of ash into one of this crate.
+pub(crate) trait During<T> {
+    /// Names the object, pass or call that failed.
+    fn during(self, what: &str) -> Result<T>;
+}
+
+impl<T> During<T> for std::result::Result<T, vk::Result> {
+    fn during(self, what: &str) -> Result<T> {
+        self.map_err(|result| GpuError::from_vulkan(result, what))
+    }
+}

@@ -1,0 +1,268 @@
+//! Device features as data: what is required, what is optional and what it buys.
+
+use std::ffi::CStr;
+use std::fmt;
+
+use ash::vk;
+
+/// A capability of a device that must be asked for before it is used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Feature {
+    /// `layout(scalar)` buffers (`scalarBlockLayout`).
+    ScalarBlockLayout,
+    /// Barriers of [`crate::Recorder`] (`synchronization2`, Vulkan 1.3 or the extension).
+    Synchronization2,
+    /// Raster pipelines without render passes (`dynamicRendering`, Vulkan 1.3 or the extension).
+    DynamicRendering,
+    /// Storage buffer writes from fragment shaders (`fragmentStoresAndAtomics`).
+    FragmentStoresAndAtomics,
+    /// Storage buffer writes from vertex shaders (`vertexPipelineStoresAndAtomics`).
+    VertexStoresAndAtomics,
+    /// Geometry shaders (`geometryShader`).
+    GeometryShader,
+    /// Several views in one draw (`multiview`).
+    Multiview,
+    /// The layer written by the vertex shader (`shaderOutputLayer`).
+    ShaderOutputLayer,
+    /// Coverage of every touched pixel by the hardware (`VK_EXT_conservative_rasterization`).
+    ConservativeRasterization,
+    /// Buffers reached by 64-bit address (`bufferDeviceAddress`).
+    BufferDeviceAddress,
+    /// 64-bit integers in shaders (`shaderInt64`).
+    ShaderInt64,
+    /// 64-bit integer atomics on storage buffers (`shaderBufferInt64Atomics`).
+    BufferInt64Atomics,
+    /// 32-bit float addition on storage buffers as an atomic (`VK_EXT_shader_atomic_float`).
+    BufferFloat32AtomicAdd,
+    /// 64-bit floats in shaders (`shaderFloat64`).
+    ShaderFloat64,
+    /// 16-bit values in storage buffers (`storageBuffer16BitAccess`).
+    StorageBuffer16Bit,
+    /// 8-bit values in storage buffers (`storageBuffer8BitAccess`).
+    StorageBuffer8Bit,
+    /// The Vulkan memory model (`vulkanMemoryModel`).
+    VulkanMemoryModel,
+    /// Basic, vote, ballot, shuffle and arithmetic subgroup operations in compute shaders.
+    SubgroupOperations,
+    /// Timestamps on the queue. Nothing has to be enabled for it: pools are reset in the command buffer.
+    TimestampQueries,
+}
+
+impl Feature {
+    /// Every feature this crate knows.
+    pub const ALL: [Feature; 19] = [
+        Self::ScalarBlockLayout,
+        Self::Synchronization2,
+        Self::DynamicRendering,
+        Self::FragmentStoresAndAtomics,
+        Self::VertexStoresAndAtomics,
+        Self::GeometryShader,
+        Self::Multiview,
+        Self::ShaderOutputLayer,
+        Self::ConservativeRasterization,
+        Self::BufferDeviceAddress,
+        Self::ShaderInt64,
+        Self::BufferInt64Atomics,
+        Self::BufferFloat32AtomicAdd,
+        Self::ShaderFloat64,
+        Self::StorageBuffer16Bit,
+        Self::StorageBuffer8Bit,
+        Self::VulkanMemoryModel,
+        Self::SubgroupOperations,
+        Self::TimestampQueries,
+    ];
+
+    /// The name Vulkan has for it, for messages and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ScalarBlockLayout => "scalarBlockLayout",
+            Self::Synchronization2 => "synchronization2",
+            Self::DynamicRendering => "dynamicRendering",
+            Self::FragmentStoresAndAtomics => "fragmentStoresAndAtomics",
+            Self::VertexStoresAndAtomics => "vertexPipelineStoresAndAtomics",
+            Self::GeometryShader => "geometryShader",
+            Self::Multiview => "multiview",
+            Self::ShaderOutputLayer => "shaderOutputLayer",
+            Self::ConservativeRasterization => "VK_EXT_conservative_rasterization",
+            Self::BufferDeviceAddress => "bufferDeviceAddress",
+            Self::ShaderInt64 => "shaderInt64",
+            Self::BufferInt64Atomics => "shaderBufferInt64Atomics",
+            Self::BufferFloat32AtomicAdd => "shaderBufferFloat32AtomicAdd",
+            Self::ShaderFloat64 => "shaderFloat64",
+            Self::StorageBuffer16Bit => "storageBuffer16BitAccess",
+            Self::StorageBuffer8Bit => "storageBuffer8BitAccess",
+            Self::VulkanMemoryModel => "vulkanMemoryModel",
+            Self::SubgroupOperations => "subgroup operations",
+            Self::TimestampQueries => "timestamp queries",
+        }
+    }
+
+    /// The extension that brings this feature to a device of the given API version; `None` where it is core.
+    pub(crate) fn extension(self, api_version: u32) -> Option<&'static CStr> {
+        match self {
+            Self::Synchronization2 if api_version < vk::API_VERSION_1_3 => {
+                Some(ash::khr::synchronization2::NAME)
+            }
+            Self::DynamicRendering if api_version < vk::API_VERSION_1_3 => {
+                Some(ash::khr::dynamic_rendering::NAME)
+            }
+            Self::ConservativeRasterization => Some(ash::ext::conservative_rasterization::NAME),
+            Self::BufferFloat32AtomicAdd => Some(ash::ext::shader_atomic_float::NAME),
+            _ => None,
+        }
+    }
+
+    /// Whether the feature is of no use without a graphics queue.
+    pub(crate) fn needs_graphics(self) -> bool {
+        matches!(
+            self,
+            Self::DynamicRendering
+                | Self::FragmentStoresAndAtomics
+                | Self::VertexStoresAndAtomics
+                | Self::GeometryShader
+                | Self::Multiview
+                | Self::ShaderOutputLayer
+                | Self::ConservativeRasterization
+        )
+    }
+
+    /// The switch of the feature; `None` where Vulkan has none.
+    pub(crate) fn switch(self, structs: &mut FeatureStructs) -> Option<&mut vk::Bool32> {
+        match self {
+            Self::ScalarBlockLayout => Some(&mut structs.v12.scalar_block_layout),
+            Self::Synchronization2 => Some(&mut structs.synchronization2.synchronization2),
+            Self::DynamicRendering => Some(&mut structs.dynamic_rendering.dynamic_rendering),
+            Self::FragmentStoresAndAtomics => Some(&mut structs.core.fragment_stores_and_atomics),
+            Self::VertexStoresAndAtomics => Some(&mut structs.core.vertex_pipeline_stores_and_atomics),
+            Self::GeometryShader => Some(&mut structs.core.geometry_shader),
+            Self::Multiview => Some(&mut structs.v11.multiview),
+            Self::ShaderOutputLayer => Some(&mut structs.v12.shader_output_layer),
+            Self::BufferDeviceAddress => Some(&mut structs.v12.buffer_device_address),
+            Self::ShaderInt64 => Some(&mut structs.core.shader_int64),
+            Self::BufferInt64Atomics => Some(&mut structs.v12.shader_buffer_int64_atomics),
+            Self::BufferFloat32AtomicAdd => Some(&mut structs.atomic_float.shader_buffer_float32_atomic_add),
+            Self::ShaderFloat64 => Some(&mut structs.core.shader_float64),
+            Self::StorageBuffer16Bit => Some(&mut structs.v11.storage_buffer16_bit_access),
+            Self::StorageBuffer8Bit => Some(&mut structs.v12.storage_buffer8_bit_access),
+            Self::VulkanMemoryModel => Some(&mut structs.v12.vulkan_memory_model),
+            Self::ConservativeRasterization | Self::SubgroupOperations | Self::TimestampQueries => None,
+        }
+    }
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// What a device must have, and what it may have.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Requirements {
+    /// A device without one of these is not chosen.
+    pub required: Vec<Feature>,
+    /// Enabled where present; with each what it buys.
+    pub optional: Vec<(Feature, &'static str)>,
+}
+
+impl Requirements {
+    /// The device floor: scalar block layout, synchronization2 and dynamic rendering.
+    pub fn floor() -> Self {
+        Self {
+            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2, Feature::DynamicRendering],
+            optional: Vec::new(),
+        }
+    }
+
+    /// These requirements and the other ones. What either requires is required, and no longer optional.
+    #[must_use]
+    pub fn merge(mut self, other: &Requirements) -> Self {
+        self.required.extend_from_slice(&other.required);
+        self.required.sort_unstable();
+        self.required.dedup();
+        self.optional.extend_from_slice(&other.optional);
+        self.optional.sort_unstable();
+        self.optional.dedup();
+        let required = &self.required;
+        self.optional.retain(|(feature, _)| !required.contains(feature));
+        self
+    }
+}
+
+/// The Vulkan structures that hold the switches.
+#[derive(Default)]
+pub(crate) struct FeatureStructs {
+    core: vk::PhysicalDeviceFeatures,
+    v11: vk::PhysicalDeviceVulkan11Features<'static>,
+    v12: vk::PhysicalDeviceVulkan12Features<'static>,
+    synchronization2: vk::PhysicalDeviceSynchronization2Features<'static>,
+    dynamic_rendering: vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
+    atomic_float: vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT<'static>,
+}
+
+impl FeatureStructs {
+    /// Calls `body` with the chain of all structures that a device of this version and with these extensions
+    /// knows.
+    pub(crate) fn with_chain<R>(
+        &mut self,
+        api_version: u32,
+        has_extension: &dyn Fn(&CStr) -> bool,
+        body: impl FnOnce(&mut vk::PhysicalDeviceFeatures2<'_>) -> R,
+    ) -> R {
+        let knows = |feature: Feature| feature.extension(api_version).is_none_or(has_extension);
+        let mut chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
+        if api_version >= vk::API_VERSION_1_2 {
+            chain = chain.push_next(&mut self.v11).push_next(&mut self.v12);
+        }
+        if knows(Feature::Synchronization2) {
+            chain = chain.push_next(&mut self.synchronization2);
+        }
+        if knows(Feature::DynamicRendering) {
+            chain = chain.push_next(&mut self.dynamic_rendering);
+        }
+        if knows(Feature::BufferFloat32AtomicAdd) {
+            chain = chain.push_next(&mut self.atomic_float);
+        }
+        let answer = body(&mut chain);
+        self.core = chain.features;
+        answer
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn merging_prefers_required_over_optional_and_removes_duplicates() {
+        let first = Requirements {
+            required: vec![Feature::ShaderInt64],
+            optional: vec![(Feature::BufferInt64Atomics, "one word per node")],
+        };
+        let second = Requirements {
+            required: vec![Feature::BufferInt64Atomics, Feature::ShaderInt64],
+            optional: vec![(Feature::ShaderInt64, "faster sort"), (Feature::ShaderFloat64, "an oracle")],
+        };
+        let both = first.merge(&second);
+        assert_eq!(both.required, [Feature::ShaderInt64, Feature::BufferInt64Atomics]);
+        assert_eq!(both.optional, [(Feature::ShaderFloat64, "an oracle")]);
+    }
+
+    #[test]
+    fn every_feature_has_its_own_name_and_switch() {
+        let mut names: Vec<_> = Feature::ALL.iter().map(|feature| feature.name()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), Feature::ALL.len());
+        let mut structs = FeatureStructs::default();
+        let mut switches: Vec<usize> = Vec::new();
+        for feature in Feature::ALL {
+            switches.extend(feature.switch(&mut structs).map(|switch| std::ptr::from_mut(switch) as usize));
+        }
+        let count = switches.len();
+        switches.sort_unstable();
+        switches.dedup();
+        assert_eq!(switches.len(), count, "two features share a switch");
+    }
+}

@@ -1,0 +1,248 @@
+//! Where the memory of buffers comes from, and how much of it is in use.
+
+use std::any::Any;
+use std::ptr::NonNull;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use ash::vk;
+use gpu_allocator::vulkan as pooled;
+
+use crate::error::{GpuError, Result};
+
+/// Who reads and writes a buffer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MemoryLocation {
+    /// Only the device.
+    Device,
+    /// The host writes, the device reads.
+    Upload,
+    /// The device writes, the host reads.
+    Readback,
+}
+
+/// A piece of device memory.
+pub struct Allocation {
+    /// The memory object.
+    pub memory: vk::DeviceMemory,
+    /// Start of the piece within it, in bytes.
+    pub offset: u64,
+    /// Host address of the piece where it is host-visible.
+    pub mapped: Option<NonNull<u8>>,
+    /// What the allocator needs to take the piece back.
+    pub token: Option<Box<dyn Any + Send + Sync>>,
+}
+
+// SAFETY: the address is only a number here; whoever reads or writes through it synchronises the accesses
+// (`Buffer` does so with a lock).
+unsafe impl Send for Allocation {}
+// SAFETY: a shared reference gives access to plain values only, see above.
+unsafe impl Sync for Allocation {}
+
+/// A source of device memory; a host may bring its own.
+///
+/// # Safety
+/// A piece returned by [`Memory::allocate`] must fulfil the requirements, belong to nobody else, stay valid and
+/// in place until it is freed, and be host-visible, host-coherent and mapped for
+/// [`MemoryLocation::Upload`] and [`MemoryLocation::Readback`]. Where
+/// [`Feature::BufferDeviceAddress`](crate::Feature::BufferDeviceAddress) is enabled, it must come from an
+/// allocation with `VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT`.
+pub unsafe trait Memory: Send + Sync {
+    /// Allocates a piece for a buffer.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfDeviceMemory`] if there is none left.
+    fn allocate(
+        &self,
+        requirements: vk::MemoryRequirements,
+        location: MemoryLocation,
+        name: &str,
+    ) -> Result<Allocation>;
+
+    /// Takes a piece back.
+    ///
+    /// # Safety
+    /// The piece came from [`Memory::allocate`] of this value, and nothing uses it any more.
+    unsafe fn free(&self, allocation: Allocation);
+}
+
+/// The memory source used unless a host brings one: blocks of 16 MiB on the device and 4 MiB on the host, shared
+/// by small buffers.
+pub struct PooledMemory {
+    allocator: Mutex<pooled::Allocator>,
+    device_local_bytes: u64,
+}
+
+impl PooledMemory {
+    const DEVICE_BLOCK_BYTES: u64 = 16 << 20;
+    const HOST_BLOCK_BYTES: u64 = 4 << 20;
+
+    /// A pool on a device; `addresses` if buffers will be reached by device address. It must be dropped before
+    /// the device is destroyed.
+    ///
+    /// # Errors
+    /// [`GpuError::InvalidUse`] with what the allocator reports.
+    pub fn new(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        device: &ash::Device,
+        addresses: bool,
+    ) -> Result<Self> {
+        let desc = pooled::AllocatorCreateDesc {
+            instance: instance.clone(),
+            device: device.clone(),
+            physical_device: physical,
+            debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
+            buffer_device_address: addresses,
+            allocation_sizes: gpu_allocator::AllocationSizes::new(
+                Self::DEVICE_BLOCK_BYTES,
+                Self::HOST_BLOCK_BYTES,
+            ),
+        };
+        let allocator = pooled::Allocator::new(&desc).map_err(|error| GpuError::InvalidUse {
+            name: "memory pool".to_owned(),
+            reason: error.to_string(),
+        })?;
+        // SAFETY: the physical device belongs to the instance.
+        let properties = unsafe { instance.get_physical_device_memory_properties(physical) };
+        let heaps = properties.memory_heaps_as_slice().iter();
+        let device_local_bytes = heaps.map(|heap| heap.size).max().unwrap_or(0);
+        Ok(Self { allocator: Mutex::new(allocator), device_local_bytes })
+    }
+
+    fn lock(&self) -> MutexGuard<'_, pooled::Allocator> {
+        self.allocator.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+// SAFETY: gpu-allocator gives out disjoint pieces that fulfil the requirements, maps host-visible blocks once for
+// their life, takes only coherent types for the two host locations, and sets the address flag on its blocks if
+// told so in `new`.
+unsafe impl Memory for PooledMemory {
+    fn allocate(
+        &self,
+        requirements: vk::MemoryRequirements,
+        location: MemoryLocation,
+        name: &str,
+    ) -> Result<Allocation> {
+        let desc = pooled::AllocationCreateDesc {
+            name,
+            requirements,
+            location: match location {
+                MemoryLocation::Device => gpu_allocator::MemoryLocation::GpuOnly,
+                MemoryLocation::Upload => gpu_allocator::MemoryLocation::CpuToGpu,
+                MemoryLocation::Readback => gpu_allocator::MemoryLocation::GpuToCpu,
+            },
+            linear: true,
+            allocation_scheme: pooled::AllocationScheme::GpuAllocatorManaged,
+        };
+        let piece = self.lock().allocate(&desc).map_err(|error| match error {
+            gpu_allocator::AllocationError::OutOfMemory => GpuError::OutOfDeviceMemory {
+                name: name.to_owned(),
+                asked: requirements.size,
+                limit: self.device_local_bytes,
+                allocated: 0,
+            },
+            other => GpuError::InvalidUse { name: name.to_owned(), reason: other.to_string() },
+        })?;
+        // SAFETY: the handle is only used to bind a buffer to it, and freed with the piece.
+        let memory = unsafe { piece.memory() };
+        let mapped = match location {
+            MemoryLocation::Device => None,
+            MemoryLocation::Upload | MemoryLocation::Readback => piece.mapped_ptr().map(NonNull::cast),
+        };
+        Ok(Allocation { memory, offset: piece.offset(), mapped, token: Some(Box::new(piece)) })
+    }
+
+    unsafe fn free(&self, allocation: Allocation) {
+        let Some(Ok(piece)) = allocation.token.map(|token| token.downcast::<pooled::Allocation>()) else {
+            tracing::error!("memory was given back to a pool that it does not come from; it is leaked");
+            return;
+        };
+        if let Err(error) = self.lock().free(*piece) {
+            tracing::error!("memory could not be given back: {error}");
+        }
+    }
+}
+
+/// How much memory is in use, and how much may be.
+pub(crate) struct Ledger {
+    totals: Mutex<Totals>,
+}
+
+struct Totals {
+    allocated: u64,
+    peak: u64,
+    limit: Option<u64>,
+}
+
+impl Ledger {
+    pub(crate) fn new(limit: Option<u64>) -> Self {
+        Self { totals: Mutex::new(Totals { allocated: 0, peak: 0, limit }) }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Totals> {
+        self.totals.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Enters `bytes`, unless they exceed the limit.
+    pub(crate) fn reserve(&self, name: &str, bytes: u64) -> Result<()> {
+        let mut totals = self.lock();
+        let after = totals.allocated.saturating_add(bytes);
+        if let Some(limit) = totals.limit.filter(|limit| after > *limit) {
+            return Err(GpuError::OutOfDeviceMemory {
+                name: name.to_owned(),
+                asked: bytes,
+                limit,
+                allocated: totals.allocated,
+            });
+        }
+        totals.allocated = after;
+        totals.peak = totals.peak.max(after);
+        Ok(())
+    }
+
+    pub(crate) fn release(&self, bytes: u64) {
+        let mut totals = self.lock();
+        totals.allocated = totals.allocated.saturating_sub(bytes);
+    }
+
+    pub(crate) fn allocated(&self) -> u64 {
+        self.lock().allocated
+    }
+
+    pub(crate) fn peak(&self) -> u64 {
+        self.lock().peak
+    }
+
+    pub(crate) fn reset_peak(&self) {
+        let mut totals = self.lock();
+        totals.peak = totals.allocated;
+    }
+
+    pub(crate) fn set_limit(&self, limit: Option<u64>) {
+        self.lock().limit = limit;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ledger_keeps_total_peak_and_limit() {
+        let ledger = Ledger::new(Some(100));
+        assert!(ledger.reserve("first", 60).is_ok());
+        let error = ledger.reserve("second", 41).expect_err("the limit is 100");
+        assert!(
+            matches!(&error, GpuError::OutOfDeviceMemory { name, asked: 41, limit: 100, allocated: 60 } if name == "second"),
+            "{error:?}"
+        );
+        assert!(ledger.reserve("third", 40).is_ok());
+        ledger.release(60);
+        assert_eq!((ledger.allocated(), ledger.peak()), (40, 100));
+        ledger.reset_peak();
+        assert_eq!(ledger.peak(), 40);
+        ledger.set_limit(None);
+        assert!(ledger.reserve("fourth", 1000).is_ok());
+    }
+}

@@ -1,0 +1,71 @@
+//! What the validation layer said, kept for tests and logged for people.
+
+use std::ffi::{CStr, c_void};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk;
+
+/// Warnings and errors of the validation layer, in order. Clones share one list, which outlives the device.
+#[derive(Debug, Clone, Default)]
+pub struct ValidationLog {
+    messages: Arc<Mutex<Vec<String>>>,
+}
+
+impl ValidationLog {
+    /// All messages so far.
+    pub fn messages(&self) -> Vec<String> {
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    fn push(&self, message: String) {
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).push(message);
+    }
+}
+
+/// The messenger that writes into `log`, which must stay where it is until the instance is gone.
+pub(crate) fn messenger_info(log: &ValidationLog) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+    vk::DebugUtilsMessengerCreateInfoEXT::default()
+        .message_severity(
+            vk::DebugUtilsMessageSeverityFlagsEXT::WARNING | vk::DebugUtilsMessageSeverityFlagsEXT::ERROR,
+        )
+        // General messages come from the loader (drivers it could not open) and say nothing about our calls.
+        .message_type(
+            vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION | vk::DebugUtilsMessageTypeFlagsEXT::PERFORMANCE,
+        )
+        .pfn_user_callback(Some(receive))
+        .user_data(std::ptr::from_ref(log).cast_mut().cast())
+}
+
+/// Called by Vulkan for each message.
+///
+/// # Safety
+/// `data` is null or valid for the call, and `user` is null or points to a live [`ValidationLog`].
+unsafe extern "system" fn receive(
+    severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
+    data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    user: *mut c_void,
+) -> vk::Bool32 {
+    if data.is_null() || user.is_null() {
+        return vk::FALSE;
+    }
+    // SAFETY: not null, and Vulkan keeps it valid during the call.
+    let data = unsafe { &*data };
+    // SAFETY: not null, and `messenger_info` requires the log to outlive the instance.
+    let log = unsafe { &*user.cast::<ValidationLog>() };
+    let text = |pointer: *const std::ffi::c_char| {
+        if pointer.is_null() {
+            return String::new();
+        }
+        // SAFETY: not null, and Vulkan passes NUL-terminated strings that live during the call.
+        unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned()
+    };
+    let message = format!("{}: {}", text(data.p_message_id_name), text(data.p_message));
+    if severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR) {
+        tracing::error!(target: "rasray_gpu::validation", "{message}");
+    } else {
+        tracing::warn!(target: "rasray_gpu::validation", "{message}");
+    }
+    log.push(message);
+    vk::FALSE
+}

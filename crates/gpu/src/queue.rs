@@ -1,0 +1,223 @@
+//! Submitting and waiting, for applications and tests.
+
+use std::sync::{Arc, PoisonError};
+use std::time::{Duration, Instant};
+
+use ash::vk;
+
+use crate::access::Access;
+use crate::core::Core;
+use crate::device::Device;
+use crate::error::{During, GpuError, Result};
+use crate::recorder::Recorder;
+use crate::timers::{PassTiming, Timing};
+
+/// How work is submitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SubmitOptions {
+    /// Whether and how passes are timed.
+    pub timing: Timing,
+    /// How long to wait for the device. With [`Timing::Host`] it holds for each pass by itself.
+    pub timeout: Duration,
+}
+
+impl Default for SubmitOptions {
+    /// No timing, 60 seconds.
+    fn default() -> Self {
+        Self { timing: Timing::None, timeout: Duration::from_secs(60) }
+    }
+}
+
+/// What a finished submission returns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Submitted<R> {
+    /// What the recording function returned.
+    pub value: R,
+    /// Times of the passes in order; empty with [`Timing::None`].
+    pub passes: Vec<PassTiming>,
+}
+
+impl Device {
+    /// Records commands, submits them and waits up to 60 seconds.
+    ///
+    /// # Errors
+    /// The first mistake of the recording, [`GpuError::Timeout`], [`GpuError::DeviceLost`],
+    /// [`GpuError::Abandoned`], or what the driver reports.
+    pub fn submit<R>(&self, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<Submitted<R>> {
+        self.submit_with(&SubmitOptions::default(), record)
+    }
+
+    /// As [`Device::submit`], with times of the passes.
+    ///
+    /// # Errors
+    /// As [`Device::submit`], and [`GpuError::FeatureNotEnabled`] for [`Timing::Device`] on a queue without
+    /// timestamps.
+    pub fn submit_passes<R>(
+        &self,
+        timing: Timing,
+        record: impl FnOnce(&mut Recorder<'_>) -> R,
+    ) -> Result<Submitted<R>> {
+        self.submit_with(&SubmitOptions { timing, ..SubmitOptions::default() }, record)
+    }
+
+    /// As [`Device::submit`], with options.
+    ///
+    /// With [`Timing::Host`] every pass becomes a submission of its own; bound pipeline, sets and push constants
+    /// go on across it.
+    ///
+    /// # Errors
+    /// As [`Device::submit_passes`].
+    pub fn submit_with<R>(
+        &self,
+        options: &SubmitOptions,
+        record: impl FnOnce(&mut Recorder<'_>) -> R,
+    ) -> Result<Submitted<R>> {
+        const TIMED_PASSES: u32 = 1024;
+        let timers = match options.timing {
+            Timing::Device => Some(self.create_timers(TIMED_PASSES)?),
+            Timing::None | Timing::Host => None,
+        };
+        let work = OneTime::create(self, options.timeout)?;
+        work.begin(self)?;
+        let split = options.timing == Timing::Host;
+        let mut recorder = Recorder::for_submission(self, &work, timers.clone(), split);
+        recorder.emit_barrier(Access::ALL, Access::ALL);
+        let value = record(&mut recorder);
+        recorder.emit_host_barrier();
+        let mut completed = recorder.complete();
+        if let Some(error) = completed.error.take() {
+            return Err(error);
+        }
+        let during = match completed.labels.as_slice() {
+            _ if split => "work after the last pass".to_owned(),
+            [] => "work without a pass".to_owned(),
+            labels => labels.join(", "),
+        };
+        work.run(self, &during)?;
+        let mut passes = std::mem::take(&mut completed.timings);
+        if let Some(timers) = timers {
+            passes = timers.read()?;
+            if passes.len() < completed.labels.len() {
+                tracing::warn!(
+                    "{} of {} passes were not timed",
+                    completed.labels.len() - passes.len(),
+                    completed.labels.len()
+                );
+            }
+        }
+        Ok(Submitted { value, passes })
+    }
+}
+
+/// A command buffer that is recorded, submitted and waited for, once or repeatedly.
+pub(crate) struct OneTime {
+    core: Arc<Core>,
+    pool: vk::CommandPool,
+    command: vk::CommandBuffer,
+    fence: vk::Fence,
+    timeout: Duration,
+}
+
+impl OneTime {
+    pub(crate) fn create(device: &Device, timeout: Duration) -> Result<Self> {
+        let core = &device.core;
+        if !core.is_usable() {
+            return Err(GpuError::Abandoned { during: "new work".to_owned() });
+        }
+        let info = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(core.queue_family);
+        // SAFETY: the family exists.
+        let pool =
+            unsafe { core.device.create_command_pool(&info, None) }.during("creation of a command pool")?;
+        // From here on dropping `work` destroys what was made; null handles are ignored.
+        let mut work = Self {
+            core: core.clone(),
+            pool,
+            command: vk::CommandBuffer::null(),
+            fence: vk::Fence::null(),
+            timeout,
+        };
+        let info = vk::CommandBufferAllocateInfo::default()
+            .command_pool(pool)
+            .level(vk::CommandBufferLevel::PRIMARY)
+            .command_buffer_count(1);
+        // SAFETY: the pool is fresh.
+        let commands =
+            unsafe { core.device.allocate_command_buffers(&info) }.during("creation of a command buffer")?;
+        work.command = commands.first().copied().unwrap_or_default();
+        // SAFETY: no conditions.
+        work.fence = unsafe { core.device.create_fence(&vk::FenceCreateInfo::default(), None) }
+            .during("creation of a fence")?;
+        Ok(work)
+    }
+
+    pub(crate) fn command(&self) -> vk::CommandBuffer {
+        self.command
+    }
+
+    /// Starts recording; the command buffer is fresh or was waited for.
+    pub(crate) fn begin(&self, device: &Device) -> Result<()> {
+        let raw = device.raw();
+        // SAFETY: no command buffer of the pool is pending, see above.
+        unsafe { raw.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty()) }
+            .during("reset of a command pool")?;
+        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the command buffer is in its initial state.
+        unsafe { raw.begin_command_buffer(self.command, &info) }.during("begin of a command buffer")
+    }
+
+    /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
+    /// names the work in errors. After a timeout the device is abandoned.
+    pub(crate) fn run(&self, device: &Device, during: &str) -> Result<Duration> {
+        let raw = device.raw();
+        if !self.core.is_usable() {
+            return Err(GpuError::Abandoned { during: during.to_owned() });
+        }
+        // SAFETY: the command buffer is being recorded.
+        unsafe { raw.end_command_buffer(self.command) }.during(during)?;
+        let commands = [self.command];
+        let submit = vk::SubmitInfo::default().command_buffers(&commands);
+        let start = Instant::now();
+        {
+            let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
+            // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
+            // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
+            unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during(during)?;
+        }
+        let timeout = u64::try_from(self.timeout.as_nanos()).unwrap_or(u64::MAX - 1).min(u64::MAX - 1);
+        // SAFETY: the fence belongs to the submission above.
+        match unsafe { raw.wait_for_fences(&[self.fence], true, timeout) } {
+            Ok(()) => {}
+            Err(vk::Result::TIMEOUT) => {
+                self.core.abandon();
+                let seconds = self.timeout.as_secs_f64();
+                return Err(GpuError::Timeout { pass: during.to_owned(), seconds });
+            }
+            Err(vk::Result::ERROR_DEVICE_LOST) => {
+                return Err(GpuError::DeviceLost { during: during.to_owned() });
+            }
+            Err(other) => {
+                // Whether the work still runs is unknown, so nothing it uses may be destroyed.
+                self.core.abandon();
+                return Err(GpuError::from_vulkan(other, during));
+            }
+        }
+        let elapsed = start.elapsed();
+        // SAFETY: the fence is signalled, and nothing waits for it.
+        unsafe { raw.reset_fences(&[self.fence]) }.during(during)?;
+        Ok(elapsed)
+    }
+}
+
+impl Drop for OneTime {
+    fn drop(&mut self) {
+        if self.core.is_usable() {
+            // SAFETY: the work was waited for or never submitted. Null is ignored.
+            unsafe {
+                self.core.device.destroy_fence(self.fence, None);
+                self.core.device.destroy_command_pool(self.pool, None);
+            }
+        }
+    }
+}

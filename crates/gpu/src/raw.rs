@@ -1,0 +1,88 @@
+//! A device that a host made, for structures that run inside somebody else's renderer.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::choose::Candidate;
+use crate::device::{Device, Parts};
+use crate::error::{GpuError, Result};
+use crate::features::Feature;
+use crate::memory::Memory;
+use crate::messages::ValidationLog;
+
+/// A device of a host, with what this crate must know about it. The host keeps ownership of every handle.
+#[derive(Clone)]
+pub struct RawDevice {
+    /// The instance the device was made from.
+    pub instance: ash::Instance,
+    /// The physical device.
+    pub physical: vk::PhysicalDevice,
+    /// The device.
+    pub device: ash::Device,
+    /// Queue used by [`Device::submit`] and its relatives; null if those are never called.
+    pub queue: vk::Queue,
+    /// Family of the command buffers that will be recorded into; it must support compute.
+    pub queue_family: u32,
+    /// The Vulkan version the host asked for when it made the instance, as in `VkApplicationInfo`.
+    pub api_version: u32,
+    /// Features the host enabled; at least [`Feature::Synchronization2`].
+    pub enabled: Vec<Feature>,
+    /// Whether the host enabled `VK_EXT_debug_utils`; names and labels are then set.
+    pub debug_utils: bool,
+    /// Cache used for all pipelines, or null.
+    pub pipeline_cache: vk::PipelineCache,
+    /// Where memory comes from; without it this crate allocates by itself.
+    pub memory: Option<Arc<dyn Memory>>,
+    /// Limit of the memory allocated through this device, in bytes.
+    pub memory_limit: Option<u64>,
+}
+
+impl Device {
+    /// Adopts a device of a host. Nothing in `raw` is destroyed by this crate.
+    ///
+    /// # Safety
+    /// - Instance, physical device, device, queue, queue family and pipeline cache belong together and are
+    ///   valid until the last object made from the returned device is dropped.
+    /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is one),
+    ///   and `debug_utils` is true only if that extension is enabled.
+    /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`] or [`Device::download`]
+    ///   run, and the pipeline cache is not externally synchronised or not used while pipelines are created.
+    ///
+    /// # Errors
+    /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if a
+    /// feature in it is not supported by the device or the queue family cannot compute.
+    pub unsafe fn from_raw(raw: RawDevice) -> Result<Device> {
+        // SAFETY: the caller vouches that the physical device belongs to the instance.
+        let candidate = unsafe { Candidate::inspect(&raw.instance, raw.physical, Some(raw.queue_family)) }?;
+        let invalid = |reason: String| GpuError::InvalidUse { name: candidate.name.clone(), reason };
+        let api_version = raw.api_version.min(candidate.api_version);
+        if !candidate.is_usable() || api_version < vk::API_VERSION_1_2 {
+            return Err(invalid("Vulkan 1.2 and a queue family that computes are needed".to_owned()));
+        }
+        if !raw.enabled.contains(&Feature::Synchronization2) {
+            return Err(GpuError::FeatureNotEnabled {
+                feature: Feature::Synchronization2,
+                what: "recording barriers".to_owned(),
+            });
+        }
+        if let Some(feature) = raw.enabled.iter().find(|feature| !candidate.present.contains(feature)) {
+            return Err(invalid(format!("{feature} is said to be enabled, but the device does not have it")));
+        }
+        Self::assemble(Parts {
+            instance: raw.instance,
+            owned: None,
+            log: ValidationLog::default(),
+            candidate: &candidate,
+            device: raw.device,
+            queue: Some(raw.queue),
+            enabled: raw.enabled.into_iter().collect(),
+            debug_utils: raw.debug_utils,
+            pipeline_cache: raw.pipeline_cache,
+            memory: raw.memory,
+            memory_limit: raw.memory_limit,
+            api_version,
+            why_chosen: "handed in by the host".to_owned(),
+        })
+    }
+}

@@ -1,0 +1,179 @@
+//! How long passes take.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use ash::vk;
+
+use crate::core::Core;
+use crate::device::Device;
+use crate::error::{During, GpuError, Result};
+
+/// Whether and how passes are timed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Timing {
+    /// Not at all.
+    #[default]
+    None,
+    /// By timestamps of the device, all passes in one submission. Passes that no barrier separates overlap.
+    Device,
+    /// By the clock of the host, with a submission and a wait for every pass. A time includes what a submission costs.
+    Host,
+}
+
+/// What measured a time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TimerKind {
+    /// Timestamps of the device.
+    Device,
+    /// The clock of the host, around submission and wait.
+    Host,
+}
+
+/// The time of one pass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PassTiming {
+    /// Label of the pass.
+    pub label: String,
+    /// Its time in milliseconds.
+    pub milliseconds: f64,
+    /// What measured it.
+    pub timer: TimerKind,
+}
+
+/// Timestamps for the passes of one recording. Clones are handles to the same timers.
+#[derive(Clone)]
+pub struct Timers {
+    inner: Arc<TimersInner>,
+}
+
+struct TimersInner {
+    core: Arc<Core>,
+    pool: vk::QueryPool,
+    capacity: u32,
+    labels: Mutex<Vec<String>>,
+}
+
+impl std::fmt::Debug for Timers {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Timers").field("capacity", &self.inner.capacity).finish_non_exhaustive()
+    }
+}
+
+impl Device {
+    /// The timing that gives true times on this device: the host's clock on software drivers and on queues
+    /// without timestamps, the device's elsewhere.
+    pub fn best_timing(&self) -> Timing {
+        if self.is_software() || self.limits().timestamp_valid_bits == 0 {
+            Timing::Host
+        } else {
+            Timing::Device
+        }
+    }
+
+    /// Timers for up to `capacity` passes; further passes are not timed.
+    ///
+    /// # Errors
+    /// [`GpuError::FeatureNotEnabled`] if the queue has no timestamps, or what the driver reports.
+    pub fn create_timers(&self, capacity: u32) -> Result<Timers> {
+        let core = &self.core;
+        if core.limits.timestamp_valid_bits == 0 {
+            return Err(GpuError::FeatureNotEnabled {
+                feature: crate::Feature::TimestampQueries,
+                what: "timing by the device".to_owned(),
+            });
+        }
+        let capacity = capacity.clamp(1, u32::MAX / 2);
+        let info =
+            vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2 * capacity);
+        // SAFETY: a pool of timestamps has no further conditions.
+        let pool = unsafe { core.device.create_query_pool(&info, None) }.during("creation of timers")?;
+        core.name_object(pool, "timers");
+        let labels = Mutex::new(Vec::new());
+        Ok(Timers { inner: Arc::new(TimersInner { core: core.clone(), pool, capacity, labels }) })
+    }
+}
+
+impl Timers {
+    /// The times of the passes recorded with these timers, in order, and forgets them. The caller has waited
+    /// for the recorded commands.
+    ///
+    /// # Errors
+    /// [`GpuError::Vulkan`] with `NOT_READY` if the commands were not submitted or not waited for.
+    pub fn read(&self) -> Result<Vec<PassTiming>> {
+        let inner = &self.inner;
+        let mut labels = inner.labels.lock().unwrap_or_else(PoisonError::into_inner);
+        if labels.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut ticks = vec![0_u64; 2 * labels.len()];
+        // SAFETY: every query read was recorded; the buffer holds one 64-bit value for each.
+        unsafe {
+            inner.core.device.get_query_pool_results(inner.pool, 0, &mut ticks, vk::QueryResultFlags::TYPE_64)
+        }
+        .during("reading timestamps")?;
+        let limits = &inner.core.limits;
+        let mask =
+            if limits.timestamp_valid_bits >= 64 { u64::MAX } else { (1 << limits.timestamp_valid_bits) - 1 };
+        let times = std::mem::take(&mut *labels).into_iter().zip(ticks.chunks_exact(2));
+        Ok(times
+            .map(|(label, ticks)| {
+                let elapsed = ticks[1].wrapping_sub(ticks[0]) & mask;
+                let milliseconds = elapsed as f64 * f64::from(limits.timestamp_period) * 1e-6;
+                PassTiming { label, milliseconds, timer: TimerKind::Device }
+            })
+            .collect())
+    }
+
+    /// What a submission keeps until the device is done.
+    pub(crate) fn kept(&self) -> Arc<dyn std::any::Any + Send + Sync> {
+        self.inner.clone()
+    }
+
+    /// Records the start of a pass; `None` if all timers are taken.
+    ///
+    /// # Safety
+    /// `command` is being recorded, outside of rendering.
+    pub(crate) unsafe fn begin(&self, command: vk::CommandBuffer, label: &str) -> Option<u32> {
+        let inner = &self.inner;
+        let mut labels = inner.labels.lock().unwrap_or_else(PoisonError::into_inner);
+        let index = u32::try_from(labels.len()).ok().filter(|index| *index < inner.capacity)?;
+        labels.push(label.to_owned());
+        // SAFETY: the caller vouches for the command buffer; the queries lie within the pool.
+        unsafe {
+            inner.core.device.cmd_reset_query_pool(command, inner.pool, 2 * index, 2);
+            inner.core.device.cmd_write_timestamp(
+                command,
+                vk::PipelineStageFlags::TOP_OF_PIPE,
+                inner.pool,
+                2 * index,
+            );
+        }
+        Some(index)
+    }
+
+    /// Records the end of a pass.
+    ///
+    /// # Safety
+    /// `command` is the one in which the pass was begun with this `index`, outside of rendering.
+    pub(crate) unsafe fn end(&self, command: vk::CommandBuffer, index: u32) {
+        // SAFETY: the caller vouches for the command buffer; the query lies within the pool and was reset.
+        unsafe {
+            self.inner.core.device.cmd_write_timestamp(
+                command,
+                vk::PipelineStageFlags::BOTTOM_OF_PIPE,
+                self.inner.pool,
+                2 * index + 1,
+            );
+        }
+    }
+}
+
+impl Drop for TimersInner {
+    fn drop(&mut self) {
+        if self.core.is_usable() {
+            // SAFETY: submissions that use the pool hold a handle to it, so none is pending; embedders keep what
+            // they record alive.
+            unsafe { self.core.device.destroy_query_pool(self.pool, None) };
+        }
+    }
+}
