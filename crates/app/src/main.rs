@@ -1,2 +1,7 @@
 //! The `rasray` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(rasray_app::run(std::env::args_os(), &mut rasray_app::backend::open))
+}

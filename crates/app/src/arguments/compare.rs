@@ -1,0 +1,63 @@
+//! Options of `rasray compare`.
+
+use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
+use crate::backend::RaySet;
+use crate::structure::{Preset, StructureOptions, SystemName};
+use clap::Args;
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  rasray compare cornell --systems mmrt,brute-force
+  rasray compare spheres:10k --systems mmrt --presets published,robust --ray-set incoherent,bounce
+  rasray compare scene.glb --systems mmrt,brute-force --buckets 8 mmrt.storage=sb --report r.json
+  rasray compare cornell --systems mmrt --image --size 256x256 --spp 64 --report r.json
+
+Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
+program can decide are counted apart. An option goes to the systems that have it; SYSTEM.OPTION=VALUE
+addresses one. Times of software devices are for ratios on that device.";
+
+/// Options of `rasray compare`.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct CompareArguments {
+    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// Options for one system, such as mmrt.storage=sb
+    #[arg(value_name = "SYSTEM.OPTION=VALUE")]
+    pub assignments: Vec<String>,
+    /// What is compared
+    #[arg(long, value_enum, value_delimiter = ',', required = true)]
+    pub systems: Vec<SystemName>,
+    /// How closely the systems follow their papers; each takes part with the presets that it has
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "robust")]
+    pub presets: Vec<Preset>,
+    /// Where the rays come from
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "incoherent,camera")]
+    pub ray_set: Vec<RaySet>,
+    /// Rays per set
+    #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    pub rays: u32,
+    /// Also render an image with each system and compare it with the reference
+    #[arg(long)]
+    pub image: bool,
+    /// JSON with everything that was measured
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// The image and what light does; the size also shapes the camera's rays.
+    #[command(flatten)]
+    pub frame: FrameArguments,
+    /// From where.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// How the scene is read.
+    #[command(flatten)]
+    pub reading: SceneArguments,
+    /// Options of the structures.
+    #[command(flatten)]
+    pub structure: StructureOptions,
+    /// Where the work is done.
+    #[command(flatten)]
+    pub device: DeviceArguments,
+}

@@ -1,0 +1,114 @@
+//! The command line: what can be said, and how mistakes are answered.
+
+mod compare;
+mod info;
+mod render;
+mod shared;
+pub mod values;
+
+pub use compare::CompareArguments;
+pub use info::InfoArguments;
+pub use render::{Aov, RenderArguments};
+pub use shared::{DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, ViewArguments};
+
+use crate::error::{AppError, one_line};
+use clap::{Parser, Subcommand, error::ErrorKind};
+use std::ffi::OsString;
+
+const ABOUT: &str = "Traces rays through structures that the rasterizer builds, on any Vulkan 1.2 device.";
+
+const AFTER_HELP: &str = "\
+Examples:
+  rasray render cornell --output cornell.png
+  rasray render scene.glb --integrator ao --ao-distance 2 --spp 64 --output ao.exr
+  rasray compare spheres:10k --systems mmrt,brute-force --rays 20000 --report r.json
+  rasray info scene.glb
+
+A scene is a file (.gltf .glb .obj .ply) or a built-in with parameters (cornell, spheres:300k).
+
+Exit codes:
+  0    done
+  2    bad input or usage
+  3    no suitable device, or the device failed
+  4    refused to lose data: the result could not be written, or was not complete
+  130  stopped by SIGINT or SIGTERM; what was finished is written, unless stopped twice
+
+RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug.";
+
+/// The whole command line.
+#[derive(Debug, Parser)]
+#[command(name = "rasray", version = crate::version_text(), about = ABOUT, after_help = AFTER_HELP)]
+#[command(arg_required_else_help = true, disable_help_subcommand = true)]
+pub struct CommandLine {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What the command can do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene to an image
+    Render(Box<RenderArguments>),
+    /// Trace the same rays through several systems and judge speed and error
+    Compare(Box<CompareArguments>),
+    /// Show the device, or what a scene holds and needs
+    Info(InfoArguments),
+}
+
+/// What parsing gave when there is no command to run.
+#[derive(Debug)]
+pub enum Refusal {
+    /// Help or version was asked for: text for stdout.
+    Text(String),
+    /// The command line is wrong.
+    Error(AppError),
+}
+
+/// Parses a command line, program name first.
+///
+/// # Errors
+/// Help and version as text; everything else as a usage error.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Refusal> {
+    match CommandLine::try_parse_from(arguments) {
+        Ok(line) => Ok(line.command),
+        Err(error) => Err(match error.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
+            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Refusal::Error(AppError::usage(
+                "nothing was asked for",
+                "say render, compare or info; 'rasray --help' explains them, with examples",
+            )),
+            _ => Refusal::Error(usage_error(&error, "")),
+        }),
+    }
+}
+
+/// Turns an answer of the parser into one line of error and one of help.
+pub(crate) fn usage_error(error: &clap::Error, prefix: &str) -> AppError {
+    let text = error.render().to_string();
+    let (mut message, mut help) = (String::new(), String::new());
+    for paragraph in text.split("\n\n") {
+        let paragraph = paragraph.trim();
+        if let Some(rest) = paragraph.strip_prefix("error: ") {
+            message = one_line(rest);
+        } else if paragraph.starts_with("tip: ") {
+            let tips = paragraph.lines().filter_map(|line| line.trim().strip_prefix("tip: "));
+            help = tips.collect::<Vec<_>>().join("; ");
+        }
+    }
+    if help.is_empty() {
+        let usage = text.lines().find_map(|line| line.strip_prefix("Usage: rasray "));
+        let command =
+            usage.and_then(|line| line.split_whitespace().next()).filter(|word| !word.starts_with('['));
+        help = match command {
+            Some(command) if !command.starts_with('<') => {
+                format!("'rasray {command} --help' lists what it takes")
+            }
+            _ => "'rasray --help' lists what there is".to_owned(),
+        };
+    }
+    AppError::usage(format!("{prefix}{message}"), help)
+}
+
+#[cfg(test)]
+mod tests;

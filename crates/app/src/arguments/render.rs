@@ -1,0 +1,88 @@
+//! Options of `rasray render`.
+
+use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
+use super::values;
+use crate::backend::AovSelection;
+use crate::structure::{Preset, StructureOptions, SystemName};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  rasray render cornell --output cornell.png
+  rasray render scene.glb --size 1280x720 --spp 256 --bounces 5 --output scene.exr
+  rasray render scene.glb --integrator ao --ao-distance 2 --output ao.exr --aov depth,normal,primitive
+  rasray render scene.obj --eye 0,1.6,4 --target 0,1,0 --fov 60 --environment 1,1,1 --output view.png
+  rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
+
+PNG holds 8-bit sRGB: colours times 2^exposure, clamped to [0, 1], then the sRGB curve; no other tone
+mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
+Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id (triangle, 4294967295:
+miss). Files are written beside their place and renamed, so a file there is always whole.
+
+SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130. A second one stops at
+once and writes nothing.";
+
+/// Options of `rasray render`.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct RenderArguments {
+    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    #[arg(value_name = "SCENE")]
+    pub scene: String,
+    /// What rays are traced through
+    #[arg(long, value_enum, default_value_t = SystemName::Mmrt)]
+    pub system: SystemName,
+    /// How closely the system follows its paper
+    #[arg(long, value_enum, default_value_t = Preset::Robust)]
+    pub preset: Preset,
+    /// Image to write: .png or .exr
+    #[arg(long, short, value_name = "FILE", required_unless_present = "report")]
+    pub output: Option<PathBuf>,
+    /// Images beside the colours, kept in the .exr
+    #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
+    pub aov: Vec<Aov>,
+    /// Stops of exposure for .png
+    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, requires = "output")]
+    pub exposure: Option<f32>,
+    /// JSON with times, bytes and counts
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// The image and what light does.
+    #[command(flatten)]
+    pub frame: FrameArguments,
+    /// From where.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// How the scene is read.
+    #[command(flatten)]
+    pub reading: SceneArguments,
+    /// Options of the structure.
+    #[command(flatten)]
+    pub structure: StructureOptions,
+    /// Where the work is done.
+    #[command(flatten)]
+    pub device: DeviceArguments,
+}
+
+/// Images beside the colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Aov {
+    /// Z: metres from the eye along the ray
+    Depth,
+    /// N.X N.Y N.Z: geometric normal
+    Normal,
+    /// id: global triangle id
+    Primitive,
+}
+
+impl RenderArguments {
+    /// The images wanted beside the colours.
+    pub fn aovs(&self) -> AovSelection {
+        AovSelection {
+            depth: self.aov.contains(&Aov::Depth),
+            normal: self.aov.contains(&Aov::Normal),
+            primitive: self.aov.contains(&Aov::Primitive),
+        }
+    }
+}

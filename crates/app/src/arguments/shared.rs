@@ -1,0 +1,134 @@
+//! Groups of options that several commands take.
+
+use super::values::{self, Size};
+use crate::backend::{DeviceChoice, Frame, Integrator};
+use crate::error::AppError;
+use crate::structure::Switch;
+use clap::{Args, ValueEnum};
+
+/// Integrators by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum IntegratorName {
+    /// Path tracing with light sampling
+    Path,
+    /// Ambient occlusion: cosine-weighted visibility of a white environment
+    Ao,
+    /// What the camera sees, unlit
+    Raycast,
+}
+
+/// Bounces of a path unless told.
+const DEFAULT_BOUNCES: u32 = 3;
+
+/// The image and what light does.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Image")]
+pub struct FrameArguments {
+    /// What light does
+    #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
+    pub integrator: IntegratorName,
+    /// Pixels
+    #[arg(long, value_name = "WxH", value_parser = values::size, default_value = "640x360")]
+    pub size: Size,
+    /// Samples per pixel
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    pub spp: u32,
+    /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light) [default: 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
+    pub bounces: Option<u32>,
+    /// With --integrator ao: metres within which something occludes [default: any distance]
+    #[arg(long, value_name = "METRES", value_parser = values::positive)]
+    pub ao_distance: Option<f32>,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u32,
+}
+
+impl FrameArguments {
+    /// The image that was asked for.
+    ///
+    /// # Errors
+    /// An option of an integrator that was not chosen.
+    pub fn frame(&self) -> Result<Frame, AppError> {
+        let belongs = |option: &str, name: &str| {
+            AppError::usage(
+                format!("{option} is an option of --integrator {name}"),
+                format!("leave it out, or say --integrator {name}"),
+            )
+        };
+        if self.bounces.is_some() && self.integrator != IntegratorName::Path {
+            return Err(belongs("--bounces", "path"));
+        }
+        if self.ao_distance.is_some() && self.integrator != IntegratorName::Ao {
+            return Err(belongs("--ao-distance", "ao"));
+        }
+        let integrator = match self.integrator {
+            IntegratorName::Path => Integrator::Path { bounces: self.bounces.unwrap_or(DEFAULT_BOUNCES) },
+            IntegratorName::Ao => Integrator::AmbientOcclusion { distance: self.ao_distance },
+            IntegratorName::Raycast => Integrator::Raycast,
+        };
+        let Size { width, height } = self.size;
+        Ok(Frame { integrator, width, height, spp: self.spp, seed: self.seed })
+    }
+}
+
+/// From where the scene is seen.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Camera (default: the scene's first, or one that frames the scene)")]
+pub struct ViewArguments {
+    /// A camera of the scene, by name or by position from 0
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]
+    pub camera: Option<String>,
+    /// Where to look from, metres
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "target")]
+    pub eye: Option<[f64; 3]>,
+    /// What to look at, metres
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::point, allow_hyphen_values = true, requires = "eye")]
+    pub target: Option<[f64; 3]>,
+    /// Full vertical angle of view, with --eye and --target [default: 45]
+    #[arg(long, value_name = "DEGREES", value_parser = values::angle_of_view, requires = "eye")]
+    pub fov: Option<f64>,
+}
+
+/// Whether only what can be observed is handled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum NeedsName {
+    /// Only what scene and integrator let an image show
+    Observed,
+    /// Everything, to prove that the picture does not change
+    All,
+}
+
+/// How the scene is read.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Scene")]
+pub struct SceneArguments {
+    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour
+    #[arg(long, value_name = "FILE.hdr|R,G,B")]
+    pub environment: Option<String>,
+    /// Let alpha cut holes and blend; off makes every surface opaque
+    #[arg(long, value_enum, default_value_t = Switch::On)]
+    pub alpha: Switch,
+    /// What is uploaded, compiled in and stored
+    #[arg(long, value_enum, default_value_t = NeedsName::Observed)]
+    pub needs: NeedsName,
+}
+
+/// Where the work is done.
+#[derive(Debug, Default, Args)]
+#[command(next_help_heading = "Device")]
+pub struct DeviceArguments {
+    /// Position or part of the name, as `rasray info` lists them
+    #[arg(long, value_name = "DEVICE")]
+    pub device: Option<String>,
+    /// Run with validation layers; any message of theirs is an error
+    #[arg(long)]
+    pub validation: bool,
+}
+
+impl DeviceArguments {
+    /// The choice as the back end takes it.
+    pub fn choice(&self) -> DeviceChoice {
+        DeviceChoice { device: self.device.clone(), validation: self.validation }
+    }
+}

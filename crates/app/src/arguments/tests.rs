@@ -1,0 +1,105 @@
+//! The command line as a person types it.
+
+use super::*;
+use crate::backend::{Integrator, RaySet};
+use crate::structure::{Preset, StructureOptions, SystemName};
+use clap::CommandFactory;
+
+fn arguments(line: &str) -> Vec<OsString> {
+    std::iter::once("rasray").chain(line.split_whitespace()).map(OsString::from).collect()
+}
+
+fn render(line: &str) -> RenderArguments {
+    match parse(arguments(line)) {
+        Ok(Command::Render(render)) => *render,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+fn refused(line: &str) -> AppError {
+    match parse(arguments(line)) {
+        Err(Refusal::Error(error)) => error,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn the_definition_is_consistent() {
+    CommandLine::command().debug_assert();
+}
+
+#[test]
+fn defaults_are_the_documented_ones() {
+    let given = render("render cornell --output a.png");
+    let frame = given.frame.frame().expect("defaults fit together");
+    assert_eq!((given.system, given.preset), (SystemName::Mmrt, Preset::Robust));
+    assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
+    assert_eq!(frame.integrator, Integrator::Path { bounces: 3 });
+    assert_eq!(given.structure, StructureOptions::default());
+}
+
+#[test]
+fn negative_coordinates_are_values() {
+    let given = render("render cornell -o a.png --eye -1,2,-3 --target 0,-1,0 --fov 30 --exposure -1.5");
+    assert_eq!(given.view.eye, Some([-1.0, 2.0, -3.0]));
+    assert_eq!(given.exposure, Some(-1.5));
+}
+
+#[test]
+fn a_comparison_takes_lists_and_addressed_options() {
+    let line = "compare cornell --systems mmrt,brute-force --presets published,robust --ray-set eye,bounce \
+                mmrt.storage=sb --rays 10";
+    match parse(arguments(line)) {
+        Ok(Command::Compare(given)) => {
+            assert_eq!(given.systems, [SystemName::Mmrt, SystemName::BruteForce]);
+            assert_eq!(given.ray_set, [RaySet::Eye, RaySet::Bounce]);
+            assert_eq!(given.assignments, ["mmrt.storage=sb"]);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn options_of_another_integrator_are_refused() {
+    let error =
+        render("render cornell -o a.png --integrator ao --bounces 2").frame.frame().expect_err("bounces");
+    assert!(error.help().contains("path"), "{error}");
+    let error = render("render cornell -o a.png --ao-distance 2").frame.frame().expect_err("ao distance");
+    assert!(error.help().contains("ao"), "{error}");
+}
+
+#[test]
+fn mistakes_are_two_lines_with_a_way_out() {
+    let cases = [
+        ("", "nothing was asked for", "rasray --help"),
+        ("rendr cornell", "rendr", "render"),
+        ("render", "<SCENE>", "rasray render --help"),
+        ("render cornell", "--output", "rasray render --help"),
+        ("render cornell -o a.png --sppp 3", "--sppp", "--spp"),
+        ("render cornell -o a.png --spp 0", "--spp", "rasray render --help"),
+        ("render cornell -o a.png --size 10", "WIDTHxHEIGHT", "--help"),
+        ("render cornell -o a.png --storage heap", "heap", "--help"),
+        ("render cornell -o a.png --eye 0,0,0", "--target", "--help"),
+        ("render cornell -o a.png --camera a --eye 0,0,0 --target 1,0,0", "--eye", "--help"),
+        ("render cornell --report r.json --aov depth", "--output", "--help"),
+        ("compare cornell", "--systems", "rasray compare --help"),
+        ("view cornell", "view", "--help"),
+    ];
+    for (line, message, help) in cases {
+        let error = refused(line);
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains(message), "{line}: {error}");
+        assert!(error.help().contains(help), "{line}: {}", error.help());
+        assert_eq!(error.lines().lines().count(), 2, "{line}");
+    }
+}
+
+#[test]
+fn help_and_version_are_text() {
+    for line in ["--help", "render --help", "compare --help", "info --help", "--version"] {
+        assert!(
+            matches!(parse(arguments(line)), Err(Refusal::Text(text)) if text.contains("rasray")),
+            "{line}"
+        );
+    }
+}

@@ -1,0 +1,118 @@
+//! Values that options take, read from text.
+
+/// Pixels of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// Pixels a row, in [1, 16384].
+    pub width: u32,
+    /// Rows, in [1, 16384].
+    pub height: u32,
+}
+
+/// Largest side of an image, in pixels.
+const SIDE_LIMIT: u32 = 16_384;
+
+/// Reads `640x360`.
+///
+/// # Errors
+/// Says what the form is, or which side is out of range.
+pub fn size(text: &str) -> Result<Size, String> {
+    let form = || "write WIDTHxHEIGHT, such as 640x360".to_owned();
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(form)?;
+    let side = |text: &str| -> Result<u32, String> {
+        let value: u32 = text.trim().parse().map_err(|_| form())?;
+        if value == 0 || value > SIDE_LIMIT {
+            return Err(format!("each side must be from 1 to {SIDE_LIMIT} pixels"));
+        }
+        Ok(value)
+    };
+    Ok(Size { width: side(width)?, height: side(height)? })
+}
+
+/// Reads three finite numbers, `1,-2.5,0`.
+///
+/// # Errors
+/// Says what the form is.
+pub fn point(text: &str) -> Result<[f64; 3], String> {
+    let mut parts = text.split(',');
+    let mut next =
+        || -> Option<f64> { parts.next()?.trim().parse().ok().filter(|value: &f64| value.is_finite()) };
+    let values = (next(), next(), next());
+    match (values, parts.next()) {
+        ((Some(x), Some(y), Some(z)), None) => Ok([x, y, z]),
+        _ => Err("write three finite numbers, such as 0,1.5,-4".to_owned()),
+    }
+}
+
+/// Reads a finite number that is at least 0.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn not_negative(text: &str) -> Result<f32, String> {
+    match text.trim().parse::<f32>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("must be a finite number of at least 0".to_owned()),
+    }
+}
+
+/// Reads a finite number above 0.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn positive(text: &str) -> Result<f32, String> {
+    match text.trim().parse::<f32>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("must be a finite number above 0".to_owned()),
+    }
+}
+
+/// Reads stops of exposure.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn stops(text: &str) -> Result<f32, String> {
+    match text.trim().parse::<f32>() {
+        Ok(value) if value.abs() <= 64.0 => Ok(value),
+        _ => Err("must be a number from -64 to 64".to_owned()),
+    }
+}
+
+/// Reads a full angle of view in degrees.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn angle_of_view(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.01..=175.0).contains(&value) => Ok(value),
+        _ => Err("must be from 0.01 to 175 degrees".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("640x360"), Ok(Size { width: 640, height: 360 }));
+        for bad in ["", "640", "640x", "x360", "0x10", "10x0", "-1x5", "99999x1", "1x2x3", "1.5x2"] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn points() {
+        assert_eq!(point("1,-2.5, 3e2"), Ok([1.0, -2.5, 300.0]));
+        for bad in ["", "1,2", "1,2,3,4", "1,2,x", "nan,0,0", "inf,0,0", "1;2;3"] {
+            assert!(point(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_refuse_what_lies_outside() {
+        assert!(not_negative("0").is_ok() && not_negative("-0.1").is_err() && not_negative("nan").is_err());
+        assert!(positive("0.1").is_ok() && positive("0").is_err() && positive("inf").is_err());
+        assert!(angle_of_view("45").is_ok() && angle_of_view("0").is_err() && angle_of_view("180").is_err());
+        assert!(stops("-2").is_ok() && stops("65").is_err() && stops("nan").is_err());
+    }
+}

@@ -1,0 +1,234 @@
+//! The seam between the command and what renders: plain data in, plain data out.
+
+use crate::error::AppError;
+use crate::report::{Counters, Device, Memory, Pass, Run, Times};
+use crate::systems::SystemConfig;
+use rasray_scene::{Camera, Scene};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+/// Which device is wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviceChoice {
+    /// A position in the driver's list, or part of a device's name, case ignored. Absent: the first
+    /// suitable one, hardware before software.
+    pub device: Option<String>,
+    /// Validation layers on; a message of theirs is an error.
+    pub validation: bool,
+}
+
+/// What light does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Path tracing with light sampling.
+    Path {
+        /// At most this many scatterings; 0 is emission alone, 1 is direct light.
+        bounces: u32,
+    },
+    /// Cosine-weighted visibility of a white environment.
+    AmbientOcclusion {
+        /// Metres within which something occludes; absent: any distance.
+        distance: Option<f32>,
+    },
+    /// What the camera sees, unlit.
+    Raycast,
+}
+
+/// An image to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// What light does.
+    pub integrator: Integrator,
+    /// Pixels a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+}
+
+/// Images beside the colours, from rays through pixel centres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AovSelection {
+    /// Distance along the ray.
+    pub depth: bool,
+    /// Geometric normal.
+    pub normal: bool,
+    /// Global triangle id.
+    pub primitive: bool,
+}
+
+/// One image of one system.
+#[derive(Clone, Debug)]
+pub struct RenderJob<'a> {
+    /// What is rendered; lit, and possibly without triangles.
+    pub scene: &'a Scene,
+    /// From where.
+    pub camera: Camera,
+    /// Through which structure.
+    pub system: SystemConfig,
+    /// The image.
+    pub frame: Frame,
+    /// What else is wanted.
+    pub aovs: AovSelection,
+    /// Upload and compile everything, observable or not.
+    pub needs_all: bool,
+}
+
+/// Where rays of a comparison come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum RaySet {
+    /// Origins uniform in the scene's box, directions uniform
+    Incoherent,
+    /// The camera's rays; the camera is not at the views' centre
+    Camera,
+    /// From the views' centre
+    Eye,
+    /// Diffuse directions from what the camera sees
+    Bounce,
+}
+
+/// Systems side by side.
+#[derive(Clone, Debug)]
+pub struct CompareJob<'a> {
+    /// What is traced; lit, and possibly without triangles.
+    pub scene: &'a Scene,
+    /// For the ray sets `camera` and `bounce` and for images.
+    pub camera: Camera,
+    /// One entry per system and preset.
+    pub systems: Vec<SystemConfig>,
+    /// Each makes a run with each system.
+    pub ray_sets: Vec<RaySet>,
+    /// Rays per set, at least 1.
+    pub rays: u32,
+    /// Size, seed and integrator; the size also shapes the camera's rays.
+    pub frame: Frame,
+    /// Whether an image of each system is compared with the reference as well.
+    pub image: bool,
+    /// Upload and compile everything, observable or not.
+    pub needs_all: bool,
+}
+
+/// How far the work is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress<'a> {
+    /// What is being done, such as `build` or `mmrt robust incoherent`.
+    pub task: &'a str,
+    /// Units finished.
+    pub done: u64,
+    /// Units in all; 0 where that is not known.
+    pub total: u64,
+    /// What a unit is, in the plural, such as `samples`.
+    pub unit: &'a str,
+}
+
+/// Told of progress at least once per wave of samples or rays; `Break` asks for an early end.
+pub type OnProgress<'a> = dyn FnMut(Progress<'_>) -> ControlFlow<()> + 'a;
+
+/// What a render gave. Images have `width * height` pixels, rows from the top.
+#[derive(Clone, Debug, Default)]
+pub struct RenderOutput {
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
+    pub beauty: Vec<[f32; 3]>,
+    /// Metres from the eye along the ray; 0 where nothing was met.
+    pub depth: Option<Vec<f32>>,
+    /// Unit geometric normal in the world, facing the eye; zero where nothing was met.
+    pub normal: Option<Vec<[f32; 3]>>,
+    /// Global triangle id in scene order; `u32::MAX` where nothing was met.
+    pub primitive: Option<Vec<u32>>,
+    /// Samples per pixel in `beauty`; fewer than asked for after an early end.
+    pub samples_done: u32,
+    /// Options of the structure as resolved from preset and command line.
+    pub options: BTreeMap<String, Value>,
+    /// Paths taken where the device decides: builder, coverage, atomics.
+    pub paths: BTreeMap<String, String>,
+    /// Time of each pass.
+    pub passes: Vec<Pass>,
+    /// The four figures and the ray rate.
+    pub times: Times,
+    /// Bytes.
+    pub memory: Option<Memory>,
+    /// Counts that do not depend on the machine.
+    pub counters: Option<Counters>,
+}
+
+/// A feature of the device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Feature {
+    /// Name in the Vulkan specification.
+    pub name: String,
+    /// Whether the device has it.
+    pub present: bool,
+    /// Whether nothing runs without it.
+    pub required: bool,
+    /// What it is for.
+    pub purpose: String,
+}
+
+/// The way a structure takes on a device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChosenPath {
+    /// The system.
+    pub system: String,
+    /// What is chosen, such as `addressing`.
+    pub choice: String,
+    /// What was chosen.
+    pub chosen: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// The device in use and what it means for each structure.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviceDescription {
+    /// Names of all devices in the driver's order; positions are what `--device` takes.
+    pub devices: Vec<String>,
+    /// Vulkan version of the device in use, such as `1.3.230`.
+    pub api_version: String,
+    /// Features that something here asks for.
+    pub features: Vec<Feature>,
+    /// Limits that decide something here, with their units in the text.
+    pub limits: Vec<(String, String)>,
+    /// What each structure does here.
+    pub paths: Vec<ChosenPath>,
+}
+
+/// What renders. Every method reports failure of the device as [`AppError::Device`], and lost data
+/// as [`AppError::Refused`].
+pub trait Backend {
+    /// The device in use, for reports.
+    fn device(&self) -> Device;
+
+    /// Renders an image. When `progress` breaks, the samples done so far are the result.
+    fn render(
+        &mut self,
+        job: &RenderJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<RenderOutput, AppError>;
+
+    /// Compares systems: a run per system, preset and ray set, and per image where wanted. When
+    /// `progress` breaks, the complete runs so far are the result.
+    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError>;
+
+    /// Describes the device.
+    fn info(&mut self) -> Result<DeviceDescription, AppError>;
+}
+
+/// Makes a [`Backend`] on the wanted device.
+pub type OpenBackend<'a> = dyn FnMut(&DeviceChoice) -> Result<Box<dyn Backend>, AppError> + 'a;
+
+/// Opens the wanted device.
+///
+/// # Errors
+/// [`AppError::Device`]: no such device, or it lacks something required.
+pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, AppError> {
+    let wanted = choice.device.as_deref().unwrap_or("the first device");
+    Err(AppError::device(format!("{wanted}: this build has no renderer"), "build the whole workspace"))
+}

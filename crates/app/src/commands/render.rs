@@ -1,0 +1,154 @@
+//! `rasray render`.
+
+use super::{bounces, check_whole, destination, integrator_name, stop_if_requested, with_progress};
+use crate::arguments::{NeedsName, RenderArguments};
+use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use crate::output::{self, Destination, ImageFormat, Metadata};
+use crate::report::{Report, Run, table};
+use crate::systems::{self, SystemConfig, word};
+use crate::{camera, scene_source, terminal};
+
+/// Renders a scene and writes what was asked for.
+///
+/// # Errors
+/// Everything that can be refused without a device is refused before a device is opened.
+pub(crate) fn render(
+    given: &RenderArguments,
+    open: &mut OpenBackend<'_>,
+    interrupt: &Interrupt,
+) -> Result<(), AppError> {
+    let frame = given.frame.frame()?;
+    let aovs = given.aovs();
+    let system = systems::single(given.system, given.preset, &given.structure)?;
+    let image = image_target(given, aovs)?;
+    let report_target = destination(given.report.as_deref())?;
+    if let (Some((place, _)), Some(report)) = (&image, &report_target) {
+        if place.same_as(report) {
+            return Err(AppError::usage("--output and --report name the same file", "name two files"));
+        }
+    }
+
+    let loaded = scene_source::prepare(&given.scene, &given.reading)?;
+    let camera = camera::choose(&loaded.scene, &given.view)?;
+    terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+
+    let mut backend = open(&given.device.choice())?;
+    stop_if_requested(interrupt)?;
+    let needs_all = given.reading.needs == NeedsName::All;
+    let job = RenderJob { scene: &loaded.scene, camera, system: system.clone(), frame, aovs, needs_all };
+    let output = with_progress(interrupt, |progress| backend.render(&job, progress))?;
+    if output.samples_done == 0 {
+        return Err(AppError::interrupted(
+            "stopped before the first sample was whole; nothing was written",
+            "",
+        ));
+    }
+
+    let run = run_of(&system, &frame, &output);
+    let whole = check_whole(&run);
+    let report = Report::new(backend.device(), &loaded, vec![run]);
+    if let Some(place) = &report_target {
+        place.write(report.to_json().as_bytes(), interrupt)?;
+    }
+    whole?;
+    output::check_complete(&output, aovs)?;
+    if let Some((place, format)) = &image {
+        let metadata = Metadata {
+            scene: loaded.scene.name.clone(),
+            system: word(&system.name),
+            preset: word(&system.preset),
+            integrator: integrator_name(&frame).to_owned(),
+            spp: frame.spp,
+            samples: output.samples_done,
+            seed: frame.seed,
+        };
+        write_image(place, *format, &output, &metadata, given.exposure.unwrap_or(0.0), interrupt)?;
+    }
+    terminal::print(&table(&report))?;
+    if output.samples_done < frame.spp {
+        let written = image.map_or_else(
+            || "no image was asked for".to_owned(),
+            |(place, _)| format!("the image in {} is valid and holds them", place.named().display()),
+        );
+        return Err(AppError::interrupted(
+            format!("stopped after {} of {} samples per pixel; {written}", output.samples_done, frame.spp),
+            "run again for the whole image, or with this many --spp for the same one",
+        ));
+    }
+    Ok(())
+}
+
+/// Where and how the image is written; refuses images that the format cannot hold.
+fn image_target(
+    given: &RenderArguments,
+    aovs: AovSelection,
+) -> Result<Option<(Destination, ImageFormat)>, AppError> {
+    let Some(path) = given.output.as_deref() else { return Ok(None) };
+    let format = ImageFormat::of(path)?;
+    if format == ImageFormat::Png && aovs != AovSelection::default() {
+        return Err(AppError::input(
+            path,
+            "a .png cannot hold what --aov asks for",
+            "name an .exr, or leave --aov out",
+        ));
+    }
+    if format == ImageFormat::Exr && given.exposure.is_some() {
+        return Err(AppError::input(
+            path,
+            "an .exr holds linear values, which --exposure does not change",
+            "leave --exposure out, or name a .png",
+        ));
+    }
+    Ok(Some((Destination::check(path)?, format)))
+}
+
+fn write_image(
+    place: &Destination,
+    format: ImageFormat,
+    output: &RenderOutput,
+    metadata: &Metadata,
+    exposure: f32,
+    interrupt: &Interrupt,
+) -> Result<(), AppError> {
+    let non_finite = output::non_finite_pixels(output);
+    if non_finite > 0 {
+        terminal::warn(&format!(
+            "{non_finite} pixels are not finite numbers; please report the scene (non-finite)"
+        ));
+    }
+    let encoded = match format {
+        ImageFormat::Png => output::encode_png(output, exposure),
+        ImageFormat::Exr => output::encode_exr(output, metadata),
+    };
+    let bytes = encoded.map_err(|error| {
+        AppError::refused(
+            format!("{}: the image could not be encoded: {error}", place.named().display()),
+            "nothing was written; choose the other format",
+        )
+    })?;
+    place.write(&bytes, interrupt)
+}
+
+/// The record of a render in a report.
+fn run_of(system: &SystemConfig, frame: &Frame, output: &RenderOutput) -> Run {
+    Run {
+        system: word(&system.name),
+        structure: system.entry().structure.to_owned(),
+        preset: word(&system.preset),
+        options: output.options.clone(),
+        paths: output.paths.clone(),
+        integrator: Some(integrator_name(frame).to_owned()),
+        width: Some(output.width),
+        height: Some(output.height),
+        spp: Some(output.samples_done),
+        bounces: bounces(frame),
+        seed: Some(frame.seed),
+        times: output.times,
+        passes: output.passes.clone(),
+        memory: output.memory.clone(),
+        counters: output.counters.clone(),
+        ..Run::default()
+    }
+}

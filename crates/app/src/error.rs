@@ -1,0 +1,169 @@
+//! Everything that ends the command early, with its exit code.
+
+use rasray_scene::SceneError;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+/// Exit code of a complete run.
+pub const EXIT_OK: u8 = 0;
+/// Exit code of bad input and of usage errors.
+pub const EXIT_USAGE: u8 = 2;
+/// Exit code of a missing, unsuitable or failing device.
+pub const EXIT_DEVICE: u8 = 3;
+/// Exit code of a result that could not be kept whole: it could not be written, or what was traced
+/// was incomplete.
+pub const EXIT_REFUSED: u8 = 4;
+/// Exit code of a run that a signal stopped, whether or not a partial result was written.
+pub const EXIT_INTERRUPTED: u8 = 130;
+
+/// Why the command ended early. Every variant says what is wrong and what to do about it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AppError {
+    /// The command line asks for something that cannot be. Exit code 2.
+    #[error("{message}")]
+    Usage {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// A file cannot be read, or an output cannot be put where it was asked for. Exit code 2.
+    #[error("{}: {message}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// A scene cannot be read. Exit code 2.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The device is missing, lacks something required, or failed. Exit code 3.
+    #[error("{message}")]
+    Device {
+        /// What is wrong.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// A result exists that would have lost data had it been kept. Exit code 4.
+    #[error("{message}")]
+    Refused {
+        /// What would have been lost, and where.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// A signal stopped the run. Exit code 130.
+    #[error("{message}")]
+    Interrupted {
+        /// How far the run came and what was written.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+}
+
+impl AppError {
+    /// A usage error.
+    pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Usage { message: message.into(), help: help.into() }
+    }
+
+    /// An error about a file that is read, or about the place of an output.
+    pub fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
+        Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
+    }
+
+    /// An error of the device.
+    pub fn device(message: impl Display, help: impl Into<String>) -> Self {
+        Self::Device { message: message.to_string(), help: help.into() }
+    }
+
+    /// A result that is not kept because it is not whole.
+    pub fn refused(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Refused { message: message.into(), help: help.into() }
+    }
+
+    /// A run stopped by a signal.
+    pub fn interrupted(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::Interrupted { message: message.into(), help: help.into() }
+    }
+
+    /// The exit code of the command.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage { .. } | Self::Input { .. } | Self::Scene(_) => EXIT_USAGE,
+            Self::Device { .. } => EXIT_DEVICE,
+            Self::Refused { .. } => EXIT_REFUSED,
+            Self::Interrupted { .. } => EXIT_INTERRUPTED,
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> &str {
+        match self {
+            Self::Scene(error) => scene_help(error),
+            Self::Usage { help, .. }
+            | Self::Input { help, .. }
+            | Self::Device { help, .. }
+            | Self::Refused { help, .. }
+            | Self::Interrupted { help, .. } => help,
+        }
+    }
+
+    /// The two lines that stderr gets: `error: …` and `help: …`, each without a line break inside.
+    pub fn lines(&self) -> String {
+        let word = if matches!(self, Self::Interrupted { .. }) { "interrupted" } else { "error" };
+        let mut lines = format!("{word}: {}\n", one_line(&self.to_string()));
+        if !self.help().is_empty() {
+            lines += &format!("help: {}\n", one_line(self.help()));
+        }
+        lines
+    }
+}
+
+/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
+fn scene_help(error: &SceneError) -> &'static str {
+    match error {
+        SceneError::Read { .. } => "check the name and that you may read the file",
+        SceneError::TooLarge { .. } => "split or simplify the scene",
+        SceneError::Syntax { .. } | SceneError::Invalid { .. } | SceneError::IndexOutOfRange { .. } => {
+            "the file is damaged or breaks its format: export it again"
+        }
+        SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
+        SceneError::Builtin { .. } => {
+            "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"
+        }
+        _ => "",
+    }
+}
+
+/// Joins the words of a text with single spaces.
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_its_documented_exit_code() {
+        let path = Path::new("a.gltf");
+        assert_eq!(AppError::usage("a", "b").exit_code(), 2);
+        assert_eq!(AppError::input(path, "a", "b").exit_code(), 2);
+        assert_eq!(AppError::device("a", "b").exit_code(), 3);
+        assert_eq!(AppError::refused("a", "b").exit_code(), 4);
+        assert_eq!(AppError::interrupted("a", "b").exit_code(), 130);
+    }
+
+    #[test]
+    fn messages_stay_on_one_line_and_name_the_file() {
+        let error = AppError::input(Path::new("scene.gltf"), "unexpected end\n of file", "export\nagain");
+        assert_eq!(error.lines(), "error: scene.gltf: unexpected end of file\nhelp: export again\n");
+    }
+}

@@ -1,0 +1,74 @@
+//! The `rasray` command as a library: the command line, scenes, images, reports, signals and exit
+//! codes. What renders is behind [`backend::Backend`].
+
+pub mod arguments;
+pub mod backend;
+mod camera;
+mod commands;
+mod environment;
+mod error;
+mod interrupt;
+pub mod output;
+mod progress;
+pub mod report;
+mod scene_source;
+pub mod structure;
+pub mod systems;
+mod terminal;
+
+pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_USAGE};
+pub use interrupt::Interrupt;
+pub use scene_source::LoadedScene;
+
+use arguments::{Command, Refusal};
+use backend::OpenBackend;
+use std::ffi::OsString;
+
+/// Version of the command.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Commit that the command was built from, where git knew it.
+pub const COMMIT: Option<&str> = option_env!("RASRAY_COMMIT");
+
+/// Version and, where known, commit.
+pub fn version_text() -> &'static str {
+    static TEXT: std::sync::LazyLock<String> = std::sync::LazyLock::new(|| match COMMIT {
+        Some(commit) => format!("{VERSION} ({commit})"),
+        None => VERSION.to_owned(),
+    });
+    &TEXT
+}
+
+/// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit
+/// code: 0 done, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped by a signal.
+///
+/// Takes over SIGINT and SIGTERM and writes to stdout and stderr; call it once in a process.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {
+    let result = match arguments::parse(arguments) {
+        Ok(command) => execute(command, open),
+        Err(Refusal::Text(text)) => terminal::print(&text),
+        Err(Refusal::Error(error)) => Err(error),
+    };
+    match result {
+        Ok(()) => EXIT_OK,
+        Err(error) => {
+            terminal::complain(&error.lines());
+            error.exit_code()
+        }
+    }
+}
+
+fn execute(command: Command, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
+    terminal::start_logging();
+    let interrupt = Interrupt::install().map_err(|error| {
+        AppError::device(
+            format!("signals cannot be handled: {error}"),
+            "run in an environment that lets programs handle SIGINT and SIGTERM",
+        )
+    })?;
+    match command {
+        Command::Render(given) => commands::render(&given, open, &interrupt),
+        Command::Compare(given) => commands::compare(&given, open, &interrupt),
+        Command::Info(given) => commands::info(&given, open),
+    }
+}

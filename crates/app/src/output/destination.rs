@@ -1,0 +1,214 @@
+//! A file that is whole or not there: written beside its place, synchronised, then renamed.
+
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use std::ffi::OsString;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Where a file will be put. Checked when it is made, before any work is done for the file.
+#[derive(Clone, Debug)]
+pub struct Destination {
+    /// As the user wrote it, for messages.
+    named: PathBuf,
+    /// With links followed.
+    path: PathBuf,
+    /// A device or a pipe: written directly, as nothing can be renamed over it.
+    special: bool,
+}
+
+impl Destination {
+    /// Checks that a file can be put at `path`: the folder exists and takes new files, and no folder
+    /// is in the way. A link is followed, so that it stays a link.
+    ///
+    /// # Errors
+    /// Names the path, what is in the way and what to do.
+    pub fn check(path: &Path) -> Result<Self, AppError> {
+        let resolved = std::fs::canonicalize(path);
+        if let Ok(metadata) = std::fs::metadata(path) {
+            if metadata.is_dir() {
+                return Err(AppError::input(path, "is a folder", "name a file in it"));
+            }
+            if !metadata.is_file() {
+                return Ok(Self { named: path.to_owned(), path: path.to_owned(), special: true });
+            }
+        }
+        let destination = Self {
+            named: path.to_owned(),
+            path: resolved.unwrap_or_else(|_| path.to_owned()),
+            special: false,
+        };
+        let folder = destination.folder();
+        if path.file_name().is_none() {
+            return Err(AppError::input(
+                path,
+                "is not the name of a file",
+                "name a file in an existing folder",
+            ));
+        }
+        if !folder.is_dir() {
+            return Err(AppError::input(
+                path,
+                format!("the folder {} does not exist", folder.display()),
+                format!("create it first: mkdir -p '{}'", folder.display()),
+            ));
+        }
+        // Only making a file tells whether a file can be made: permissions, read-only file systems
+        // and name lengths all show here, before hours of rendering.
+        let probe = destination.temporary();
+        let made = OpenOptions::new().write(true).create_new(true).open(&probe);
+        _ = std::fs::remove_file(&probe);
+        match made {
+            Ok(_) => Ok(destination),
+            Err(error) => Err(AppError::input(
+                path,
+                format!("no file can be made in {}: {error}", folder.display()),
+                "choose a folder that you may write to",
+            )),
+        }
+    }
+
+    /// Whether two names lead to the same file.
+    pub fn same_as(&self, other: &Self) -> bool {
+        let absolute = |destination: &Self| {
+            let folder = std::fs::canonicalize(destination.folder());
+            folder.ok().zip(destination.path.file_name()).map(|(folder, name)| folder.join(name))
+        };
+        match (absolute(self), absolute(other)) {
+            (Some(one), Some(two)) => one == two,
+            _ => self.path == other.path,
+        }
+    }
+
+    /// The path as the user wrote it.
+    pub fn named(&self) -> &Path {
+        &self.named
+    }
+
+    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it
+    /// was and nothing else is left behind; an end at once through `interrupt` leaves nothing either.
+    ///
+    /// # Errors
+    /// [`AppError::Refused`], as the bytes exist and could not be kept.
+    pub fn write(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
+        let result = if self.special { self.write_directly(bytes) } else { self.replace(bytes, interrupt) };
+        result.map_err(|error| {
+            AppError::refused(
+                format!("{}: {} bytes could not be written: {error}", self.named.display(), bytes.len()),
+                "free space or choose another place with --output, then run again; no partial file was left",
+            )
+        })
+    }
+
+    fn write_directly(&self, bytes: &[u8]) -> io::Result<()> {
+        let mut file = OpenOptions::new().write(true).open(&self.path)?;
+        file.write_all(bytes)?;
+        file.flush()
+    }
+
+    fn replace(&self, bytes: &[u8], interrupt: &Interrupt) -> io::Result<()> {
+        let temporary = self.temporary();
+        let _unfinished = interrupt.unfinished(&temporary);
+        let result = self.write_and_rename(&temporary, bytes);
+        if result.is_err() {
+            // The first error is the one to report.
+            _ = std::fs::remove_file(&temporary);
+        }
+        result
+    }
+
+    fn write_and_rename(&self, temporary: &Path, bytes: &[u8]) -> io::Result<()> {
+        let mut file = OpenOptions::new().write(true).create_new(true).open(temporary)?;
+        if let Ok(existing) = std::fs::metadata(&self.path) {
+            file.set_permissions(existing.permissions())?;
+        }
+        file.write_all(bytes)?;
+        file.sync_all()?;
+        drop(file);
+        std::fs::rename(temporary, &self.path)?;
+        // The rename itself is safe only once the folder is; not every file system can do this.
+        if let Ok(folder) = File::open(self.folder()) {
+            _ = folder.sync_all();
+        }
+        Ok(())
+    }
+
+    fn folder(&self) -> &Path {
+        match self.path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        }
+    }
+
+    /// A name in the same folder that no other run uses.
+    fn temporary(&self) -> PathBuf {
+        let mut name = OsString::from(".");
+        name.push(self.path.file_name().unwrap_or_default());
+        name.push(format!(".{}.tmp", std::process::id()));
+        self.folder().join(name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entries(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = std::fs::read_dir(folder)
+            .expect("the folder")
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.png");
+        std::fs::write(&path, b"old and longer").expect("a file");
+        let destination = Destination::check(&path).expect("writable");
+        assert_eq!(entries(folder.path()), ["a.png"]);
+        destination.write(b"new", &Interrupt::default()).expect("written");
+        assert_eq!(std::fs::read(&path).expect("the file"), b"new");
+        assert_eq!(entries(folder.path()), ["a.png"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link_and_permissions_stay() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let (file, link) = (folder.path().join("a.png"), folder.path().join("b.png"));
+        std::fs::write(&file, b"old").expect("a file");
+        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o640)).expect("permissions");
+        std::os::unix::fs::symlink("a.png", &link).expect("a link");
+        let destination = Destination::check(&link).expect("writable");
+        destination.write(b"new", &Interrupt::default()).expect("written");
+        assert!(std::fs::symlink_metadata(&link).expect("the link").is_symlink());
+        assert_eq!(std::fs::read(&file).expect("the file"), b"new");
+        assert_eq!(std::fs::metadata(&file).expect("the file").permissions().mode() & 0o777, 0o640);
+        assert!(destination.same_as(&Destination::check(&file).expect("writable")));
+    }
+
+    #[test]
+    fn places_that_cannot_be_are_refused_at_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for bad in [folder.path().to_owned(), folder.path().join("missing/a.png"), PathBuf::from("/")] {
+            assert_eq!(Destination::check(&bad).expect_err("no place").exit_code(), 2, "{}", bad.display());
+        }
+        let long = folder.path().join(format!("{}.png", "x".repeat(300)));
+        assert_eq!(Destination::check(&long).expect_err("too long").exit_code(), 2);
+        assert!(entries(folder.path()).is_empty());
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_device_is_lost_data() {
+        let destination = Destination::check(Path::new("/dev/full")).expect("a device takes bytes");
+        let error = destination.write(b"bytes", &Interrupt::default()).expect_err("no space");
+        assert_eq!(error.exit_code(), 4);
+        assert!(error.to_string().contains("/dev/full"), "{error}");
+    }
+}

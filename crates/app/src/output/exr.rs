@@ -1,0 +1,175 @@
+//! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B; Z distance
+//! from the eye along the ray in metres (0: miss); N.X, N.Y, N.Z unit geometric normal in the world,
+//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss).
+
+use crate::backend::RenderOutput;
+use exr::prelude::*;
+use smallvec::SmallVec;
+use std::io::Cursor;
+
+/// What is written into the header of an image.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Metadata {
+    /// The scene's name.
+    pub scene: String,
+    /// Such as `mmrt`.
+    pub system: String,
+    /// Such as `robust`.
+    pub preset: String,
+    /// Such as `path`.
+    pub integrator: String,
+    /// Samples per pixel that were asked for.
+    pub spp: u32,
+    /// Samples per pixel in the image; fewer after an early end.
+    pub samples: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+}
+
+/// Text as the format holds it: one byte a character.
+fn text(value: &str) -> Text {
+    let plain: String = value.chars().map(|c| if c.is_ascii() { c } else { '?' }).collect();
+    Text::new_or_none(&plain).unwrap_or_else(|| Text::from("?"))
+}
+
+/// The bytes of an EXR file of all images of `output`.
+///
+/// # Errors
+/// What the encoder says, in words.
+pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result<Vec<u8>, String> {
+    let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
+    let component =
+        |pixels: &[[f32; 3]], axis: usize| FlatSamples::F32(pixels.iter().map(|pixel| pixel[axis]).collect());
+    for (axis, name) in ["R", "G", "B"].into_iter().enumerate() {
+        channels.push(AnyChannel::new(name, component(&output.beauty, axis)));
+    }
+    if let Some(depth) = &output.depth {
+        channels.push(AnyChannel::new("Z", FlatSamples::F32(depth.clone())));
+    }
+    if let Some(normal) = &output.normal {
+        for (axis, name) in ["N.X", "N.Y", "N.Z"].into_iter().enumerate() {
+            channels.push(AnyChannel::new(name, component(normal, axis)));
+        }
+    }
+    if let Some(primitive) = &output.primitive {
+        channels.push(AnyChannel::new("id", FlatSamples::U32(primitive.clone())));
+    }
+
+    let mut attributes = LayerAttributes { software_name: Some(text(&software())), ..Default::default() };
+    let words = [
+        ("scene", &metadata.scene),
+        ("system", &metadata.system),
+        ("preset", &metadata.preset),
+        ("integrator", &metadata.integrator),
+        ("version", &crate::version_text().to_owned()),
+    ];
+    for (name, value) in words {
+        attributes.other.insert(Text::from(name), AttributeValue::Text(text(value)));
+    }
+    // As text where the number may exceed what a signed attribute holds.
+    attributes.other.insert(Text::from("seed"), AttributeValue::Text(text(&metadata.seed.to_string())));
+    for (name, value) in [("spp", metadata.spp), ("samples", metadata.samples)] {
+        let value = i32::try_from(value).unwrap_or(i32::MAX);
+        attributes.other.insert(Text::from(name), AttributeValue::I32(value));
+    }
+
+    let size = (output.width as usize, output.height as usize);
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().to_unbuffered(&mut bytes).map_err(|error| error.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+fn software() -> String {
+    format!("rasray {}", crate::version_text())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn metadata() -> Metadata {
+        Metadata {
+            scene: "Café".to_owned(),
+            system: "mmrt".to_owned(),
+            preset: "robust".to_owned(),
+            integrator: "path".to_owned(),
+            spp: 8,
+            samples: 5,
+            seed: u32::MAX,
+        }
+    }
+
+    fn output() -> RenderOutput {
+        RenderOutput {
+            width: 3,
+            height: 2,
+            beauty: (0..6).map(|i| [i as f32, -0.5, 1.0e30]).collect(),
+            depth: Some((0..6).map(|i| 0.25 * i as f32).collect()),
+            normal: Some(vec![[0.0, 1.0, -1.0]; 6]),
+            primitive: Some(vec![0, 1, 2, 0x7fff_ffff, 0xffff_fffe, u32::MAX]),
+            ..Default::default()
+        }
+    }
+
+    fn read(bytes: &[u8]) -> FlatImage {
+        exr::prelude::read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .all_layers()
+            .all_attributes()
+            .from_buffered(Cursor::new(bytes))
+            .expect("a valid file")
+    }
+
+    #[test]
+    fn every_channel_reads_back_bit_for_bit() {
+        let image = read(&encode(&output(), &metadata()).expect("a small image"));
+        let layer = &image.layer_data[0];
+        assert_eq!((layer.size.x(), layer.size.y()), (3, 2));
+        let names: Vec<_> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+        assert_eq!(names, ["B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "id"]);
+        let samples = |name: &str| {
+            let found = layer.channel_data.list.iter().find(|c| c.name.to_string() == name);
+            found.expect("the channel").sample_data.clone()
+        };
+        assert_eq!(samples("R"), FlatSamples::F32((0..6).map(|i| i as f32).collect()));
+        assert_eq!(samples("B"), FlatSamples::F32(vec![1.0e30; 6]));
+        assert_eq!(samples("Z"), FlatSamples::F32((0..6).map(|i| 0.25 * i as f32).collect()));
+        assert_eq!(samples("N.Z"), FlatSamples::F32(vec![-1.0; 6]));
+        assert_eq!(samples("id"), FlatSamples::U32(vec![0, 1, 2, 0x7fff_ffff, 0xffff_fffe, u32::MAX]));
+    }
+
+    #[test]
+    fn the_header_says_how_the_image_was_made() {
+        let image = read(&encode(&output(), &metadata()).expect("a small image"));
+        let other = &image.layer_data[0].attributes.other;
+        let word = |name: &str| match other.get(&Text::from(name)) {
+            Some(AttributeValue::Text(text)) => text.to_string(),
+            Some(AttributeValue::I32(number)) => number.to_string(),
+            unexpected => panic!("{name}: {unexpected:?}"),
+        };
+        assert_eq!(word("scene"), "Caf?");
+        assert_eq!(
+            (word("spp"), word("samples"), word("seed")),
+            ("8".into(), "5".into(), "4294967295".into())
+        );
+        assert_eq!(
+            (word("system"), word("preset"), word("integrator")),
+            ("mmrt".into(), "robust".into(), "path".into())
+        );
+    }
+
+    #[test]
+    fn without_further_images_there_are_three_channels() {
+        let plain = RenderOutput { depth: None, normal: None, primitive: None, ..output() };
+        let image = read(&encode(&plain, &metadata()).expect("a small image"));
+        assert_eq!(image.layer_data[0].channel_data.list.len(), 3);
+    }
+}

@@ -1,0 +1,303 @@
+//! The schema `rasray-report/1`. A measurement that was not made is an absent field, never 0.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Name of the schema, in every report.
+pub const SCHEMA: &str = "rasray-report/1";
+
+/// JSON cannot say that a number is not finite, so such a number is absent.
+fn absent(value: &Option<f64>) -> bool {
+    !value.is_some_and(f64::is_finite)
+}
+
+/// A whole report.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Version of the command.
+    pub version: String,
+    /// Commit that the command was built from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commit: Option<String>,
+    /// Where it ran.
+    pub device: Device,
+    /// What it ran on.
+    pub scene: SceneRecord,
+    /// One entry per system, preset and ray set or image.
+    pub runs: Vec<Run>,
+}
+
+/// A device.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Device {
+    /// Name that the driver gives.
+    pub name: String,
+    /// Driver and its version.
+    pub driver: String,
+    /// Whether it is a program on the processor: its times are for ratios on that device.
+    pub software: bool,
+}
+
+/// A scene.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneRecord {
+    /// File stem, or built-in name with its parameters.
+    pub name: String,
+    /// Triangles over all instances.
+    pub triangles: u64,
+    /// Of the scene file, in hexadecimal; absent for built-in scenes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sha256: Option<String>,
+}
+
+/// One system, preset and ray set or image.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// Such as `mmrt`.
+    pub system: String,
+    /// Such as `abuffer`.
+    pub structure: String,
+    /// `robust` or `published`.
+    pub preset: String,
+    /// Options as resolved from preset and command line.
+    pub options: BTreeMap<String, Value>,
+    /// What the device decided: builder, coverage, atomics.
+    pub paths: BTreeMap<String, String>,
+    /// Where the rays come from; absent for images.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ray_set: Option<String>,
+    /// `path`, `ao` or `raycast`; absent for ray sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub integrator: Option<String>,
+    /// Pixels a row.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<u32>,
+    /// Rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<u32>,
+    /// Samples per pixel that were made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spp: Option<u32>,
+    /// Scatterings at most; absent unless paths are traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bounces: Option<u32>,
+    /// Seed of all random numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u32>,
+    /// Times and rate.
+    #[serde(flatten)]
+    pub times: Times,
+    /// Every pass that was timed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub passes: Vec<Pass>,
+    /// Bytes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub memory: Option<Memory>,
+    /// Counts that do not depend on the machine.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counters: Option<Counters>,
+    /// Hits against the oracle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// Image against the reference.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<ImageError>,
+}
+
+/// What measured the times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Timer {
+    /// Timestamps of the device.
+    Device,
+    /// The host's clock around submit and wait.
+    Host,
+}
+
+/// The four figures, milliseconds, and the ray rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Times {
+    /// What measured them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub timer: Option<Timer>,
+    /// Instances to posed positions.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub pose_ms: Option<f64>,
+    /// Posed positions to traceable, host work included.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub build_ms: Option<f64>,
+    /// The host's part of the build.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub build_host_ms: Option<f64>,
+    /// Rays in to hits out.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub trace_ms: Option<f64>,
+    /// Everything.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub frame_ms: Option<f64>,
+    /// Rays traced in `trace_ms`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rays: Option<u64>,
+    /// Millions of rays per second.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub mrays_per_s: Option<f64>,
+}
+
+/// A pass: medians after warm-up, milliseconds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Pass {
+    /// The path of its shader.
+    pub label: String,
+    /// Median.
+    pub ms_median: f64,
+    /// Shortest.
+    pub ms_min: f64,
+    /// Longest.
+    pub ms_max: f64,
+}
+
+/// Bytes.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Memory {
+    /// The structure's allocations after the final build.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure_bytes: Option<u64>,
+    /// The formula of the system's page on counted fragments, entries and cells.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula_bytes: Option<u64>,
+    /// Room in the structure's pools.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capacity_bytes: Option<u64>,
+    /// Kept only to measure.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diagnostic_bytes: Option<u64>,
+    /// Most that was allocated on the device at a time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub device_peak_bytes: Option<u64>,
+    /// Bytes of each named part.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub by_part: BTreeMap<String, u64>,
+}
+
+/// Counts that do not depend on the machine.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Counters {
+    /// Fragments stored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fragments: Option<u64>,
+    /// List entries stored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub entries: Option<u64>,
+    /// List entries or tree nodes read per ray.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub nodes_per_ray: Option<f64>,
+    /// Cells stepped per ray.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub cells_per_ray: Option<f64>,
+    /// Primitive tests per ray.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub tests_per_ray: Option<f64>,
+    /// Entries that the pools were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub demand: Option<u64>,
+    /// Entries that the pools have room for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capacity: Option<u64>,
+    /// Entries missing from what was traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub overflow: Option<u64>,
+    /// Builds repeated with larger pools.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub regrows: Option<u64>,
+    /// Rays without an answer after the last round.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unfinished: Option<u64>,
+}
+
+/// Hits against the oracle; rates are over unambiguous rays.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Rays judged.
+    pub rays: u64,
+    /// Rays that no f32 program can decide.
+    pub ambiguous: u64,
+    /// Ambiguous rays whose answer is none of the candidates.
+    pub ambiguous_lost: u64,
+    /// Hits that were not found.
+    pub missed: u64,
+    /// Hits where there is nothing.
+    pub false_hits: u64,
+    /// Hits of another primitive; absent where the structure does not know the primitive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrong_primitive: Option<u64>,
+    /// Median of |dt|/t over common hits.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p50: Option<f64>,
+    /// 99th percentile of |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p99: Option<f64>,
+    /// Largest |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_max: Option<f64>,
+    /// Answers that are not finite numbers.
+    pub non_finite: u64,
+}
+
+/// Image against the reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageError {
+    /// Mean of FLIP, in [0, 1].
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_mean: Option<f64>,
+    /// 99th percentile of FLIP.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_p99: Option<f64>,
+    /// Root of the mean squared error of linear colours.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub rmse: Option<f64>,
+    /// Relative mean squared error.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub relmse: Option<f64>,
+    /// Decibel; absent also where the images are equal.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub psnr: Option<f64>,
+    /// Structural similarity, 1 for equal images.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub ssim: Option<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_not_measured_is_absent() {
+        let run =
+            Run { times: Times { build_ms: Some(f64::NAN), ..Default::default() }, ..Default::default() };
+        let value = serde_json::to_value(&run).expect("plain data");
+        let keys: Vec<_> = value.as_object().expect("an object").keys().map(String::as_str).collect();
+        assert_eq!(keys, ["options", "paths", "preset", "structure", "system"]);
+    }
+
+    #[test]
+    fn times_stand_beside_the_other_fields_of_a_run() {
+        let times =
+            Times { timer: Some(Timer::Host), build_ms: Some(2.5), rays: Some(7), ..Default::default() };
+        let value = serde_json::to_value(Run { times, ..Default::default() }).expect("plain data");
+        assert_eq!(value["timer"], "host");
+        assert_eq!(value["build_ms"], 2.5);
+        assert_eq!(value["rays"], 7);
+    }
+}

@@ -1,0 +1,127 @@
+//! From what was typed to a scene that can be rendered.
+
+use crate::arguments::SceneArguments;
+use crate::environment;
+use crate::error::AppError;
+use crate::structure::Switch;
+use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
+use sha2::{Digest, Sha256};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// A scene with what reports say of it.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Triangles over all instances.
+    pub triangles: u64,
+    /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
+    pub sha256: Option<String>,
+}
+
+/// Extensions that make a name a file's.
+const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
+
+/// Loads the file or makes the built-in scene that `name` stands for.
+///
+/// # Errors
+/// Names that are neither, and whatever is wrong with a file or a parameter.
+pub fn load(name: &str) -> Result<LoadedScene, AppError> {
+    let path = Path::new(name);
+    let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
+    let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
+    if is_file {
+        let scene = rasray_scene::load(path, &LoadOptions::default())?;
+        let sha256 = digest(path).map_err(|error| {
+            AppError::input(
+                path,
+                format!("cannot be read again: {error}"),
+                "leave the file in place while it is read",
+            )
+        })?;
+        return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: Some(sha256) });
+    }
+    if let Some(made) = builtin::builtin(name) {
+        let scene = made?;
+        return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: None });
+    }
+    let kinds = format!(
+        "scenes are .gltf, .glb, .obj and .ply files, or built-in: {} (parameters follow a colon: spheres:10k)",
+        builtin::NAMES.join(", ")
+    );
+    if path.exists() {
+        return Err(AppError::input(path, "is not a scene file by its name", kinds));
+    }
+    Err(AppError::input(path, "there is neither such a file nor such a built-in scene", kinds))
+}
+
+/// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
+///
+/// # Errors
+/// Those of [`load`] and of the environment.
+pub fn prepare(name: &str, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
+    // Cheap to refuse, so before the scene is read.
+    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
+    let mut loaded = load(name)?;
+    if let Some(environment) = environment {
+        loaded.scene.environment = environment;
+    } else {
+        default_view::ensure_lit(&mut loaded.scene);
+    }
+    if reading.alpha == Switch::Off {
+        for material in &mut loaded.scene.materials {
+            material.alpha_mode = AlphaMode::Opaque;
+        }
+    }
+    Ok(loaded)
+}
+
+/// Triangles over all instances.
+pub fn triangles(scene: &Scene) -> u64 {
+    let of = |mesh: usize| scene.meshes.get(mesh).map_or(0, |mesh| mesh.triangle_count() as u64);
+    scene.instances.iter().map(|instance| of(instance.mesh)).sum()
+}
+
+fn digest(path: &Path) -> std::io::Result<String> {
+    let mut file = File::open(path)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let length = file.read(&mut buffer)?;
+        if length == 0 {
+            return Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect());
+        }
+        hash.update(&buffer[..length]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_digest_is_sha256() {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), b"abc").expect("bytes");
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(digest(file.path()).expect("readable"), expected);
+    }
+
+    #[test]
+    fn a_built_in_scene_has_no_digest_and_counts_its_triangles() {
+        let loaded = load("cornell").expect("built in");
+        assert!(loaded.triangles > 0 && loaded.sha256.is_none());
+    }
+
+    #[test]
+    fn a_name_that_is_nothing_lists_what_there_is() {
+        for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
+            let error = load(bad).expect_err(bad);
+            assert_eq!(error.exit_code(), 2);
+            assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
+        }
+        assert!(load("cornel").expect_err("misspelt").help().contains("cornell"));
+    }
+}

@@ -1,0 +1,249 @@
+//! Options of acceleration structures, with the words that every system shares.
+
+use clap::{Args, ValueEnum};
+use serde::{Deserialize, Serialize};
+
+/// A system the command can run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SystemName {
+    /// A-buffers on the faces of a cube and on the camera's view
+    Mmrt,
+    /// Every triangle tested against every ray: the judge, slow on purpose
+    BruteForce,
+}
+
+/// How closely a system follows its paper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Preset {
+    /// The same structure with its errors repaired
+    #[default]
+    Robust,
+    /// The paper's approximations included
+    Published,
+}
+
+/// How fragments are kept per cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Storage {
+    /// Linked list
+    Ll,
+    /// Doubly linked list
+    Dll,
+    /// Linked list per depth bucket
+    Llb,
+    /// Doubly linked list per depth bucket
+    Dllb,
+    /// Contiguous arrays, counted first
+    Sb,
+    /// Pages of fragments
+    Paged,
+}
+
+/// What a fragment carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Payload {
+    /// The primitive's index
+    Index,
+    /// Surface attributes, quantised as published
+    Attributes,
+    /// The plane of the primitive
+    Plane,
+}
+
+/// How a ray steps through cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum March {
+    /// A fixed number of samples along the ray
+    Samples,
+    /// Every cell, by accumulated increments
+    Dda,
+    /// Every cell, by closed forms in t
+    Exact,
+    /// Every cell that a pyramid of depth bounds cannot rule out
+    Pyramid,
+}
+
+/// When a fragment is a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Accept {
+    /// Its depth lies in the ray's half-open depth interval in the cell
+    Interval,
+    /// The same with a thickness behind the fragment
+    Thickness,
+    /// Its depth range over the cell meets the ray's
+    Slope,
+    /// The ray meets the fragment's plane within the cell
+    Plane,
+}
+
+/// Which cells a triangle gets a fragment in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coverage {
+    /// Centre of the cell inside, decided by the shared function
+    Exact,
+    /// Whatever the rasterizer covers
+    Hardware,
+    /// Any overlap of the cell
+    Conservative,
+}
+
+/// Which projections are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Views {
+    /// Six faces around the centre
+    Cube,
+    /// Six faces and the camera's view
+    #[value(name = "cube+camera")]
+    #[serde(rename = "cube+camera")]
+    CubeAndCamera,
+    /// The camera's view alone
+    Camera,
+}
+
+/// How shaders reach a structure's memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Addressing {
+    /// Storage buffers in a descriptor set
+    Descriptor,
+    /// 64-bit device addresses
+    Address,
+}
+
+/// A switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Switch {
+    /// Yes
+    On,
+    /// No
+    Off,
+}
+
+/// What was asked of a structure; what is left out follows the system's preset.
+#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
+#[command(next_help_heading = "Structure (defaults follow the system and its preset)")]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct StructureOptions {
+    /// Cells along each side of a view
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution: Option<u32>,
+    /// Depth buckets per cell
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub buckets: Option<u32>,
+    /// How fragments are kept per cell
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub storage: Option<Storage>,
+    /// What a fragment carries
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload: Option<Payload>,
+    /// How a ray steps through cells
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub march: Option<March>,
+    /// When a fragment is a hit
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accept: Option<Accept>,
+    /// Metres behind a fragment that count as its inside
+    #[arg(long, value_name = "METRES", value_parser = crate::arguments::values::not_negative)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f32>,
+    /// Which cells a triangle gets a fragment in
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<Coverage>,
+    /// Sort the fragments of a cell by depth
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sort: Option<Switch>,
+    /// Skip empty space
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub skip: Option<Switch>,
+    /// Which projections are drawn
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub views: Option<Views>,
+    /// How shaders reach the structure's memory
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub addressing: Option<Addressing>,
+    /// Fragments the lists have room for at first; they grow when that is too few
+    #[arg(long, value_name = "N")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capacity: Option<u32>,
+}
+
+impl StructureOptions {
+    /// The options that were given, by name, as they appear in reports.
+    pub fn given(&self) -> serde_json::Map<String, serde_json::Value> {
+        match serde_json::to_value(self) {
+            Ok(serde_json::Value::Object(map)) => map,
+            // A struct of plain values always becomes an object.
+            _ => serde_json::Map::new(),
+        }
+    }
+
+    /// The options that were given and whose names `keep` accepts.
+    pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
+        let map = self.given().into_iter().filter(|(name, _)| keep(name)).collect();
+        serde_json::from_value(serde_json::Value::Object(map)).expect("options read back what they wrote")
+    }
+
+    /// These options with those of `over` in place of their own where it has any.
+    pub fn overlaid(&self, over: &Self) -> Self {
+        let mut map = self.given();
+        map.extend(over.given());
+        serde_json::from_value(serde_json::Value::Object(map)).expect("options read back what they wrote")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn same_words<T: ValueEnum + Serialize>() {
+        for value in T::value_variants() {
+            let typed = value.to_possible_value().expect("no hidden values").get_name().to_owned();
+            assert_eq!(serde_json::to_value(value).expect("a word"), serde_json::Value::String(typed));
+        }
+    }
+
+    #[test]
+    fn reports_use_the_words_of_the_command_line() {
+        same_words::<SystemName>();
+        same_words::<Preset>();
+        same_words::<Storage>();
+        same_words::<Payload>();
+        same_words::<March>();
+        same_words::<Accept>();
+        same_words::<Coverage>();
+        same_words::<Views>();
+        same_words::<Addressing>();
+        same_words::<Switch>();
+    }
+
+    #[test]
+    fn overlaying_replaces_only_what_is_given() {
+        let base = StructureOptions { buckets: Some(4), sort: Some(Switch::On), ..Default::default() };
+        let over = StructureOptions { buckets: Some(8), thickness: Some(0.1), ..Default::default() };
+        let both = base.overlaid(&over);
+        assert_eq!((both.buckets, both.sort, both.thickness), (Some(8), Some(Switch::On), Some(0.1)));
+        let kept = both.filtered(|name| name != "buckets");
+        assert_eq!((kept.buckets, kept.sort, kept.thickness), (None, Some(Switch::On), Some(0.1)));
+        assert_eq!(kept.given().len(), 2);
+    }
+}
