@@ -1,1 +1,46 @@
-//! rasray: ads.
+//! What all acceleration data structures of rasray share: the contract, geometry, ray queues and the
+//! kernels that trace them, and a brute-force structure that every other one is judged against.
+//!
+//! # The contract
+//! A [`Structure`] owns three things: how it is built from a [`Geometry`], how rays are traced through
+//! it, and what surface a hit stands for. It knows nothing of integrators.
+//!
+//! Building is resumed by its caller, because the exact demand for memory is known only after the GPU
+//! ran: record a build, submit and wait as you like, read the [`BuildStatus`], and on [`Check::Grow`]
+//! resize and record again. Until a build is complete, traces answer "not ready" and count it; they
+//! never give a partial answer.
+//!
+//! This crate records commands. It never submits, never waits, and allocates only in constructors and
+//! in [`Structure::resize`].
+//!
+//! # Synchronisation
+//! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with
+//! a barrier that makes their results visible to compute shaders and transfers recorded after them.
+//! What they read must be visible to compute, vertex and fragment shaders before.
+
+mod brute_force;
+mod error;
+mod geometry;
+mod kernels;
+mod queue;
+mod structure;
+mod types;
+
+pub use brute_force::BruteForce;
+pub use error::AdsError;
+pub use geometry::{Geometry, GeometryDesc};
+pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
+pub use queue::{QueueCounters, RayQueue};
+pub use structure::{
+    BuildStatus, Check, PoolSize, PoolStatus, Sizes, Structure, StructureKind, StructureReport, TraceMode,
+};
+pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, Surface, TraceState};
+
+/// "No primitive": a miss.
+pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;
+/// A fragment whose triangle is not known.
+pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
+/// A draw whose triangles are alpha-masked.
+pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
+/// A draw that does not move.
+pub const DRAW_STATIC: u32 = rasray_shaders_glsl::constants::contract::DRAW_STATIC;

@@ -1,0 +1,145 @@
+//! The brute-force structure: every ray tests every triangle. It is the baseline of every judgement.
+
+use rasray_gpu::{Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl as shaders;
+
+use crate::{
+    AdsError, BuildStatus, Check, Geometry, RayQueue, SceneBinding, Sizes, Structure, StructureKind,
+    StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+};
+
+/// Tests every triangle: O(rays x triangles), no memory of its own.
+#[derive(Debug)]
+pub struct BruteForce {
+    geometry: Geometry,
+    kernels: TraceKernels,
+    sizes: Sizes,
+    work_budget: u32,
+}
+
+impl BruteForce {
+    /// Makes the kernels. Surfaces and alpha masks need `scene`; without it geometry is opaque.
+    ///
+    /// # Errors
+    /// The device refuses a pipeline.
+    pub fn new(
+        device: &Device,
+        geometry: &Geometry,
+        scene: Option<&SceneBinding>,
+        counters: bool,
+    ) -> Result<Self, AdsError> {
+        let empty = device.create_set_layout("brute force", 0)?;
+        let (closest, occluded) = modules(scene);
+        let work_budget = shaders::constants::contract::TRACE_WORK_BUDGET;
+        let kernels = TraceKernels::new(
+            device,
+            geometry,
+            &TraceKernelsDesc {
+                closest,
+                occluded,
+                surfaces: surfaces_module(),
+                structure_layout: &empty,
+                constants: &[],
+                counters,
+                work_budget: Some(work_budget),
+                scene,
+            },
+        )?;
+        Ok(Self { geometry: geometry.clone(), kernels, sizes: Sizes::default(), work_budget })
+    }
+}
+
+#[cfg(feature = "scene")]
+fn modules(scene: Option<&SceneBinding>) -> (&'static shaders::Shader, &'static shaders::Shader) {
+    if scene.is_some_and(|scene| scene.alpha_masked) {
+        (&shaders::BRUTE_TRACE_CLOSEST_ALPHA, &shaders::BRUTE_TRACE_OCCLUDED_ALPHA)
+    } else {
+        (&shaders::BRUTE_TRACE_CLOSEST, &shaders::BRUTE_TRACE_OCCLUDED)
+    }
+}
+
+#[cfg(not(feature = "scene"))]
+fn modules(_scene: Option<&SceneBinding>) -> (&'static shaders::Shader, &'static shaders::Shader) {
+    (&shaders::BRUTE_TRACE_CLOSEST, &shaders::BRUTE_TRACE_OCCLUDED)
+}
+
+#[cfg(feature = "scene")]
+fn surfaces_module() -> Option<&'static shaders::Shader> {
+    Some(&shaders::BRUTE_SURFACES)
+}
+
+#[cfg(not(feature = "scene"))]
+fn surfaces_module() -> Option<&'static shaders::Shader> {
+    None
+}
+
+impl Structure for BruteForce {
+    fn name(&self) -> &'static str {
+        "brute-force"
+    }
+
+    fn kind(&self) -> StructureKind {
+        StructureKind::Primitive
+    }
+
+    fn requirements(&self) -> Requirements {
+        Requirements::floor()
+    }
+
+    fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
+    fn resize(&mut self, _device: &Device, _sizes: &Sizes) -> Result<(), AdsError> {
+        Ok(())
+    }
+
+    fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        self.geometry = geometry.clone();
+        Ok(())
+    }
+
+    fn record_build(&mut self, _recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+        Ok(())
+    }
+
+    fn status(&self) -> Result<BuildStatus, GpuError> {
+        Ok(BuildStatus { complete: true, ..BuildStatus::default() })
+    }
+
+    fn check(&self, _status: &BuildStatus) -> Check {
+        Check::Complete
+    }
+
+    fn rounds(&self) -> u32 {
+        self.geometry.triangle_count().div_ceil(self.work_budget) + 1
+    }
+
+    fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        self.kernels.record_trace(recorder, &self.geometry, None, 0, queue, count, mode, rounds);
+    }
+
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
+        if self.kernels.record_surfaces(recorder, &self.geometry, None, 0, queue, count) {
+            Ok(())
+        } else {
+            Err(AdsError::NoScene { structure: self.name() })
+        }
+    }
+
+    fn report(&self) -> Result<StructureReport, GpuError> {
+        Ok(StructureReport::default())
+    }
+}

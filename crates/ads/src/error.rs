@@ -1,0 +1,38 @@
+//! Errors of structures and queues.
+
+use rasray_gpu::GpuError;
+
+/// Why something could not be created or resized.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum AdsError {
+    /// The Vulkan layer failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// An option has a value outside its range.
+    #[error("{option} is {value}: {expected}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// What was given.
+        value: String,
+        /// What is possible.
+        expected: &'static str,
+    },
+    /// A pool needs more elements than its indices can name.
+    #[error("{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can name; lower the resolution or split the scene")]
+    PoolTooLarge {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Name of the pool.
+        pool: &'static str,
+        /// Elements needed.
+        elements: u64,
+    },
+    /// A structure was asked for surfaces that was made without a scene.
+    #[error("{structure} was created without a scene binding, so it cannot resolve surfaces")]
+    NoScene {
+        /// Name of the structure.
+        structure: &'static str,
+    },
+}

@@ -1,0 +1,197 @@
+//! The queue kernels: one set of pipelines a structure, recorded the same way for all.
+
+use bytemuck::bytes_of;
+use rasray_gpu::{
+    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout,
+};
+use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
+
+use crate::{AdsError, Geometry, QueueHeader, RayQueue, TraceMode};
+
+/// The scene's set, which surfaces and alpha masks are read from.
+#[derive(Clone, Debug)]
+pub struct SceneBinding {
+    /// Layout of the set.
+    pub layout: SetLayout,
+    /// The set.
+    pub set: BindingSet,
+    /// Whether any draw is alpha-masked.
+    pub alpha_masked: bool,
+}
+
+/// What the kernels of a structure are made from.
+#[derive(Clone, Debug)]
+pub struct TraceKernelsDesc<'a> {
+    /// Closest-hit module.
+    pub closest: &'static Shader,
+    /// Occlusion module.
+    pub occluded: &'static Shader,
+    /// Surface module; absent without a scene.
+    pub surfaces: Option<&'static Shader>,
+    /// Layout of the structure's set.
+    pub structure_layout: &'a SetLayout,
+    /// Specialisation constants of the structure: id and bits.
+    pub constants: &'a [(u32, u32)],
+    /// Whether rays count their work.
+    pub counters: bool,
+    /// Work units a dispatch; the shared default where absent.
+    pub work_budget: Option<u32>,
+    /// The scene, where surfaces or alpha masks are needed.
+    pub scene: Option<&'a SceneBinding>,
+}
+
+/// Pipelines that trace a queue through one structure.
+#[derive(Debug)]
+pub struct TraceKernels {
+    closest: Kernel,
+    occluded: Kernel,
+    surfaces: Option<Kernel>,
+    next_round: ComputePipeline,
+    scene: Option<BindingSet>,
+}
+
+#[derive(Debug)]
+struct Kernel {
+    label: &'static str,
+    pipeline: ComputePipeline,
+}
+
+/// Address of the structure (zero with descriptors) and number of slots.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct TraceConstants {
+    structure: [u32; 2],
+    count: u32,
+}
+
+impl TraceKernels {
+    /// Makes the pipelines.
+    ///
+    /// # Errors
+    /// The device refuses a pipeline.
+    pub fn new(device: &Device, geometry: &Geometry, desc: &TraceKernelsDesc<'_>) -> Result<Self, AdsError> {
+        let queue_layout = RayQueue::layout(device)?;
+        let mut sets = vec![geometry.layout(), desc.structure_layout, &queue_layout];
+        if let Some(scene) = desc.scene {
+            sets.push(&scene.layout);
+        }
+        let mut constants = vec![(0, u32::from(desc.counters))];
+        constants.extend(desc.work_budget.map(|budget| (1, budget)));
+        constants.extend_from_slice(desc.constants);
+        let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
+            let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
+                name: shader.name,
+                spirv: shader.words(),
+                sets: &sets,
+                push_constant_bytes: size_of::<TraceConstants>() as u32,
+                constants: &constants,
+            })?;
+            Ok(Kernel { label: shader.name, pipeline })
+        };
+        let next_round = device.create_compute_pipeline(&ComputePipelineDesc {
+            name: "ads/queue_next_round",
+            spirv: rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
+            sets: &[geometry.layout(), desc.structure_layout, &queue_layout],
+            push_constant_bytes: 4,
+            constants: &[],
+        })?;
+        Ok(Self {
+            closest: kernel(desc.closest)?,
+            occluded: kernel(desc.occluded)?,
+            surfaces: desc.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
+            next_round,
+            scene: desc.scene.map(|scene| scene.set.clone()),
+        })
+    }
+
+    fn bind(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernel: &Kernel,
+        geometry: &Geometry,
+        structure: Option<&BindingSet>,
+        queue: &RayQueue,
+        constants: TraceConstants,
+    ) {
+        recorder.bind_compute(&kernel.pipeline);
+        recorder.bind_sets(0, &[geometry.set()]);
+        if let Some(structure) = structure {
+            recorder.bind_sets(1, &[structure]);
+        }
+        recorder.bind_sets(2, &[queue.set()]);
+        if let Some(scene) = &self.scene {
+            recorder.bind_sets(3, &[scene]);
+        }
+        recorder.push_constants(bytes_of(&constants));
+    }
+
+    /// Records a trace of the first `count` slots: one dispatch for all, then up to `rounds - 1` for
+    /// the rays that paused. Rays still paused after that are counted as unfinished.
+    #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
+    pub fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        geometry: &Geometry,
+        structure: Option<&BindingSet>,
+        address: u64,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        let kernel = match mode {
+            TraceMode::Closest => &self.closest,
+            TraceMode::Occluded => &self.occluded,
+        };
+        let constants = TraceConstants { structure: [address as u32, (address >> 32) as u32], count };
+        let round = std::mem::offset_of!(QueueHeader, round) as u64;
+        let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
+        recorder.begin_pass(kernel.label);
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(queue.header(), round, after_paused - round, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        self.bind(recorder, kernel, geometry, structure, queue, constants);
+        recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        for _ in 1..rounds.max(1) {
+            self.record_next_round(recorder, queue, false);
+            self.bind(recorder, kernel, geometry, structure, queue, constants);
+            recorder.dispatch_indirect(queue.header(), 0);
+        }
+        self.record_next_round(recorder, queue, true);
+        recorder.end_pass();
+    }
+
+    fn record_next_round(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, last: bool) {
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE);
+        recorder.bind_compute(&self.next_round);
+        recorder.bind_sets(2, &[queue.set()]);
+        recorder.push_constants(&u32::from(last).to_le_bytes());
+        recorder.dispatch([1, 1, 1]);
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
+    }
+
+    /// Records the surface lookup of the first `count` slots; false where the kernels were made
+    /// without a scene.
+    #[must_use]
+    pub fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        geometry: &Geometry,
+        structure: Option<&BindingSet>,
+        address: u64,
+        queue: &RayQueue,
+        count: u32,
+    ) -> bool {
+        let Some(kernel) = &self.surfaces else {
+            return false;
+        };
+        let constants = TraceConstants { structure: [address as u32, (address >> 32) as u32], count };
+        recorder.begin_pass(kernel.label);
+        self.bind(recorder, kernel, geometry, structure, queue, constants);
+        recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
+        recorder.end_pass();
+        true
+    }
+}

@@ -1,0 +1,142 @@
+//! Queues of rays on the device.
+
+use rasray_gpu::{
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder, SetLayout,
+};
+
+use crate::{AdsError, Hit, QueueHeader, Ray, Surface, TraceState};
+
+/// Number of bindings of the queue set.
+const BINDINGS: u32 = 6;
+
+/// Rays, hits, surfaces and traversal states of `capacity` slots. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct RayQueue {
+    capacity: u32,
+    header: Buffer,
+    rays: Buffer,
+    hits: Buffer,
+    states: Buffer,
+    list: Buffer,
+    surfaces: Buffer,
+    layout: SetLayout,
+    set: BindingSet,
+}
+
+/// Sums over all traces since the last reset.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QueueCounters {
+    /// Rays given up after their last round.
+    pub unfinished: u32,
+    /// Rays that met an incomplete structure.
+    pub not_ready: u32,
+    /// Cells stepped; zero unless counters are enabled.
+    pub cells: u64,
+    /// List entries read; zero unless counters are enabled.
+    pub entries: u64,
+    /// Primitives tested; zero unless counters are enabled.
+    pub tests: u64,
+}
+
+impl RayQueue {
+    /// Allocates a queue. Without surfaces that buffer is a placeholder of 16 bytes.
+    ///
+    /// # Errors
+    /// Out of memory, or a buffer exceeds what one binding can hold.
+    pub fn new(device: &Device, name: &str, capacity: u32, surfaces: bool) -> Result<Self, AdsError> {
+        let capacity = capacity.max(1);
+        let buffer = |part: &str, element: usize, count: u64| {
+            device.create_buffer(&BufferDesc {
+                name: &format!("{name} {part}"),
+                size: element as u64 * count,
+                usage: BufferUsage::ALL,
+                location: MemoryLocation::Device,
+            })
+        };
+        let slots = u64::from(capacity);
+        let header = buffer("header", size_of::<QueueHeader>(), 1)?;
+        let rays = buffer("rays", size_of::<Ray>(), slots)?;
+        let hits = buffer("hits", size_of::<Hit>(), slots)?;
+        let states = buffer("states", size_of::<TraceState>(), slots)?;
+        let list = buffer("list", size_of::<u32>(), 2 * slots)?;
+        let surfaces = buffer("surfaces", size_of::<Surface>(), if surfaces { slots } else { 0 })?;
+        let layout = Self::layout(device)?;
+        let set =
+            device.create_binding_set(&layout, name, &[&header, &rays, &hits, &states, &list, &surfaces])?;
+        Ok(Self { capacity, header, rays, hits, states, list, surfaces, layout, set })
+    }
+
+    /// The layout that all queues share.
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn layout(device: &Device) -> Result<SetLayout, AdsError> {
+        Ok(device.create_set_layout("ray queue", BINDINGS)?)
+    }
+
+    /// Clears counters and book-keeping; to be recorded once before a queue is first used, and again
+    /// whenever counters are to start anew.
+    pub fn record_reset(&self, recorder: &mut Recorder<'_>) {
+        let size = size_of::<QueueHeader>() as u64;
+        recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+        recorder.fill(&self.header, 0, size, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::TRANSFER_WRITE);
+        recorder.fill(&self.header, std::mem::offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
+    /// Slots.
+    pub fn capacity(&self) -> u32 {
+        self.capacity
+    }
+
+    /// The queue's binding set.
+    pub fn set(&self) -> &BindingSet {
+        &self.set
+    }
+
+    /// The layout of [`Self::set`].
+    pub fn set_layout(&self) -> &SetLayout {
+        &self.layout
+    }
+
+    /// [`QueueHeader`].
+    pub fn header(&self) -> &Buffer {
+        &self.header
+    }
+
+    /// [`Ray`] per slot.
+    pub fn rays(&self) -> &Buffer {
+        &self.rays
+    }
+
+    /// [`Hit`] per slot.
+    pub fn hits(&self) -> &Buffer {
+        &self.hits
+    }
+
+    /// [`Surface`] per slot.
+    pub fn surfaces(&self) -> &Buffer {
+        &self.surfaces
+    }
+
+    /// Bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        [&self.header, &self.rays, &self.hits, &self.states, &self.list, &self.surfaces]
+            .iter()
+            .map(|buffer| buffer.size())
+            .sum()
+    }
+
+    /// What a downloaded header says.
+    pub fn counters(header: &QueueHeader) -> QueueCounters {
+        let wide = |low: u32, high: u32| u64::from(low) | u64::from(high) << 32;
+        QueueCounters {
+            unfinished: header.unfinished,
+            not_ready: header.not_ready,
+            cells: wide(header.cells_low, header.cells_high),
+            entries: wide(header.entries_low, header.entries_high),
+            tests: wide(header.tests_low, header.tests_high),
+        }
+    }
+}

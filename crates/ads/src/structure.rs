@@ -1,0 +1,184 @@
+//! The contract between structures and everything that traces through them.
+
+use rasray_gpu::{Device, GpuError, Recorder, Requirements};
+
+use crate::{AdsError, Geometry, RayQueue};
+
+/// What a structure's hits are, and hence what may be demanded of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StructureKind {
+    /// Triangles: no missed, false or wrong hit on unambiguous rays.
+    Primitive,
+    /// Stored fragments: errors follow a law in the resolution.
+    Fragment,
+}
+
+/// What a trace answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TraceMode {
+    /// The nearest hit.
+    Closest,
+    /// Whether there is any hit.
+    Occluded,
+}
+
+/// One pool of a structure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PoolSize {
+    /// Name, as the structure's page uses it.
+    pub name: &'static str,
+    /// Elements to hold.
+    pub elements: u64,
+    /// Bytes of one element.
+    pub element_bytes: u64,
+}
+
+/// What a structure allocates: the result of planning, which is plain arithmetic.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sizes {
+    /// All pools; their order is the structure's.
+    pub pools: Vec<PoolSize>,
+}
+
+impl Sizes {
+    /// Sum over all pools, bytes.
+    pub fn bytes(&self) -> u64 {
+        self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()
+    }
+
+    /// Elements of a pool; 0 where there is none of that name.
+    pub fn elements(&self, name: &str) -> u64 {
+        self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
+    }
+}
+
+/// How a pool fared in a build.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PoolStatus {
+    /// Name of the pool.
+    pub name: &'static str,
+    /// Elements the build asked for; exact also beyond the capacity.
+    pub demand: u64,
+    /// Elements the pool holds.
+    pub capacity: u64,
+}
+
+/// What a build left behind, read by the caller after its own wait.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct BuildStatus {
+    /// Whether traces will answer.
+    pub complete: bool,
+    /// Pools whose demand the build counted.
+    pub pools: Vec<PoolStatus>,
+    /// Lists too long to be sorted; they are searched in full.
+    pub unsorted: u64,
+    /// List entries that named no node; anything but 0 is a fault.
+    pub corrupted: u64,
+}
+
+/// What to do after a build.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Everything was stored.
+    Complete,
+    /// Resize to this and build again.
+    Grow(Sizes),
+}
+
+/// What a structure says of itself once built.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StructureReport {
+    /// Options as resolved: name and value.
+    pub options: Vec<(&'static str, String)>,
+    /// Paths chosen on this device: name and value.
+    pub paths: Vec<(&'static str, String)>,
+    /// Bytes allocated, by part.
+    pub bytes_by_part: Vec<(&'static str, u64)>,
+    /// Bytes the page's formula gives for what was counted.
+    pub formula_bytes: u64,
+    /// Fragments or entries stored; absent where the structure stores none.
+    pub stored: Option<u64>,
+}
+
+impl StructureReport {
+    /// Sum over all parts.
+    pub fn bytes(&self) -> u64 {
+        self.bytes_by_part.iter().map(|(_, bytes)| bytes).sum()
+    }
+}
+
+/// A structure that rays are traced through.
+///
+/// One value is one set of buffers: for n frames in flight keep n values.
+pub trait Structure {
+    /// Name, the same as in shaders, pages and reports.
+    fn name(&self) -> &'static str;
+
+    /// What its hits are.
+    fn kind(&self) -> StructureKind;
+
+    /// Device features that it uses.
+    fn requirements(&self) -> Requirements;
+
+    /// What is allocated now.
+    fn sizes(&self) -> &Sizes;
+
+    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]. What was built is
+    /// lost.
+    ///
+    /// # Errors
+    /// Out of memory, or a pool exceeds what one binding can hold.
+    fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError>;
+
+    /// Takes other triangles; the next build reads them.
+    ///
+    /// # Errors
+    /// Out of memory.
+    fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
+
+    /// Records a build as seen from `eye` (metres relative to the frame origin). Structures without
+    /// views ignore the eye.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be written.
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError>;
+
+    /// Reads what the last build left behind. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    fn status(&self) -> Result<BuildStatus, GpuError>;
+
+    /// Whether the build is complete, or the sizes it needs.
+    fn check(&self, status: &BuildStatus) -> Check;
+
+    /// Rounds after which any ray through this structure should be finished.
+    fn rounds(&self) -> u32;
+
+    /// Records a trace of the first `count` slots of `queue`, in at most `rounds` dispatches.
+    fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    );
+
+    /// Records the lookup of the surfaces of the first `count` slots of `queue`.
+    ///
+    /// # Errors
+    /// The structure was created without a scene.
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError>;
+
+    /// Options, paths and bytes.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    fn report(&self) -> Result<StructureReport, GpuError>;
+}

@@ -1,0 +1,64 @@
+// What: lists the cells that the cube march visits, for tests.
+// Reads: rays. Writes: visits (segment face, cell, t interval), counts.
+#version 460
+#include "contract/extensions.glsl"
+#include "contract/types.glsl"
+#include "ads/march_cells.glsl"
+#include "ads/march_cube.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Visit {
+    uint face;            // SEGMENT_NEAR for the near box
+    int x;
+    int y;
+    float t_low;
+    float t_high;
+};
+
+layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
+layout(set = 0, binding = 1, scalar) buffer VisitBuffer { Visit visits[]; };
+layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
+
+layout(push_constant, scalar) uniform Constants {
+    uint ray_count;
+    uint resolution;
+    uint limit;           // visits a ray
+    float near_size;
+};
+
+void add(uint ray, uint face, ivec2 cell, float t_low, float t_high) {
+    uint place = counts[ray]++;
+    if (place < limit) {
+        visits[ray * limit + place] = Visit(face, cell.x, cell.y, t_low, t_high);
+    }
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= ray_count) {
+        return;
+    }
+    Ray ray = rays[index];
+    vec2 near = near_box_interval(ray.origin, ray.direction, near_size);
+    float t = ray.t_min;
+    for (uint i = 0u; i < SEGMENT_LIMIT && t < ray.t_max; i++) {
+        Segment segment = segment_at(ray.origin, ray.direction, t, ray.t_max, near);
+        t = segment.t_end;
+        if (segment.face == SEGMENT_NEAR) {
+            add(index, SEGMENT_NEAR, ivec2(0), segment.t_begin - segment.t_error, segment.t_end + segment.t_error);
+            continue;
+        }
+        CellMarch m = march_begin(face_from_world(ray.origin, segment.face), face_from_world(ray.direction, segment.face),
+            resolution, segment.t_begin, segment.t_end, segment.t_error);
+        bool more = true;
+        while (more) {
+            add(index, segment.face, m.cell, m.t_in - m.error_in, m.t_out + m.error_out);
+            ivec2 cell;
+            while (march_take_neighbour(m, cell)) {
+                add(index, segment.face, cell, m.t_in - m.error_in, m.t_out + m.error_out);
+            }
+            more = march_next(m);
+        }
+    }
+}

@@ -1,0 +1,46 @@
+// What: lists the cells that the grid march visits, for tests.
+// Reads: rays in grid units. Writes: visits (cell), counts.
+#version 460
+#include "contract/extensions.glsl"
+#include "contract/types.glsl"
+#include "ads/march_grid.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
+layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
+layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
+
+layout(push_constant, scalar) uniform Constants {
+    uint ray_count;
+    uint size;
+    uint limit;           // visits a ray
+};
+
+void add(uint ray, ivec3 cell) {
+    uint place = counts[ray]++;
+    if (place < limit) {
+        visits[ray * limit + place] = cell;
+    }
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= ray_count) {
+        return;
+    }
+    Ray ray = rays[index];
+    GridMarch m;
+    if (!grid_begin(ray.origin, ray.direction, ivec3(size), ray.t_min, ray.t_max, m)) {
+        return;
+    }
+    bool more = true;
+    while (more) {
+        add(index, m.cell);
+        ivec3 cell;
+        while (grid_take_neighbour(m, cell)) {
+            add(index, cell);
+        }
+        more = grid_next(m);
+    }
+}
