@@ -1,1 +1,29 @@
-//! rasray: metrics.
+//! How far traced hits and rendered images are from the truth, and how sure that is.
+//!
+//! - [`HitConfusion`] compares a structure's hits with exact verdicts, ray by ray.
+//! - [`ImageError`] compares an image with a reference.
+//! - [`Rate`] gives every counted rate a confidence interval, [`Summary`] every measured series its
+//!   median and spread.
+//!
+//! Nothing here knows a device; all of it is arithmetic on slices.
+
+mod beta;
+mod error;
+#[cfg(feature = "flip")]
+mod flip;
+mod hits;
+mod image;
+mod rate;
+mod ssim;
+mod statistics;
+mod tone;
+
+pub use error::MetricsError;
+#[cfg(feature = "flip")]
+pub use flip::{Flip, flip};
+pub use hits::{DeviceHit, HitConfusion, Truth};
+pub use image::{Image, ImageError};
+pub use rate::Rate;
+pub use ssim::ssim;
+pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
+pub use tone::display_values;

@@ -59,6 +59,28 @@ impl Verdict {
     }
 }
 
+impl rasray_metrics::Truth for Verdict {
+    fn hit(&self) -> Option<(u32, f64)> {
+        self.outcome.hit()
+    }
+
+    fn is_ambiguous(&self) -> bool {
+        self.ambiguous
+    }
+
+    fn admits_miss(&self) -> bool {
+        self.miss_allowed
+    }
+
+    fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool {
+        self.candidates.iter().any(|candidate| {
+            primitive.is_none_or(|primitive| primitive == candidate.primitive)
+                && candidate.t_low <= t
+                && t <= candidate.t_high
+        })
+    }
+}
+
 /// The answer to "is anything hit".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Occlusion {

@@ -1,0 +1,241 @@
+use crate::error::MetricsError;
+use crate::rate::Rate;
+use crate::statistics::Percentiles;
+
+/// The true answer for one ray.
+pub trait Truth {
+    /// Triangle and t of the nearest hit in exact arithmetic.
+    fn hit(&self) -> Option<(u32, f64)>;
+
+    /// Whether rounding of a careful test may lead to another answer.
+    fn is_ambiguous(&self) -> bool;
+
+    /// For ambiguous rays: whether a miss is admissible.
+    fn admits_miss(&self) -> bool;
+
+    /// For ambiguous rays: whether a hit at this t, on this triangle if it is known, is admissible.
+    fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool;
+}
+
+/// A hit that a structure reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeviceHit {
+    /// In units of the direction's length.
+    pub t: f32,
+    /// Running index of the triangle, where the structure knows it.
+    pub primitive: Option<u32>,
+}
+
+/// How a structure's answers differ from the truth.
+///
+/// Rates are over unambiguous rays, unless their name says otherwise: what single precision cannot
+/// tell apart is no fault. A hit whose t is not finite counts in `non_finite` and nowhere else.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct HitConfusion {
+    /// All rays.
+    pub rays: u64,
+    /// Rays with more than one admissible answer.
+    pub ambiguous: u64,
+    /// Of the ambiguous rays whose surroundings are closed: how many got no hit.
+    pub ambiguous_lost: Rate,
+    /// Of the ambiguous rays that got a hit: on how many it is none of the admissible ones.
+    pub ambiguous_wrong: Rate,
+    /// Of the rays that hit: how many got no hit.
+    pub missed: Rate,
+    /// Of the rays that miss: how many got a hit.
+    pub false_hits: Rate,
+    /// Of the rays that hit and got a hit with a known triangle: how many got the wrong one, with a
+    /// t that is off by more than the tolerance. Absent if no triangle is known.
+    pub wrong_primitive: Option<Rate>,
+    /// |dt| / t of the rays that hit and got a hit; absent if there are none.
+    pub dt_rel: Option<Percentiles>,
+    /// Of all rays: hits with a t that is NaN or infinite.
+    pub non_finite: Rate,
+}
+
+impl HitConfusion {
+    /// Compares answers, one for each verdict; `None` is a miss.
+    ///
+    /// `wrong_primitive_tolerance` is the |dt| / t up to which another triangle's id is forgiven: 0 for
+    /// structures that find triangles, the promised depth error for those that find samples.
+    ///
+    /// # Errors
+    /// If there are not as many hits as truths.
+    pub fn measure<T: Truth>(
+        truths: &[T],
+        hits: &[Option<DeviceHit>],
+        wrong_primitive_tolerance: f64,
+    ) -> Result<Self, MetricsError> {
+        if truths.len() != hits.len() {
+            return Err(MetricsError::RayCountMismatch { truths: truths.len(), hits: hits.len() });
+        }
+        let mut confusion = Self { rays: hits.len() as u64, ..Self::default() };
+        confusion.non_finite.total = confusion.rays;
+        let mut dt_rel = Vec::new();
+        for (truth, hit) in truths.iter().zip(hits) {
+            confusion.ambiguous += u64::from(truth.is_ambiguous());
+            if hit.is_some_and(|hit| !hit.t.is_finite()) {
+                confusion.non_finite.count += 1;
+            } else if truth.is_ambiguous() {
+                confusion.judge_ambiguous(truth, hit);
+            } else {
+                dt_rel.extend(confusion.judge(truth.hit(), hit, wrong_primitive_tolerance));
+            }
+        }
+        confusion.dt_rel = Percentiles::of(&dt_rel);
+        Ok(confusion)
+    }
+
+    fn judge_ambiguous(&mut self, truth: &impl Truth, hit: &Option<DeviceHit>) {
+        if !truth.admits_miss() {
+            count(&mut self.ambiguous_lost, hit.is_none());
+        }
+        if let Some(hit) = hit {
+            count(&mut self.ambiguous_wrong, !truth.admits_hit(hit.primitive, f64::from(hit.t)));
+        }
+    }
+
+    /// Returns |dt| / t if there is one.
+    fn judge(
+        &mut self,
+        truth: Option<(u32, f64)>,
+        hit: &Option<DeviceHit>,
+        wrong_primitive_tolerance: f64,
+    ) -> Option<f64> {
+        let Some((primitive, t)) = truth else {
+            count(&mut self.false_hits, hit.is_some());
+            return None;
+        };
+        count(&mut self.missed, hit.is_none());
+        let hit = hit.as_ref()?;
+        let difference = (f64::from(hit.t) - t).abs();
+        let dt_rel = if difference == 0.0 { 0.0 } else { difference / t.abs() };
+        if let Some(found) = hit.primitive {
+            let wrong = found != primitive
+                && (wrong_primitive_tolerance <= 0.0 || dt_rel > wrong_primitive_tolerance);
+            count(self.wrong_primitive.get_or_insert_default(), wrong);
+        }
+        Some(dt_rel)
+    }
+
+    /// Whether a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or
+    /// not finite.
+    pub fn is_clean(&self) -> bool {
+        let wrong = self.wrong_primitive.unwrap_or_default();
+        [self.missed, self.false_hits, wrong, self.ambiguous_lost, self.ambiguous_wrong, self.non_finite]
+            .iter()
+            .all(|rate| rate.count == 0)
+    }
+}
+
+fn count(rate: &mut Rate, happened: bool) {
+    rate.total += 1;
+    rate.count += u64::from(happened);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Clone)]
+    enum Fact {
+        Hit(u32, f64),
+        Miss,
+        Unsure { closed: bool },
+    }
+
+    impl Truth for Fact {
+        fn hit(&self) -> Option<(u32, f64)> {
+            match self {
+                Self::Hit(primitive, t) => Some((*primitive, *t)),
+                Self::Miss => None,
+                Self::Unsure { .. } => Some((3, 1.0)),
+            }
+        }
+
+        fn is_ambiguous(&self) -> bool {
+            matches!(self, Self::Unsure { .. })
+        }
+
+        fn admits_miss(&self) -> bool {
+            matches!(self, Self::Unsure { closed: false })
+        }
+
+        fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool {
+            primitive.is_none_or(|p| p == 3 || p == 4) && (t - 1.0).abs() < 1e-6
+        }
+    }
+
+    fn hit(primitive: u32, t: f32) -> Option<DeviceHit> {
+        Some(DeviceHit { t, primitive: Some(primitive) })
+    }
+
+    fn truths() -> Vec<Fact> {
+        vec![
+            Fact::Hit(1, 2.0),
+            Fact::Hit(2, 4.0),
+            Fact::Miss,
+            Fact::Unsure { closed: true },
+            Fact::Unsure { closed: false },
+        ]
+    }
+
+    fn right() -> Vec<Option<DeviceHit>> {
+        vec![hit(1, 2.0), hit(2, 4.0), None, hit(4, 1.0), None]
+    }
+
+    #[test]
+    fn right_answers_are_clean() {
+        let confusion = HitConfusion::measure(&truths(), &right(), 0.0).expect("same length");
+        assert!(confusion.is_clean(), "{confusion:?}");
+        assert_eq!((confusion.rays, confusion.ambiguous), (5, 2));
+        assert_eq!(confusion.missed, Rate { count: 0, total: 2 });
+        assert_eq!(confusion.false_hits, Rate { count: 0, total: 1 });
+        assert_eq!(confusion.ambiguous_lost, Rate { count: 0, total: 1 });
+        assert_eq!(confusion.dt_rel.map(|p| (p.count, p.max)), Some((2, 0.0)));
+    }
+
+    #[test]
+    fn every_wrong_answer_is_counted_in_its_place() {
+        type Place = fn(&HitConfusion) -> Rate;
+        let cases: [(usize, Option<DeviceHit>, Place); 7] = [
+            (0, None, |c| c.missed),
+            (2, hit(1, 1.0), |c| c.false_hits),
+            (1, hit(1, 4.0), |c| c.wrong_primitive.unwrap_or_default()),
+            (3, None, |c| c.ambiguous_lost),
+            (3, hit(7, 1.0), |c| c.ambiguous_wrong),
+            (4, hit(3, 1.5), |c| c.ambiguous_wrong),
+            (1, hit(2, f32::NAN), |c| c.non_finite),
+        ];
+        for (ray, answer, place) in cases {
+            let mut hits = right();
+            hits[ray] = answer;
+            let confusion = HitConfusion::measure(&truths(), &hits, 0.0).expect("same length");
+            assert!(!confusion.is_clean(), "{answer:?} for ray {ray} went unseen");
+            assert_eq!(place(&confusion).count, 1, "{answer:?} for ray {ray}: {confusion:?}");
+        }
+    }
+
+    #[test]
+    fn distance_errors_and_tolerance() {
+        let mut hits = right();
+        hits[1] = hit(9, 4.5);
+        let confusion = HitConfusion::measure(&truths(), &hits, 0.2).expect("same length");
+        assert_eq!(confusion.wrong_primitive, Some(Rate { count: 0, total: 2 }));
+        assert_eq!(confusion.dt_rel.map(|p| (p.p50, p.max)), Some((0.0625, 0.125)));
+        let confusion = HitConfusion::measure(&truths(), &hits, 0.1).expect("same length");
+        assert_eq!(confusion.wrong_primitive, Some(Rate { count: 1, total: 2 }));
+    }
+
+    #[test]
+    fn unknown_triangles_are_not_measured() {
+        let hits: Vec<_> =
+            right().iter().map(|hit| hit.map(|hit| DeviceHit { primitive: None, ..hit })).collect();
+        let confusion = HitConfusion::measure(&truths(), &hits, 0.0).expect("same length");
+        assert_eq!(confusion.wrong_primitive, None);
+        assert!(confusion.is_clean());
+        let short = HitConfusion::measure(&truths(), &hits[1..], 0.0);
+        assert_eq!(short, Err(MetricsError::RayCountMismatch { truths: 5, hits: 4 }));
+    }
+}

@@ -1,0 +1,109 @@
+use crate::beta::inverse_incomplete_beta;
+
+/// How often something happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rate {
+    /// How often it happened; at most `total`.
+    pub count: u64,
+    /// How often it could have happened.
+    pub total: u64,
+}
+
+impl Rate {
+    /// `count / total`; absent if it could not have happened.
+    pub fn value(&self) -> Option<f64> {
+        (self.total > 0).then(|| self.count as f64 / self.total as f64)
+    }
+
+    /// The 95 % confidence interval of the true rate; absent if nothing was tried.
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        self.interval_at(0.95)
+    }
+
+    /// The confidence interval of the true rate, for a confidence in (0, 1); absent if nothing was
+    /// tried or the confidence is out of range.
+    ///
+    /// Clopper-Pearson, so the confidence is a lower bound whatever the rate. If it never (or always)
+    /// happened only one side can err, and the bound is -ln(1 - confidence) / total: 3 / total at 95 %.
+    pub fn interval_at(&self, confidence: f64) -> Option<[f64; 2]> {
+        if self.total == 0 || !(0.0 < confidence && confidence < 1.0) {
+            return None;
+        }
+        let (count, total) = (self.count.min(self.total) as f64, self.total as f64);
+        let one_sided = (-(1.0 - confidence).ln() / total).min(1.0);
+        if self.count == 0 {
+            return Some([0.0, one_sided]);
+        }
+        if self.count >= self.total {
+            return Some([1.0 - one_sided, 1.0]);
+        }
+        let tail = 0.5 * (1.0 - confidence);
+        Some([
+            inverse_incomplete_beta(count, total - count + 1.0, tail),
+            inverse_incomplete_beta(count + 1.0, total - count, 1.0 - tail),
+        ])
+    }
+
+    /// Whether the 95 % intervals of two rates do not overlap.
+    pub fn differs_from(&self, other: &Self) -> bool {
+        match (self.interval(), other.interval()) {
+            (Some([low, high]), Some([other_low, other_high])) => high < other_low || other_high < low,
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tabulated_interval() {
+        // Two-sided 95 % for 10 of 100, and for 1 of 10.
+        let [low, high] = Rate { count: 10, total: 100 }.interval().expect("something was tried");
+        assert!((low - 0.049_005).abs() < 1e-6 && (high - 0.176_222).abs() < 1e-6, "{low} {high}");
+        let [low, high] = Rate { count: 1, total: 10 }.interval().expect("something was tried");
+        assert!((low - 0.002_528_6).abs() < 1e-6 && (high - 0.445_016).abs() < 1e-6, "{low} {high}");
+    }
+
+    #[test]
+    fn the_ends_satisfy_their_definition() {
+        // P(X >= count | low) = 2.5 %, P(X <= count | high) = 2.5 %, summed directly.
+        let rate = Rate { count: 3, total: 40 };
+        let [low, high] = rate.interval().expect("something was tried");
+        let at_most = |p: f64, k: u64| -> f64 {
+            let mut term = (1.0 - p).powi(40);
+            let mut sum = term;
+            for i in 1..=k {
+                term *= (41 - i) as f64 / i as f64 * p / (1.0 - p);
+                sum += term;
+            }
+            sum
+        };
+        assert!((at_most(high, 3) - 0.025).abs() < 1e-9);
+        assert!((1.0 - at_most(low, 2) - 0.025).abs() < 1e-9);
+    }
+
+    #[test]
+    fn never_and_always() {
+        let [low, high] = Rate { count: 0, total: 150_000 }.interval().expect("something was tried");
+        assert_eq!(low, 0.0);
+        assert!((high - 2e-5).abs() < 1e-7);
+        assert_eq!(Rate { count: 0, total: 2 }.interval(), Some([0.0, 1.0]));
+        let [low, high] = Rate { count: 1000, total: 1000 }.interval().expect("something was tried");
+        assert!((low - 0.997).abs() < 1e-5 && high == 1.0);
+        assert_eq!(Rate::default().interval(), None);
+        assert_eq!(Rate { count: 1, total: 2 }.interval_at(1.0), None);
+    }
+
+    #[test]
+    fn intervals_tell_rates_apart_only_when_they_can() {
+        let few = Rate { count: 3, total: 100 };
+        let many = Rate { count: 300, total: 10_000 };
+        assert!(!few.differs_from(&many));
+        assert!(many.differs_from(&Rate { count: 450, total: 10_000 }));
+        assert!(!few.differs_from(&Rate { count: 5, total: 100 }));
+        assert!(Rate { count: 10_000, total: 10_000_000 }.differs_from(&many));
+    }
+}

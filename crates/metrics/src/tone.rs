@@ -1,0 +1,25 @@
+use crate::image::Image;
+
+/// Linear light to values as shown: exposure 1, clamped to [0, 1], sRGB transfer curve. NaN becomes 0.
+/// Metrics of perception (PSNR, SSIM, FLIP) are defined on these.
+pub fn display_values(image: &Image<'_>) -> Vec<[f32; 3]> {
+    image.pixels().iter().map(|pixel| pixel.map(encode)).collect()
+}
+
+fn encode(linear: f32) -> f32 {
+    let x = if linear.is_nan() { 0.0 } else { linear.clamp(0.0, 1.0) };
+    if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_knee_and_middle() {
+        assert_eq!([-1.0, 0.0, f32::NAN].map(encode), [0.0; 3]);
+        assert!([1.0, 7.0, f32::INFINITY].iter().all(|x| (encode(*x) - 1.0).abs() < 1e-6));
+        assert!((encode(0.003_130_8) - 0.040_45).abs() < 1e-5);
+        assert!((encode(0.214_041) - 0.5).abs() < 1e-5);
+    }
+}
