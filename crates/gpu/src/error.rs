@@ -4,8 +4,8 @@ use ash::vk;
 
 use crate::features::Feature;
 
-/// Result of this crate.
-pub type Result<T> = std::result::Result<T, GpuError>;
+/// Result of this crate; the error can be replaced, so that a glob import does no harm.
+pub type Result<T, E = GpuError> = std::result::Result<T, E>;
 
 /// An error of the Vulkan layer.
 #[derive(Debug, Clone, thiserror::Error)]
