@@ -12,9 +12,11 @@
 //! mesh in order, then (with `EXT_mesh_gpu_instancing`) the instances of the node in order.
 
 mod accessor;
+mod animations;
 mod buffers;
 mod cameras;
 mod container;
+mod deformation;
 mod document;
 mod elements;
 mod extensions;
@@ -25,6 +27,7 @@ mod json;
 mod lights;
 mod materials;
 mod primitives;
+mod skins;
 mod textures;
 mod transforms;
 mod uri;
@@ -63,13 +66,11 @@ fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, Scen
     let document = document::Document::open(path, bytes, options, &mut warnings)?;
     let hierarchy = hierarchy::Hierarchy::of(&document)?;
     let order = hierarchy.scene_order(&document, &options.scene)?;
-    let placed = elements::place(&document, &hierarchy, &order, &mut warnings)?;
-    let mut scene = Scene {
-        name: scene_name(path),
-        meshes: placed.meshes,
-        instances: placed.instances,
-        ..Scene::default()
-    };
+    let skins = skins::read_all(&document)?;
+    let placed = elements::place(&document, &hierarchy, &skins, &order, &mut warnings)?;
+    let elements::Placed { meshes, instances, placements, deformed } = placed;
+    let animation = animations::read(&document, &hierarchy, skins, deformed, placements, &mut warnings)?;
+    let mut scene = Scene { name: scene_name(path), meshes, instances, animation, ..Scene::default() };
     materials::convert(&document, &mut scene, &mut warnings)?;
     scene.lights = lights::place(&document, &hierarchy, &order, &mut warnings);
     scene.cameras = cameras::place(&document, &hierarchy, &order, &mut warnings);

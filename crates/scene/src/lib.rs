@@ -3,6 +3,7 @@
 //! Nothing here knows of Vulkan. Transforms are kept in f64 until the pose; positions are metres,
 //! angles radians, times seconds, radiance W/(sr m^2).
 
+pub mod animation;
 pub mod builtin;
 pub mod check;
 mod decode;
@@ -12,6 +13,8 @@ pub mod gltf;
 mod limits;
 mod load;
 pub mod model;
+pub mod obj;
+pub mod ply;
 
 pub use decode::decode_image;
 pub use error::SceneError;

@@ -30,12 +30,12 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             file_bytes: 4 << 30,
-            triangles: 1 << 28,
-            vertices: 1 << 28,
+            triangles: 1 << 27,
+            vertices: 1 << 27,
             image_pixels: 1 << 28,
             total_pixels: 1 << 30,
             nodes: 1 << 20,
-            instances: 1 << 24,
+            instances: 1 << 22,
             depth: 512,
         }
     }

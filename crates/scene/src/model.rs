@@ -319,6 +319,8 @@ pub struct Animation {
     pub skins: usize,
     /// Number of meshes with morph targets.
     pub morphed_meshes: usize,
+    /// Nodes, keys, skins and morph targets: all that posing needs.
+    pub rig: crate::animation::Rig,
 }
 
 /// Something the user should know about a scene.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use ::gltf::json::Root;
 
-use super::transforms::LocalTransform;
 use super::{accessor, buffers, container, extensions, indices, json};
+use crate::animation::NodeTransform;
 use crate::{Limits, LoadOptions, SceneError, Warning};
 
 /// A parsed file with its bytes. Every index in `root` is in range, every enumeration known, every
@@ -16,7 +16,7 @@ pub(super) struct Document<'a> {
     pub limits: &'a Limits,
     pub root: Root,
     /// Transform of every node relative to its parent.
-    pub locals: Vec<LocalTransform>,
+    pub locals: Vec<NodeTransform>,
     /// Bytes of every buffer, at least as long as it claims.
     pub buffers: Vec<Cow<'a, [u8]>>,
 }

@@ -7,47 +7,62 @@ use glam::DAffine3;
 use super::document::Document;
 use super::hierarchy::Hierarchy;
 use super::instancing;
-use super::primitives::{self, Skipped};
+use super::primitives::{self, Shown, Skipped};
+use crate::animation::{DeformedMesh, Placement, Skin};
 use crate::{Instance, Limits, Mesh, SceneError, Warning};
 
 /// Meshes of the scene, `Mesh::material` still an index into the file (its length: the default
-/// material), and where they are.
+/// material), where they are, and what they were before they were deformed.
 #[derive(Default)]
 pub(super) struct Placed {
     pub meshes: Vec<Mesh>,
     pub instances: Vec<Instance>,
+    /// One an instance.
+    pub placements: Vec<Placement>,
+    pub deformed: Vec<DeformedMesh>,
 }
 
-/// What identifies the geometry of a primitive: mesh, primitive, and the node if it has morph
-/// weights of its own.
+/// What identifies the geometry of a primitive: mesh, primitive, and the node if that has a skin or
+/// morph weights of its own.
 type MeshKey = (usize, usize, Option<usize>);
+
+/// A mesh that was read, and where it is if not at its node.
+type Known = Option<(usize, Option<DAffine3>)>;
 
 /// Reads and places what the nodes in `order` show.
 pub(super) fn place(
     document: &Document<'_>,
     hierarchy: &Hierarchy,
+    skins: &[Skin],
     order: &[usize],
     warnings: &mut Vec<Warning>,
 ) -> Result<Placed, SceneError> {
     let mut placer = Placer {
         document,
+        hierarchy,
+        skins,
         placed: Placed::default(),
         read: HashMap::new(),
         names: HashMap::new(),
+        skipped: Skipped::default(),
         triangles: 0,
         lost: 0,
     };
-    let mut skipped = Skipped::default();
     for &node in order {
-        let Some(mesh) = document.root.nodes[node].mesh else { continue };
+        let Some(mesh) = document.root.nodes[node].mesh.map(|mesh| mesh.value()) else { continue };
         let copies = instancing::transforms(document, node)?;
-        for primitive in 0..document.root.meshes[mesh.value()].primitives.len() {
-            if let Some(mesh) = placer.mesh(node, mesh.value(), primitive, &mut skipped, warnings)? {
-                placer.instances(node, mesh, hierarchy.world[node], copies.as_deref())?;
+        let copies = copies.as_deref().unwrap_or(&[DAffine3::IDENTITY]);
+        for primitive in 0..document.root.meshes[mesh].primitives.len() {
+            let shown = Shown { node, mesh, primitive };
+            match placer.mesh(shown, warnings)? {
+                // Joints place a skinned mesh, not its node: copies would coincide.
+                Some((mesh, Some(world))) => placer.instances(node, mesh, world, &[DAffine3::IDENTITY])?,
+                Some((mesh, None)) => placer.instances(node, mesh, hierarchy.world[node], copies)?,
+                None => {}
             }
         }
     }
-    skipped.report(warnings);
+    placer.skipped.report(warnings);
     if placer.lost > 0 {
         warnings.push(Warning {
             kind: "non-finite-instances",
@@ -59,56 +74,56 @@ pub(super) fn place(
 
 struct Placer<'a> {
     document: &'a Document<'a>,
+    hierarchy: &'a Hierarchy,
+    skins: &'a [Skin],
     placed: Placed,
-    read: HashMap<MeshKey, Option<usize>>,
+    read: HashMap<MeshKey, Known>,
     names: HashMap<String, usize>,
+    skipped: Skipped,
     triangles: u64,
     lost: usize,
 }
 
 impl Placer<'_> {
-    /// Index of the mesh of a primitive, `None` if it has no triangles.
-    fn mesh(
-        &mut self,
-        node: usize,
-        mesh: usize,
-        primitive: usize,
-        skipped: &mut Skipped,
-        warnings: &mut Vec<Warning>,
-    ) -> Result<Option<usize>, SceneError> {
-        let own_weights = self.document.root.nodes[node].weights.as_deref();
-        let key = (mesh, primitive, own_weights.map(|_| node));
+    /// The mesh of a primitive, `None` if it has no triangles.
+    fn mesh(&mut self, shown: Shown, warnings: &mut Vec<Warning>) -> Result<Known, SceneError> {
+        let node = &self.document.root.nodes[shown.node];
+        let own = node.weights.is_some() || node.skin.is_some();
+        let key = (shown.mesh, shown.primitive, own.then_some(shown.node));
         if let Some(&known) = self.read.get(&key) {
             return Ok(known);
         }
-        let read = primitives::read(self.document, mesh, primitive, own_weights, skipped, warnings)?;
-        let index = read.map(|mesh| {
-            self.placed.meshes.push(mesh);
-            self.placed.meshes.len() - 1
+        let read =
+            primitives::read(self.document, self.hierarchy, self.skins, shown, &mut self.skipped, warnings)?;
+        let known = read.map(|read| {
+            let mesh = self.placed.meshes.len();
+            self.placed.meshes.push(read.mesh);
+            self.placed.deformed.extend(read.deformed.map(|deformed| DeformedMesh { mesh, ..deformed }));
+            (mesh, read.world_from_mesh)
         });
-        self.read.insert(key, index);
-        Ok(index)
+        self.read.insert(key, known);
+        Ok(known)
     }
 
-    /// Adds the instances of a mesh at a node: one, or one a copy.
+    /// Adds the instances of a mesh at a node, one a copy.
     fn instances(
         &mut self,
         node: usize,
         mesh: usize,
         world: DAffine3,
-        copies: Option<&[DAffine3]>,
+        copies: &[DAffine3],
     ) -> Result<(), SceneError> {
-        let copies = copies.unwrap_or(&[DAffine3::IDENTITY]);
         let Document { path, limits, .. } = *self.document;
         let placed = self.placed.instances.len() as u64 + copies.len() as u64;
         Limits::check(path, "the number of instances", placed, limits.instances, "instances")?;
         self.triangles += self.placed.meshes[mesh].triangle_count() as u64 * copies.len() as u64;
         Limits::check(path, "the number of placed triangles", self.triangles, limits.triangles, "triangles")?;
-        for copy in copies {
-            let world_from_mesh = world * *copy;
+        for &node_from_mesh in copies {
+            let world_from_mesh = world * node_from_mesh;
             if world_from_mesh.is_finite() {
                 let name = self.instance_name(node);
                 self.placed.instances.push(Instance { name, mesh, world_from_mesh });
+                self.placed.placements.push(Placement { node, node_from_mesh });
             } else {
                 self.lost += 1;
             }

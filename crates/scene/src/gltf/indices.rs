@@ -98,7 +98,7 @@ impl Check<'_> {
 
     fn graph(&self, root: &Root) -> Result<(), SceneError> {
         let nodes = root.nodes.len();
-        self.optional("the file", "scene", root.scene, root.scenes.len())?;
+        self.optional("file", "scene", root.scene, root.scenes.len())?;
         for (i, scene) in root.scenes.iter().enumerate() {
             for &node in &scene.nodes {
                 self.index(&format!("scenes[{i}]"), "nodes", node, nodes)?;
@@ -190,7 +190,8 @@ impl Check<'_> {
         for (i, texture) in root.textures.iter().enumerate() {
             let place = format!("textures[{i}]");
             self.optional(&place, "sampler", texture.sampler, root.samplers.len())?;
-            self.optional(&place, "source", super::textures::source(texture), root.images.len())?;
+            // The image is checked where a material uses the texture: files with unused textures
+            // that refer to nothing are common and harmless.
         }
         for (i, sampler) in root.samplers.iter().enumerate() {
             let place = format!("samplers[{i}]");

@@ -8,7 +8,8 @@ use std::path::Path;
 use ::gltf::json::deserialize::{from_slice, from_value};
 use ::gltf::json::{Root, Value};
 
-use super::transforms::{self, LocalTransform};
+use super::transforms;
+use crate::animation::NodeTransform;
 use crate::{SceneError, Warning};
 
 /// Members that hold an index, a count of components or an enumeration of the format.
@@ -48,7 +49,7 @@ const FOREIGN_MEMBERS: [&str; 2] = ["extras", "others"];
 /// A parsed file: the typed tree, and the transform of every node in f64.
 pub(super) struct Parsed {
     pub root: Root,
-    pub locals: Vec<LocalTransform>,
+    pub locals: Vec<NodeTransform>,
 }
 
 /// Parses JSON text.
@@ -64,8 +65,32 @@ pub(super) fn parse(path: &Path, text: &[u8], warnings: &mut Vec<Warning>) -> Re
     supply_optional_members(&mut tree);
     drop_untargeted_channels(&mut tree, warnings);
     let locals = transforms::read_all(path, &tree, warnings)?;
-    let root = from_value(tree).map_err(malformed)?;
+    let root = from_value(tree).map_err(|error| misplaced(path, text, &error))?;
     Ok(Parsed { root, locals })
+}
+
+/// The error of a tree that is JSON but not glTF, with the element at fault: the typed parser does
+/// not say where it stopped, so the elements are tried one by one.
+fn misplaced(path: &Path, text: &[u8], error: &::gltf::json::Error) -> SceneError {
+    let parses = |list: &str, element: Value| {
+        let mut file = Value::Object(Default::default());
+        file["asset"]["version"] = "2.0".into();
+        file[list] = element;
+        supply_optional_members(&mut file);
+        from_value::<Root>(file)
+    };
+    let tree: Value = from_slice(text).unwrap_or_default();
+    for (name, member) in tree.as_object().into_iter().flatten() {
+        for (i, element) in member.as_array().into_iter().flatten().enumerate() {
+            if let Err(error) = parses(name, Value::Array(vec![element.clone()])) {
+                return SceneError::invalid(path, format!("{name}[{i}]"), error.to_string());
+            }
+        }
+        if let Err(error) = parses(name, member.clone()) {
+            return SceneError::invalid(path, name.clone(), error.to_string());
+        }
+    }
+    SceneError::syntax(path, format!("malformed glTF JSON: {error}"))
 }
 
 /// Refuses files that are not of version 2.

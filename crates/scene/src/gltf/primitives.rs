@@ -1,13 +1,16 @@
 //! A mesh primitive to an indexed triangle mesh.
 
-use ::gltf::json::Index;
-use ::gltf::json::accessor::{Accessor, ComponentType, GenericComponentType};
+use ::gltf::json::accessor::{ComponentType, GenericComponentType};
+use ::gltf::json::mesh::Semantic::{Joints, Weights};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
-use glam::Vec3;
+use glam::DAffine3;
 
-use super::accessor::{components, count, read_floats, read_integers};
+use super::accessor::{components, read_floats, read_integers};
 use super::document::Document;
+use super::hierarchy::Hierarchy;
+use super::{deformation, skins};
+use crate::animation::{DeformedMesh, Skin};
 use crate::check::clean_mesh;
 use crate::{Limits, Mesh, SceneError, Warning};
 
@@ -33,67 +36,119 @@ impl Skipped {
         warn("no-positions", self.without_positions, "primitives without positions were dropped");
         warn("empty-mesh", self.empty, "primitives without triangles were dropped");
     }
+
+    /// How the triangles of a primitive are made, and its positions; counts it if it has none.
+    fn triangles_of(&mut self, primitive: &Primitive) -> Option<(Mode, usize)> {
+        let count = match primitive.mode {
+            Checked::Valid(Mode::Points) => &mut self.points,
+            Checked::Valid(Mode::Lines | Mode::LineLoop | Mode::LineStrip) => &mut self.lines,
+            Checked::Valid(mode) => match attribute(primitive, Semantic::Positions) {
+                Some(positions) => return Some((mode, positions)),
+                None => &mut self.without_positions,
+            },
+            // Refused when the file was opened.
+            Checked::Invalid => &mut self.empty,
+        };
+        *count += 1;
+        None
+    }
 }
 
-/// Reads a primitive, morphed by `weights` (or those of the mesh). `None` if it has no triangles.
-/// `Mesh::material` is the index in the file, or the number of materials for the default one.
+/// A primitive of the file and the node that shows it.
+#[derive(Clone, Copy)]
+pub(super) struct Shown {
+    pub node: usize,
+    pub mesh: usize,
+    pub primitive: usize,
+}
+
+/// What became of a primitive. `Mesh::material` is the index in the file, or the number of
+/// materials for the default one; `DeformedMesh::mesh` is not known here.
+pub(super) struct Read {
+    pub mesh: Mesh,
+    /// What it was before morph targets and joints moved it, if any do.
+    pub deformed: Option<DeformedMesh>,
+    /// Where a skinned mesh is; other meshes are where their node is.
+    pub world_from_mesh: Option<DAffine3>,
+}
+
+/// Reads a primitive in its pose at rest. `None` if it has no triangles.
 pub(super) fn read(
     document: &Document<'_>,
-    mesh_index: usize,
-    primitive_index: usize,
-    weights: Option<&[f32]>,
+    hierarchy: &Hierarchy,
+    skins: &[Skin],
+    shown: Shown,
     skipped: &mut Skipped,
     warnings: &mut Vec<Warning>,
-) -> Result<Option<Mesh>, SceneError> {
-    let source = &document.root.meshes[mesh_index];
-    let primitive = &source.primitives[primitive_index];
-    let place = format!("meshes[{mesh_index}].primitives[{primitive_index}]");
-    let mode = match primitive.mode {
-        Checked::Valid(Mode::Points) => {
-            skipped.points += 1;
-            return Ok(None);
-        }
-        Checked::Valid(Mode::Lines | Mode::LineLoop | Mode::LineStrip) => {
-            skipped.lines += 1;
-            return Ok(None);
-        }
-        Checked::Valid(mode) => mode,
-        Checked::Invalid => return Err(document.invalid(place, "has an unknown mode")),
-    };
-    let Some(positions) = attribute(primitive, Semantic::Positions) else {
-        skipped.without_positions += 1;
-        return Ok(None);
-    };
-    let mut mesh = Mesh {
-        name: mesh_name(source.name.as_deref(), mesh_index, primitive_index, source.primitives.len()),
-        positions: read_directions(document, positions)?,
-        normals: attribute(primitive, Semantic::Normals)
-            .map(|index| read_directions(document, index))
-            .transpose()?,
-        tangents: attribute(primitive, Semantic::Tangents)
-            .map(|index| read_directions(document, index))
-            .transpose()?,
-        uvs: [read_uvs(document, primitive, 0)?, read_uvs(document, primitive, 1)?],
-        colors: attribute(primitive, Semantic::Colors(0))
-            .map(|index| read_colors(document, index))
-            .transpose()?,
-        indices: Vec::new(),
-        material: primitive.material.map_or(document.root.materials.len(), |material| material.value()),
-    };
+) -> Result<Option<Read>, SceneError> {
+    let source = &document.root.meshes[shown.mesh];
+    let primitive = &source.primitives[shown.primitive];
+    let place = format!("meshes[{}].primitives[{}]", shown.mesh, shown.primitive);
+    let Some((mode, positions)) = skipped.triangles_of(primitive) else { return Ok(None) };
+    let name = mesh_name(source.name.as_deref(), shown.mesh, shown.primitive, source.primitives.len());
+    let mut mesh = undeformed(document, primitive, name, positions)?;
     let corners = match primitive.indices {
         Some(indices) => read_integers::<1>(document, indices.value())?.into_iter().flatten().collect(),
         None => (0..mesh.positions.len() as u32).collect(),
     };
     mesh.indices = triangles(document, &place, mode, corners)?;
-    morph(document, &place, primitive, weights.or(source.weights.as_deref()), &mut mesh)?;
     let found = mesh.triangle_count() as u64;
     Limits::check(document.path, "the number of triangles", found, document.limits.triangles, "triangles")?;
+
+    let node = &document.root.nodes[shown.node];
+    let binding = match (node.skin, attribute(primitive, Joints(0)), attribute(primitive, Weights(0))) {
+        (Some(skin), Some(joints), Some(weights)) => {
+            if attribute(primitive, Joints(1)).is_some() {
+                warnings.push(Warning {
+                    kind: "many-joints",
+                    message: format!("mesh {}: only the first four joints of a vertex are used", mesh.name),
+                });
+            }
+            let vertices = mesh.positions.len();
+            Some(skins::read_binding(document, &place, skin.value(), (joints, weights), vertices)?)
+        }
+        _ => None,
+    };
+    let morphed = primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
+    let mut deformed = None;
+    let mut world_from_mesh = None;
+    if morphed || binding.is_some() {
+        let weights = node.weights.as_deref().or(source.weights.as_deref()).unwrap_or_default();
+        let mut kept = deformation::read(document, &place, primitive, weights, &mesh)?;
+        deformation::morph(&kept, &mut mesh);
+        world_from_mesh =
+            binding.as_ref().map(|found| skins::pose(&skins[found.skin], found, hierarchy, &mut mesh));
+        kept.skin = binding;
+        deformed = Some(kept);
+    }
     clean_mesh(document.path, &mut mesh, warnings)?;
     if mesh.indices.is_empty() {
         skipped.empty += 1;
         return Ok(None);
     }
-    Ok(Some(mesh))
+    Ok(Some(Read { mesh, deformed, world_from_mesh }))
+}
+
+/// The vertices of a primitive, as the file has them; no triangles yet.
+fn undeformed(
+    document: &Document<'_>,
+    primitive: &Primitive,
+    name: String,
+    positions: usize,
+) -> Result<Mesh, SceneError> {
+    let normals = attribute(primitive, Semantic::Normals);
+    let tangents = attribute(primitive, Semantic::Tangents);
+    let colors = attribute(primitive, Semantic::Colors(0));
+    Ok(Mesh {
+        name,
+        positions: read_directions(document, positions)?,
+        normals: normals.map(|index| read_directions(document, index)).transpose()?,
+        tangents: tangents.map(|index| read_directions(document, index)).transpose()?,
+        uvs: [read_uvs(document, primitive, 0)?, read_uvs(document, primitive, 1)?],
+        colors: colors.map(|index| read_colors(document, index)).transpose()?,
+        indices: Vec::new(),
+        material: primitive.material.map_or(document.root.materials.len(), |material| material.value()),
+    })
 }
 
 fn mesh_name(name: Option<&str>, mesh: usize, primitive: usize, primitives: usize) -> String {
@@ -107,7 +162,7 @@ fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
 
 /// Positions, normals, tangents and their morph displacements: floats, unless the file says that its
 /// meshes are quantised.
-fn read_directions<const N: usize>(
+pub(super) fn read_directions<const N: usize>(
     document: &Document<'_>,
     accessor: usize,
 ) -> Result<Vec<[f32; N]>, SceneError> {
@@ -162,68 +217,4 @@ fn triangles(
         }
         _ => Ok(corners),
     }
-}
-
-/// Adds the weighted morph targets.
-fn morph(
-    document: &Document<'_>,
-    place: &str,
-    primitive: &Primitive,
-    weights: Option<&[f32]>,
-    mesh: &mut Mesh,
-) -> Result<(), SceneError> {
-    let targets = primitive.targets.as_deref().unwrap_or_default();
-    let weights = weights.unwrap_or_default().iter().copied().chain(std::iter::repeat(0.0));
-    let mut turned = false;
-    for (target, weight) in targets.iter().zip(weights) {
-        for index in [target.positions, target.normals, target.tangents].into_iter().flatten() {
-            same_count(document, place, index, mesh.positions.len())?;
-        }
-        if weight == 0.0 {
-            continue;
-        }
-        add(document, target.positions, weight, mesh.positions.iter_mut().map(|position| &mut position[..]))?;
-        if let Some(normals) = &mut mesh.normals {
-            turned |= target.normals.is_some();
-            add(document, target.normals, weight, normals.iter_mut().map(|normal| &mut normal[..]))?;
-        }
-        if let Some(tangents) = &mut mesh.tangents {
-            add(document, target.tangents, weight, tangents.iter_mut().map(|tangent| &mut tangent[..3]))?;
-        }
-    }
-    if turned {
-        for normal in mesh.normals.iter_mut().flatten() {
-            *normal = Vec3::from(*normal).normalize_or_zero().to_array();
-        }
-    }
-    Ok(())
-}
-
-fn same_count(
-    document: &Document<'_>,
-    place: &str,
-    accessor: Index<Accessor>,
-    vertices: usize,
-) -> Result<(), SceneError> {
-    let found = count(document, accessor.value())?;
-    if found != vertices {
-        let reason = format!("a morph target has {found} elements for {vertices} vertices");
-        return Err(document.invalid(place, reason));
-    }
-    Ok(())
-}
-
-fn add<'v>(
-    document: &Document<'_>,
-    displacement: Option<Index<Accessor>>,
-    weight: f32,
-    vectors: impl Iterator<Item = &'v mut [f32]>,
-) -> Result<(), SceneError> {
-    let Some(displacement) = displacement else { return Ok(()) };
-    for (vector, displacement) in vectors.zip(read_directions::<3>(document, displacement.value())?) {
-        for (x, d) in vector.iter_mut().zip(displacement) {
-            *x += weight * d;
-        }
-    }
-    Ok(())
 }

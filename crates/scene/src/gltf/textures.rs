@@ -104,6 +104,10 @@ impl<'a> TextureReader<'a> {
         }
         let texture = &self.document.root.textures[index];
         let read = match source(texture) {
+            Some(image) if image.value() >= self.document.root.images.len() => {
+                let reason = format!("refers to images[{}], which does not exist", image.value());
+                return Err(self.document.invalid(format!("textures[{index}]"), reason));
+            }
             Some(image) => {
                 let image = self.image(image.value(), warnings)?;
                 self.textures.push(sampled(self.document, texture, image));
@@ -197,4 +201,38 @@ fn matrix(place: &str, transform: &TextureTransform, warnings: &mut Vec<Warning>
         message: format!("{place}: its texture transform is not finite; none is applied"),
     });
     IDENTITY
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rotation and the combined quad of Khronos' texture transform test: where the marker of a
+    /// correct result stands, the tip of the arrow is sampled.
+    #[test]
+    fn transforms_turn_the_right_way() {
+        let tip = [0.7778, 0.7778];
+        let cases = [
+            (r#"{"rotation":0.39269908}"#, [0.42095, 1.01627], 1e-3),
+            (r#"{"rotation":0.3,"scale":[1.5,1.5],"offset":[-0.2,-0.1]}"#, [0.43, 0.75], 4e-2),
+        ];
+        for (json, [u, v], tolerance) in cases {
+            let transform: TextureTransform =
+                ::gltf::json::deserialize::from_str(json).expect("a well-formed transform");
+            let rows = matrix("material", &transform, &mut Vec::new());
+            for (row, tip) in rows.iter().zip(tip) {
+                let found = row[0] * u + row[1] * v + row[2];
+                assert!((found - tip).abs() < tolerance, "{json}: {found} instead of {tip}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_transform_that_is_not_finite_is_not_applied() {
+        let transform: TextureTransform =
+            ::gltf::json::deserialize::from_str(r#"{"scale":[1e39,1]}"#).expect("a well-formed transform");
+        let mut warnings = Vec::new();
+        assert_eq!(matrix("material", &transform, &mut warnings), IDENTITY);
+        assert_eq!(warnings.len(), 1);
+    }
 }

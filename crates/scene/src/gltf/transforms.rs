@@ -5,38 +5,18 @@ use std::path::Path;
 use ::gltf::json::Value;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
+use crate::animation::NodeTransform;
 use crate::{SceneError, Warning};
 
 /// How far the last row of a matrix may be from (0, 0, 0, 1).
 const PROJECTIVE_TOLERANCE: f64 = 1e-6;
-
-/// The transform of a node relative to its parent.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum LocalTransform {
-    /// Translation, rotation and scale, which animation can replace one by one.
-    Parts { translation: DVec3, rotation: DQuat, scale: DVec3 },
-    /// Any affine map.
-    Matrix(DAffine3),
-}
-
-impl LocalTransform {
-    /// The map from the node's space to its parent's.
-    pub fn to_affine(self) -> DAffine3 {
-        match self {
-            Self::Parts { translation, rotation, scale } => {
-                DAffine3::from_scale_rotation_translation(scale, rotation, translation)
-            }
-            Self::Matrix(matrix) => matrix,
-        }
-    }
-}
 
 /// Reads the transform of every node.
 pub(super) fn read_all(
     path: &Path,
     tree: &Value,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<LocalTransform>, SceneError> {
+) -> Result<Vec<NodeTransform>, SceneError> {
     let nodes = tree.get("nodes").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
     nodes.iter().enumerate().map(|(i, node)| read(path, i, node, warnings)).collect()
 }
@@ -46,7 +26,7 @@ fn read(
     index: usize,
     node: &Value,
     warnings: &mut Vec<Warning>,
-) -> Result<LocalTransform, SceneError> {
+) -> Result<NodeTransform, SceneError> {
     if let Some(elements) = numbers::<16>(path, index, node, "matrix")? {
         let column = |k: usize| DVec3::new(elements[4 * k], elements[4 * k + 1], elements[4 * k + 2]);
         let bottom = [elements[3], elements[7], elements[11], elements[15] - 1.0];
@@ -54,7 +34,7 @@ fn read(
             let reason = "is projective: its last row must be 0 0 0 1";
             return Err(SceneError::invalid(path, format!("nodes[{index}].matrix"), reason));
         }
-        return Ok(LocalTransform::Matrix(DAffine3 {
+        return Ok(NodeTransform::Matrix(DAffine3 {
             matrix3: DMat3::from_cols(column(0), column(1), column(2)),
             translation: column(3),
         }));
@@ -73,7 +53,7 @@ fn read(
         }),
         None => DQuat::IDENTITY,
     };
-    Ok(LocalTransform::Parts { translation, rotation, scale })
+    Ok(NodeTransform::Parts { translation, rotation, scale })
 }
 
 /// The rotation along x, y, z, w, of whatever length but zero.
