@@ -182,7 +182,7 @@ fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
         ));
     }
     let parsed = One::try_parse_from([format!("--{option}={value}")])
-        .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': ")))?;
+        .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare")))?;
     Ok((name, parsed.options))
 }
 

@@ -56,6 +56,9 @@ pub enum Command {
     Info(InfoArguments),
 }
 
+/// The words of [`Command`].
+const COMMANDS: [&str; 3] = ["render", "compare", "info"];
+
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]
 pub enum Refusal {
@@ -70,7 +73,9 @@ pub enum Refusal {
 /// # Errors
 /// Help and version as text; everything else as a usage error.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Refusal> {
-    match CommandLine::try_parse_from(arguments) {
+    let arguments: Vec<_> = arguments.into_iter().collect();
+    let command = arguments.get(1).and_then(|word| word.to_str()).filter(|word| COMMANDS.contains(word));
+    match CommandLine::try_parse_from(&arguments) {
         Ok(line) => Ok(line.command),
         Err(error) => Err(match error.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
@@ -78,13 +83,14 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, R
                 "nothing was asked for",
                 "say render, compare or info; 'rasray --help' explains them, with examples",
             )),
-            _ => Refusal::Error(usage_error(&error, "")),
+            _ => Refusal::Error(usage_error(&error, "", command)),
         }),
     }
 }
 
-/// Turns an answer of the parser into one line of error and one of help.
-pub(crate) fn usage_error(error: &clap::Error, prefix: &str) -> AppError {
+/// Turns an answer of the parser into one line of error and one of help; the help names the command
+/// whose options are meant.
+pub(crate) fn usage_error(error: &clap::Error, prefix: &str, command: Option<&str>) -> AppError {
     let text = error.render().to_string();
     let (mut message, mut help) = (String::new(), String::new());
     for paragraph in text.split("\n\n") {
@@ -97,14 +103,9 @@ pub(crate) fn usage_error(error: &clap::Error, prefix: &str) -> AppError {
         }
     }
     if help.is_empty() {
-        let usage = text.lines().find_map(|line| line.strip_prefix("Usage: rasray "));
-        let command =
-            usage.and_then(|line| line.split_whitespace().next()).filter(|word| !word.starts_with('['));
         help = match command {
-            Some(command) if !command.starts_with('<') => {
-                format!("'rasray {command} --help' lists what it takes")
-            }
-            _ => "'rasray --help' lists what there is".to_owned(),
+            Some(command) => format!("'rasray {command} --help' lists what it takes"),
+            None => "'rasray --help' lists what there is".to_owned(),
         };
     }
     AppError::usage(format!("{prefix}{message}"), help)

@@ -29,6 +29,13 @@ fn the_definition_is_consistent() {
 }
 
 #[test]
+fn the_list_of_commands_is_whole() {
+    let line = CommandLine::command();
+    let names: Vec<_> = line.get_subcommands().map(|command| command.get_name()).collect();
+    assert_eq!(names, COMMANDS);
+}
+
+#[test]
 fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
     let frame = given.frame.frame().expect("defaults fit together");

@@ -61,7 +61,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
         ("system", &metadata.system),
         ("preset", &metadata.preset),
         ("integrator", &metadata.integrator),
-        ("version", &crate::version_text().to_owned()),
+        ("rasrayVersion", &crate::version_text().to_owned()),
     ];
     for (name, value) in words {
         attributes.other.insert(Text::from(name), AttributeValue::Text(text(value)));

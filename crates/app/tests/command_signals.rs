@@ -1,0 +1,95 @@
+//! SIGINT and SIGTERM: one makes a valid partial image, two leave nothing.
+#![cfg(unix)]
+
+mod scripted;
+
+use scripted::{READY, command, entries, stderr};
+use std::path::Path;
+use std::process::{Child, Output, Stdio};
+use std::time::{Duration, Instant};
+
+#[test]
+fn as_command() {
+    scripted::become_the_command();
+}
+
+fn send(child: &Child, signal: &str) {
+    let status = std::process::Command::new("bash")
+        .args(["-c", &format!("kill -{signal} {}", child.id())])
+        .status()
+        .expect("bash starts");
+    assert!(status.success());
+}
+
+/// Starts the command, sends signals once it renders, and waits for its end.
+fn interrupted(folder: &Path, line: &str, signals: &[&str]) -> Output {
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let ready = elsewhere.path().join("ready");
+    let mut child = command(folder, line)
+        .env(READY, &ready)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    wait_until("the command does not begin", &mut child, |_| ready.exists());
+    // Some samples shall be whole.
+    std::thread::sleep(Duration::from_millis(150));
+    for signal in signals {
+        send(&child, signal);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    wait_until("the command does not stop", &mut child, |child| child.try_wait().expect("a child").is_some());
+    child.wait_with_output().expect("its output")
+}
+
+fn wait_until(otherwise: &str, child: &mut Child, mut done: impl FnMut(&mut Child) -> bool) {
+    let start = Instant::now();
+    while !done(child) {
+        if start.elapsed() > Duration::from_secs(20) {
+            child.kill().expect("a child that runs");
+            panic!("{otherwise}");
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[test]
+fn one_signal_makes_a_valid_image_of_the_samples_so_far() {
+    for signal in ["INT", "TERM"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let line = "render cornell --size 8x8 --spp 100000 --device slow -o a.exr --report r.json";
+        let output = interrupted(folder.path(), line, &[signal]);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(130), "{text}");
+        assert_eq!(entries(folder.path()), ["a.exr", "r.json"]);
+        let image =
+            exr::prelude::read_all_flat_layers_from_file(folder.path().join("a.exr")).expect("an image");
+        let samples = match image.layer_data[0].attributes.other.get(&exr::prelude::Text::from("samples")) {
+            Some(exr::prelude::AttributeValue::I32(samples)) => *samples,
+            other => panic!("{other:?}"),
+        };
+        assert!(samples > 0 && samples < 100_000);
+        assert!(text.contains(&format!("stopped after {samples} of 100000 samples")), "{text}");
+    }
+}
+
+#[test]
+fn two_signals_leave_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Nothing is asked between the signals: a wave of this device is longer than their distance.
+    let line = "compare cornell --systems mmrt,brute-force --device slow --report r.json";
+    let output = interrupted(folder.path(), line, &["INT", "INT"]);
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
+}
+
+#[test]
+fn one_signal_keeps_the_finished_runs_of_a_comparison() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "compare cornell --systems mmrt,brute-force --presets robust,published \
+                --ray-set incoherent,camera,eye,bounce --device slow --report r.json";
+    let output = interrupted(folder.path(), line, &["INT"]);
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).contains("of 12 runs"), "{}", stderr(&output));
+    assert_eq!(entries(folder.path()), ["r.json"]);
+}

@@ -1,0 +1,111 @@
+//! The built command, as far as it goes without a device: every mistake is answered before one is
+//! opened, with two lines on stderr and the documented exit code.
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn rasray(folder: &Path, line: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rasray"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the command starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("broken.glb"), b"glTF but not really").expect("a file");
+    std::fs::write(folder.path().join("notes.txt"), b"text").expect("a file");
+    let cases = [
+        ("render cornell -o a.jpg", "a.jpg", ".png"),
+        ("render cornell -o a", "a: ", ".png"),
+        ("render cornell -o missing/a.png", "missing", "mkdir"),
+        ("render cornell -o a.png --report missing/r.json", "missing/r.json", "mkdir"),
+        ("render cornell -o a.png --report a.png", "same file", "two files"),
+        ("render cornell -o a.png --aov depth", "--aov", ".exr"),
+        ("render cornell -o a.exr --exposure 1", "--exposure", ".png"),
+        ("render cornel -o a.png", "cornel", "cornell"),
+        ("render missing.glb -o a.png", "missing.glb", "check the name"),
+        ("render notes.txt -o a.png", "notes.txt", ".gltf"),
+        ("render broken.glb -o a.png", "broken.glb", "export"),
+        ("render cornell:walls=7 -o a.png", "walls", "PARAMETER"),
+        ("render cornell -o a.png --camera nobody", "nobody", "camera"),
+        ("render cornell -o a.png --environment missing.hdr", "missing.hdr", ".hdr"),
+        ("render cornell -o a.png --environment blue", "blue", "linear"),
+        ("render cornell -o a.png --system brute-force --buckets 4", "--buckets", "mmrt"),
+        ("render cornell -o a.png --system brute-force --preset published", "published", "robust"),
+        ("render cornell -o a.png --integrator ao --bounces 1", "--bounces", "path"),
+        ("render cornell -o a.png --eye 0,0,0 --target 0,0,0", "--eye", "--target"),
+        ("compare cornell --systems brute-force --storage sb", "--storage", "mmrt"),
+        ("compare cornell --systems brute-force mmrt.sort=on", "mmrt", "--systems"),
+        ("compare cornell --systems mmrt --report missing/r.json", "missing/r.json", "mkdir"),
+        ("info cornel", "cornel", "cornell"),
+    ];
+    for (line, named, fix) in cases {
+        let output = rasray(folder.path(), line);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{line}: {text}");
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines.len(), 2, "{line}: {text}");
+        assert!(lines[0].starts_with("error: ") && lines[0].contains(named), "{line}: {text}");
+        assert!(lines[1].starts_with("help: ") && lines[1].contains(fix), "{line}: {text}");
+        assert!(output.stdout.is_empty(), "{line}");
+    }
+    let mut left: Vec<_> = std::fs::read_dir(folder.path())
+        .expect("the folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["broken.glb", "notes.txt"]);
+}
+
+#[test]
+fn help_and_version_go_to_stdout() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (line, words) in [
+        ("--help", &["render", "compare", "info", "Exit codes", "Examples"][..]),
+        ("render --help", &["--system", "--output", "--ao-distance", "Examples", "sRGB", "SIGINT"]),
+        ("compare --help", &["--systems", "--ray-set", "mmrt.storage=sb"]),
+        ("info --help", &["Examples"]),
+        ("--version", &["rasray", env!("CARGO_PKG_VERSION")]),
+    ] {
+        let output = rasray(folder.path(), line);
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert_eq!(output.status.code(), Some(0), "{line}");
+        for word in words {
+            assert!(text.contains(word), "{line}: {word}");
+        }
+    }
+}
+
+#[test]
+fn info_shows_a_scene_without_a_device() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = rasray(folder.path(), "info cornell");
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(text.contains("triangles") && text.contains("cornell"), "{text}");
+}
+
+#[test]
+fn stdout_that_takes_nothing_is_lost_data_and_one_that_closes_is_not() {
+    let full = match std::fs::File::options().write(true).open("/dev/full") {
+        Ok(file) => file,
+        Err(_) => return eprintln!("skipped: no /dev/full here"),
+    };
+    let command = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_rasray"));
+        command.args(["info", "cornell"]);
+        command
+    };
+    let output = command().stdout(Stdio::from(full)).output().expect("the command starts");
+    assert_eq!(output.status.code(), Some(4), "{}", stderr(&output));
+    let mut child = command().stdout(Stdio::piped()).spawn().expect("the command starts");
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("the command ends").code(), Some(0));
+}

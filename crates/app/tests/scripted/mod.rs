@@ -1,0 +1,141 @@
+//! A back end with known answers, and the command run on it in a process of its own.
+//!
+//! The process is this test program again: the test named `as_command` becomes the command when the
+//! environment says so, and passes otherwise.
+
+use rasray_app::AppError;
+use rasray_app::backend::{
+    Backend, CompareJob, DeviceChoice, DeviceDescription, OnProgress, Progress, RenderJob, RenderOutput,
+};
+use rasray_app::report::{Counters, Device, Run, Times};
+use std::path::Path;
+use std::process::{Command, Output};
+use std::time::Duration;
+
+/// Set for the process that becomes the command: its arguments, one a line.
+const ARGUMENTS: &str = "RASRAY_TEST_ARGUMENTS";
+
+/// Set for that process where it shall say that it works: a file that it makes.
+pub const READY: &str = "RASRAY_TEST_READY";
+
+/// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample,
+/// `broken` fails, `unfinished` leaves a ray unanswered, `absent` cannot be opened.
+pub struct Scripted {
+    device: String,
+}
+
+impl Backend for Scripted {
+    fn device(&self) -> Device {
+        Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true }
+    }
+
+    fn render(
+        &mut self,
+        job: &RenderJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<RenderOutput, AppError> {
+        if self.device == "broken" {
+            return Err(AppError::device("the device was lost", "restart it"));
+        }
+        let (width, height) = (job.frame.width, job.frame.height);
+        let pixels = width as usize * height as usize;
+        say_ready();
+        let mut samples_done = 0;
+        while samples_done < job.frame.spp {
+            let (done, total) = (samples_done.into(), job.frame.spp.into());
+            if progress(Progress { task: "trace", done, total, unit: "samples" }).is_break() {
+                break;
+            }
+            if self.device == "slow" {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+            samples_done += 1;
+        }
+        Ok(RenderOutput {
+            width,
+            height,
+            beauty: vec![[0.5, 0.25, 1.0]; pixels],
+            depth: job.aovs.depth.then(|| vec![2.0; pixels]),
+            normal: job.aovs.normal.then(|| vec![[0.0, 0.0, 1.0]; pixels]),
+            primitive: job.aovs.primitive.then(|| vec![7; pixels]),
+            samples_done,
+            times: Times { trace_ms: Some(2.0), rays: Some(1000), ..Default::default() },
+            counters: Some(Counters {
+                unfinished: Some((self.device == "unfinished").into()),
+                ..Default::default()
+            }),
+            ..Default::default()
+        })
+    }
+
+    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError> {
+        say_ready();
+        let mut runs = Vec::new();
+        for system in &job.systems {
+            for set in &job.ray_sets {
+                if progress(Progress { task: "compare", done: 0, total: 0, unit: "rays" }).is_break() {
+                    return Ok(runs);
+                }
+                if self.device == "slow" {
+                    std::thread::sleep(Duration::from_millis(300));
+                }
+                runs.push(Run {
+                    system: rasray_app::systems::word(&system.name),
+                    preset: rasray_app::systems::word(&system.preset),
+                    ray_set: Some(rasray_app::systems::word(set)),
+                    options: system.options.given().into_iter().collect(),
+                    ..Default::default()
+                });
+            }
+        }
+        Ok(runs)
+    }
+
+    fn info(&mut self) -> Result<DeviceDescription, AppError> {
+        Ok(DeviceDescription { devices: vec!["scripted".to_owned()], ..Default::default() })
+    }
+}
+
+fn say_ready() {
+    if let Ok(path) = std::env::var(READY) {
+        std::fs::write(path, b"").expect("a file that says ready");
+    }
+}
+
+/// Becomes the command if the environment says so; otherwise returns.
+pub fn become_the_command() {
+    let Ok(arguments) = std::env::var(ARGUMENTS) else { return };
+    let mut open = |choice: &DeviceChoice| -> Result<Box<dyn Backend>, AppError> {
+        let device = choice.device.clone().unwrap_or_default();
+        if device == "absent" {
+            return Err(AppError::device("no device 'absent'", "see 'rasray info'"));
+        }
+        Ok(Box::new(Scripted { device }))
+    };
+    let code = rasray_app::run(arguments.lines().map(Into::into), &mut open);
+    std::process::exit(code.into());
+}
+
+/// The command in a process of its own, not started yet.
+pub fn command(folder: &Path, line: &str) -> Command {
+    let arguments: Vec<_> = std::iter::once("rasray").chain(line.split_whitespace()).collect();
+    let mut command = Command::new(std::env::current_exe().expect("this program"));
+    command.args(["as_command", "--exact", "--nocapture", "--test-threads=1"]);
+    command.env(ARGUMENTS, arguments.join("\n")).current_dir(folder);
+    command
+}
+
+/// What the command said on stderr.
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// Names in a folder, sorted.
+pub fn entries(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .expect("the folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
