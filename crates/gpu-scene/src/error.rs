@@ -32,4 +32,10 @@ pub enum GpuSceneError {
         /// How many there are.
         limit: usize,
     },
+    /// The device refused.
+    #[error(transparent)]
+    Gpu(#[from] rasray_gpu::GpuError),
+    /// The geometry could not be bound.
+    #[error(transparent)]
+    Ads(#[from] rasray_ads::AdsError),
 }

@@ -4,19 +4,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// One run of triangles of one instance; `Draw` of the contract.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct Draw {
-    /// Global triangle id of its first triangle.
-    pub first_triangle: u32,
-    /// Number of triangles, at least 1.
-    pub triangle_count: u32,
-    /// Index into the scene's instances.
-    pub instance: u32,
-    /// `DRAW_*` of the contract.
-    pub flags: u32,
-}
+pub use rasray_ads::Draw;
 
 /// Camera, image size, seed, sizes of the tables and the constant environment.
 /// Lengths are metres relative to the frame origin.

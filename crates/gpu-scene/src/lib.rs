@@ -4,6 +4,9 @@
 //! `docs/shading.md`). It needs no device, so its contents can be checked anywhere. Only the
 //! [`Parts`] that a render can observe are packed.
 //!
+//! [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, a set for
+//! everything that shades.
+//!
 //! Static geometry is posed once, in f64, when the tables are made: `world_from_mesh * position`,
 //! minus the frame origin, rounded to f32. What structures build from and what an oracle should
 //! read is [`Posed::positions`].
@@ -22,6 +25,7 @@ mod parts;
 mod pose;
 mod tables;
 mod textures;
+mod upload;
 mod view;
 
 pub use environment::EnvironmentTables;
@@ -30,4 +34,5 @@ pub use origin::{frame_origin_spacing, snap_frame_origin};
 pub use parts::{Parts, TextureKind};
 pub use pose::{LARGEST_COORDINATE, Posed};
 pub use tables::SceneTables;
+pub use upload::{GpuScene, ShadingFeatures};
 pub use view::View;

@@ -1,0 +1,194 @@
+//! Tables on the device.
+
+use bytemuck::NoUninit;
+use rasray_ads::{Geometry, GeometryDesc, SceneBinding};
+use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation};
+use rasray_shaders_glsl::constants::{
+    contract::DRAW_ALPHA_MASKED,
+    scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_ENVIRONMENT_CDF},
+};
+
+use crate::{GpuSceneError, SceneTables, View, layout::Frame};
+
+/// Number of buffers in the scene's set.
+const BINDINGS: u32 = SCENE_BINDING_ENVIRONMENT_CDF + 1;
+
+/// Which code the shading of a scene can reach at all. Kernels leave the rest out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShadingFeatures {
+    /// Any material refers to a texture.
+    pub textures: bool,
+    /// Any material transmits.
+    pub transmission: bool,
+    /// Any material blends.
+    pub blend: bool,
+}
+
+impl ShadingFeatures {
+    /// Everything: proves that leaving code out does not change a picture.
+    pub const ALL: Self = Self { textures: true, transmission: true, blend: true };
+}
+
+/// A scene on the device: the geometry that structures build from, and the set that shading reads.
+///
+/// Static: what is uploaded stays until the value is dropped. Only the view changes.
+#[derive(Clone, Debug)]
+pub struct GpuScene {
+    geometry: Geometry,
+    binding: SceneBinding,
+    frame_buffer: Buffer,
+    frame: Frame,
+    frame_origin: glam::DVec3,
+    features: ShadingFeatures,
+    bytes_by_part: Vec<(&'static str, u64)>,
+}
+
+impl GpuScene {
+    /// Uploads the tables and waits until they have arrived.
+    ///
+    /// # Errors
+    /// Out of memory, a table larger than one binding can hold (the error names it), or a lost
+    /// device.
+    pub fn upload(device: &Device, tables: &SceneTables, view: &View) -> Result<Self, GpuSceneError> {
+        let mut upload = Upload { device, bytes_by_part: Vec::new() };
+        let posed = &tables.posed;
+        let geometry = Geometry::new(
+            device,
+            GeometryDesc {
+                positions: upload.table("positions", &posed.positions)?,
+                indices: upload.table("indices", &posed.indices)?,
+                draws: upload.table("draws", &posed.draws)?,
+                vertex_count: posed.positions.len() as u32,
+                triangle_count: posed.triangle_count() as u32,
+                draw_count: posed.draws.len() as u32,
+                bounds: [posed.lower, posed.upper],
+                frame_origin: tables.frame_origin.to_array(),
+            },
+        )?;
+        let frame = tables.frame(view);
+        // The host writes the frame in place whenever the view changes.
+        let frame_buffer = device.create_buffer(&BufferDesc {
+            name: "frame",
+            size: size_of::<Frame>() as u64,
+            usage: BufferUsage::STORAGE,
+            location: MemoryLocation::Upload,
+        })?;
+        frame_buffer.write(0, bytemuck::bytes_of(&frame))?;
+        let buffers = [
+            frame_buffer.clone(),
+            upload.table("draw shadings", &tables.draw_shadings)?,
+            upload.table("triangle draws", &posed.draw_of_triangle)?,
+            upload.table("posed attributes", &tables.posed_attributes)?,
+            upload.table("vertex attributes", &tables.vertex_attributes)?,
+            upload.table("materials", &tables.materials)?,
+            upload.table("textures", &tables.textures)?,
+            upload.table("texels", &tables.texels)?,
+            upload.table("lights", &tables.lights)?,
+            upload.table("emissive triangles", &tables.emissive_triangles)?,
+            upload.table("environment radiance", &tables.environment.radiance)?,
+            upload.table("environment distribution", &tables.environment.distribution)?,
+        ];
+        let layout = device.create_set_layout("scene", BINDINGS)?;
+        let set = device.create_binding_set(&layout, "scene", &buffers.each_ref())?;
+        let alpha_masked = tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0);
+        let mut bytes_by_part = upload.bytes_by_part;
+        bytes_by_part.push(("frame", frame_buffer.size()));
+        Ok(Self {
+            geometry,
+            binding: SceneBinding { layout, set, alpha_masked },
+            frame_buffer,
+            frame,
+            frame_origin: tables.frame_origin,
+            features: features(tables),
+            bytes_by_part,
+        })
+    }
+
+    /// Changes camera, image size or seed: one small write by the host, no rebuild of any structure
+    /// that does not depend on the eye. The device must not be using the scene.
+    ///
+    /// The frame origin stays; where the eye has moved far from it (see
+    /// [`SceneTables::default_frame_origin`]) precision asks for new tables.
+    ///
+    /// # Errors
+    /// The buffer cannot be written.
+    pub fn update_camera(&mut self, view: &View) -> Result<(), GpuSceneError> {
+        view.write(&mut self.frame, self.frame_origin);
+        self.frame_buffer.write(0, bytemuck::bytes_of(&self.frame))?;
+        Ok(())
+    }
+
+    /// What structures build from.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// What surfaces, alpha masks and integrators read.
+    pub fn binding(&self) -> &SceneBinding {
+        &self.binding
+    }
+
+    /// Where the camera stands, metres relative to the frame origin, as shaders see it.
+    pub fn eye(&self) -> [f32; 3] {
+        self.frame.camera_position
+    }
+
+    /// World, metres.
+    pub fn frame_origin(&self) -> glam::DVec3 {
+        self.frame_origin
+    }
+
+    /// Pixels a row and rows of the image.
+    pub fn image_size(&self) -> [u32; 2] {
+        [self.frame.width, self.frame.height]
+    }
+
+    /// The frame record as uploaded last.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Which shading code the scene can reach.
+    pub fn features(&self) -> ShadingFeatures {
+        self.features
+    }
+
+    /// Bytes of every buffer by its name.
+    pub fn bytes_by_part(&self) -> &[(&'static str, u64)] {
+        &self.bytes_by_part
+    }
+
+    /// Bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        self.bytes_by_part.iter().map(|(_, bytes)| bytes).sum()
+    }
+}
+
+fn features(tables: &SceneTables) -> ShadingFeatures {
+    ShadingFeatures {
+        textures: !tables.textures.is_empty(),
+        transmission: tables.materials.iter().any(|material| material.transmission > 0.0),
+        blend: tables.materials.iter().any(|material| material.flags & MATERIAL_ALPHA_BLEND != 0),
+    }
+}
+
+struct Upload<'a> {
+    device: &'a Device,
+    bytes_by_part: Vec<(&'static str, u64)>,
+}
+
+impl Upload<'_> {
+    /// A table; one zero record stands in for an empty one, because a binding may not be absent.
+    fn table<T: NoUninit + bytemuck::Zeroable>(
+        &mut self,
+        name: &'static str,
+        records: &[T],
+    ) -> Result<Buffer, GpuSceneError> {
+        let zero = [T::zeroed()];
+        let records = if records.is_empty() { &zero } else { records };
+        let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
+        let buffer = self.device.create_buffer_with(name, usage, records)?;
+        self.bytes_by_part.push((name, buffer.size()));
+        Ok(buffer)
+    }
+}

@@ -1,0 +1,111 @@
+//! Ambient occlusion: cosine-weighted visibility of a white environment.
+
+use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_gpu::Recorder;
+use rasray_shaders_glsl::{
+    INTEGRATORS_AMBIENT_OCCLUSION_RESOLVE, INTEGRATORS_AMBIENT_OCCLUSION_SPAWN, INTEGRATORS_PRIMARY,
+};
+
+use crate::{
+    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    integrator::check_wave,
+    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
+};
+
+/// One occlusion ray a sample from what the camera ray meets; the background is 1. Two traces a wave.
+#[derive(Debug)]
+pub struct AmbientOcclusion {
+    range: f32,
+    film: Film,
+    queue: RayQueue,
+    shadow_queue: RayQueue,
+    bindings: Bindings,
+    primary: Kernel,
+    spawn: Kernel,
+    resolve: Kernel,
+}
+
+impl AmbientOcclusion {
+    /// Makes queues and kernels. Only what lies nearer than `range` metres occludes; infinity for
+    /// everything.
+    ///
+    /// # Errors
+    /// A range that is not above 0, sizes that do not fit, out of memory, or the device refuses a
+    /// pipeline.
+    pub fn new(desc: &IntegratorDesc<'_>, range: f32) -> Result<Self, IntegratorError> {
+        if range.is_nan() || range <= 0.0 {
+            return Err(IntegratorError::Option {
+                option: "ambient occlusion distance",
+                value: range.to_string(),
+                expected: "metres above 0, or infinity",
+            });
+        }
+        let capacity = desc.check()?;
+        let device = desc.device;
+        let queue = RayQueue::new(device, "camera rays", capacity, true)?;
+        let shadow_queue = RayQueue::new(device, "occlusion rays", capacity, false)?;
+        let storage = Storage {
+            film: Some(desc.film.pixels()),
+            film_faults: Some(desc.film.faults()),
+            shadow_rays: Some(shadow_queue.rays()),
+            shadow_hits: Some(shadow_queue.hits()),
+            ..Storage::default()
+        };
+        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        Ok(Self {
+            range,
+            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            spawn: bindings.kernel(device, &INTEGRATORS_AMBIENT_OCCLUSION_SPAWN, &[])?,
+            resolve: bindings.kernel(device, &INTEGRATORS_AMBIENT_OCCLUSION_RESOLVE, &[])?,
+            film: desc.film.clone(),
+            queue,
+            shadow_queue,
+            bindings,
+        })
+    }
+}
+
+impl Integrator for AmbientOcclusion {
+    fn name(&self) -> &'static str {
+        "ao"
+    }
+
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        structure: &dyn Structure,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        let count = wave.pixel_count;
+        let rounds = structure.rounds();
+        let constants = WaveConstants { range: self.range, ..WaveConstants::from(wave) };
+        self.bindings.record(recorder, &self.primary, &constants);
+        structure.record_trace(recorder, &self.queue, count, TraceMode::Closest, rounds);
+        structure.record_surfaces(recorder, &self.queue, count)?;
+        self.bindings.record(recorder, &self.spawn, &constants);
+        structure.record_trace(recorder, &self.shadow_queue, count, TraceMode::Occluded, rounds);
+        self.bindings.record(recorder, &self.resolve, &constants);
+        Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    fn queues(&self) -> Vec<&RayQueue> {
+        vec![&self.queue, &self.shadow_queue]
+    }
+
+    fn wave_capacity(&self) -> u32 {
+        self.queue.capacity()
+    }
+
+    fn traces_per_wave(&self) -> u32 {
+        2
+    }
+
+    fn bytes(&self) -> u64 {
+        self.queue.bytes() + self.shadow_queue.bytes()
+    }
+}

@@ -1,0 +1,59 @@
+//! What can go wrong in integrators.
+
+use crate::Wave;
+
+/// Errors of this crate.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum IntegratorError {
+    /// A wave has no pixels, or more than the queues have slots.
+    #[error("the wave at pixel {} has {} pixels; from 1 to {capacity} are possible: cut it smaller", wave.first_pixel, wave.pixel_count)]
+    WaveSize {
+        /// The wave asked for.
+        wave: Wave,
+        /// Slots in the queues.
+        capacity: u32,
+    },
+    /// A wave reaches past the last pixel.
+    #[error("the wave of {} pixels at pixel {} leaves the image of {pixels} pixels", wave.pixel_count, wave.first_pixel)]
+    WaveOutsideImage {
+        /// The wave asked for.
+        wave: Wave,
+        /// Pixels of the image.
+        pixels: u32,
+    },
+    /// An image without pixels, or with more than can be numbered.
+    #[error("an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all")]
+    ImageSize {
+        /// Pixels a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Largest product.
+        limit: u32,
+    },
+    /// Film and scene disagree about the image.
+    #[error("the film has {film:?} pixels, but the scene's view has {view:?}: make both from the same size")]
+    SizesDiffer {
+        /// Width and height of the film.
+        film: [u32; 2],
+        /// Width and height of the scene's view.
+        view: [u32; 2],
+    },
+    /// An option has a value outside its range.
+    #[error("{option} is {value}: {expected}")]
+    Option {
+        /// Name of the option.
+        option: &'static str,
+        /// What was given.
+        value: String,
+        /// What is possible.
+        expected: &'static str,
+    },
+    /// The Vulkan layer failed.
+    #[error(transparent)]
+    Gpu(#[from] rasray_gpu::GpuError),
+    /// A structure or a queue failed.
+    #[error(transparent)]
+    Ads(#[from] rasray_ads::AdsError),
+}

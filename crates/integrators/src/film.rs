@@ -1,0 +1,153 @@
+//! Radiance summed over samples, pixel by pixel.
+
+use bytemuck::{Pod, Zeroable};
+use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
+
+use crate::IntegratorError;
+
+/// Most pixels of an image: their numbers, and those of three channels each, fit in 32 bits.
+pub const PIXEL_LIMIT: u32 = 1 << 30;
+
+/// Radiance of a pixel, as shaders keep it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct FilmPixel {
+    /// Sum over its samples, linear RGB, W/(sr m^2).
+    pub sum: [f32; 3],
+    /// Samples in the sum.
+    pub samples: u32,
+}
+
+impl FilmPixel {
+    /// Mean over the samples; black where there is none.
+    pub fn mean(&self) -> [f32; 3] {
+        if self.samples == 0 { [0.0; 3] } else { self.sum.map(|x| x / self.samples as f32) }
+    }
+}
+
+/// What the film refused, as shaders keep it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct FilmFaults {
+    /// Samples with a channel that is not finite. They are left out of their pixel.
+    pub non_finite: u32,
+}
+
+/// The image that integrators add to. Cheap to clone; clones share the image.
+#[derive(Clone, Debug)]
+pub struct Film {
+    width: u32,
+    height: u32,
+    pixels: Buffer,
+    faults: Buffer,
+}
+
+impl Film {
+    /// Allocates an image of `width` by `height` pixels. Its content is undefined until
+    /// [`Film::record_clear`].
+    ///
+    /// # Errors
+    /// `ImageSize` for an image without pixels or with too many; out of memory.
+    pub fn new(device: &Device, width: u32, height: u32) -> Result<Self, IntegratorError> {
+        let count = pixel_count(width, height)?;
+        let buffer = |name, size| {
+            let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
+            device.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })
+        };
+        Ok(Self {
+            width,
+            height,
+            pixels: buffer("film", u64::from(count) * size_of::<FilmPixel>() as u64)?,
+            faults: buffer("film faults", size_of::<FilmFaults>() as u64)?,
+        })
+    }
+
+    /// Records that all sums start at 0.
+    pub fn record_clear(&self, recorder: &mut Recorder<'_>) {
+        recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::TRANSFER_WRITE);
+        recorder.fill(&self.pixels, 0, self.pixels.size(), 0);
+        recorder.fill(&self.faults, 0, self.faults.size(), 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
+    /// Pixels a row.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Pixels in all.
+    pub fn pixel_count(&self) -> u32 {
+        self.width * self.height
+    }
+
+    /// [`FilmPixel`] per pixel, row by row from the top left.
+    pub fn pixels(&self) -> &Buffer {
+        &self.pixels
+    }
+
+    /// [`FilmFaults`].
+    pub fn faults(&self) -> &Buffer {
+        &self.faults
+    }
+
+    /// Bytes of all buffers.
+    pub fn bytes(&self) -> u64 {
+        self.pixels.size() + self.faults.size()
+    }
+
+    /// Downloads the means of all pixels, row by row from the top left: submits and waits.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub fn read(&self, device: &Device) -> Result<Vec<[f32; 3]>, IntegratorError> {
+        Ok(self.read_pixels(device)?.iter().map(FilmPixel::mean).collect())
+    }
+
+    /// Downloads sums and counts: submits and waits.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub fn read_pixels(&self, device: &Device) -> Result<Vec<FilmPixel>, IntegratorError> {
+        Ok(device.download_as(&self.pixels, 0, self.pixel_count() as usize)?)
+    }
+
+    /// Downloads what was refused: submits and waits.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub fn read_faults(&self, device: &Device) -> Result<FilmFaults, IntegratorError> {
+        Ok(device.download_as(&self.faults, 0, 1)?.first().copied().unwrap_or_default())
+    }
+}
+
+/// Pixels of an image, checked.
+pub(crate) fn pixel_count(width: u32, height: u32) -> Result<u32, IntegratorError> {
+    match width.checked_mul(height) {
+        Some(count) if count > 0 && count <= PIXEL_LIMIT => Ok(count),
+        _ => Err(IntegratorError::ImageSize { width, height, limit: PIXEL_LIMIT }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_mean_of_no_samples_is_black() {
+        assert_eq!(FilmPixel::default().mean(), [0.0; 3]);
+        assert_eq!(FilmPixel { sum: [2.0, 4.0, 6.0], samples: 4 }.mean(), [0.5, 1.0, 1.5]);
+    }
+
+    #[test]
+    fn impossible_images_are_refused() {
+        assert_eq!(pixel_count(640, 360).ok(), Some(230_400));
+        for (width, height) in [(0, 5), (5, 0), (65_536, 65_536), (1 << 20, 1 << 11)] {
+            assert!(matches!(pixel_count(width, height), Err(IntegratorError::ImageSize { .. })));
+        }
+    }
+}

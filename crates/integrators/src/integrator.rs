@@ -1,0 +1,131 @@
+//! What all integrators have in common.
+
+use rasray_ads::{RayQueue, Structure};
+use rasray_gpu::{Device, Recorder};
+use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+
+use crate::{Film, IntegratorError, WAVE_CAPACITY, Wave};
+
+/// What an integrator is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct IntegratorDesc<'a> {
+    /// Where pipelines and buffers are made.
+    pub device: &'a Device,
+    /// What is shaded.
+    pub scene: &'a GpuScene,
+    /// Where samples are added; as large as the scene's view.
+    pub film: &'a Film,
+    /// Slots of the queues, from 1 to [`WAVE_CAPACITY`]. Fewer than the image has pixels means
+    /// several waves a sample.
+    pub wave_capacity: u32,
+    /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
+    pub features: ShadingFeatures,
+}
+
+impl<'a> IntegratorDesc<'a> {
+    /// The features that the scene can reach, and waves as large as useful.
+    pub fn new(device: &'a Device, scene: &'a GpuScene, film: &'a Film) -> Self {
+        Self {
+            device,
+            scene,
+            film,
+            wave_capacity: WAVE_CAPACITY.min(film.pixel_count()),
+            features: scene.features(),
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<u32, IntegratorError> {
+        let (film, view) = ([self.film.width(), self.film.height()], self.scene.image_size());
+        if film != view {
+            return Err(IntegratorError::SizesDiffer { film, view });
+        }
+        check_capacity(self.wave_capacity)
+    }
+}
+
+pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError> {
+    if (1..=WAVE_CAPACITY).contains(&wave_capacity) {
+        Ok(wave_capacity)
+    } else {
+        Err(IntegratorError::Option {
+            option: "wave capacity",
+            value: wave_capacity.to_string(),
+            expected: "from 1 to 131072 rays",
+        })
+    }
+}
+
+/// Turns rays through a structure into radiance on a film, wave by wave. It names no structure.
+///
+/// Recording only records: it never submits, waits or allocates. The structure must be complete and
+/// built from the scene's geometry; film and queues must have been reset once with
+/// [`Integrator::record_reset`]. What a wave leaves is visible to compute shaders and transfers
+/// recorded after it. Passes carry the paths of their shaders.
+pub trait Integrator {
+    /// Name, as the command and reports use it.
+    fn name(&self) -> &'static str;
+
+    /// Records one sample of every pixel of a wave.
+    ///
+    /// # Errors
+    /// The wave does not fit the queues or the image, or the structure was made without a scene.
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        structure: &dyn Structure,
+        wave: Wave,
+    ) -> Result<(), IntegratorError>;
+
+    /// The film that samples are added to.
+    fn film(&self) -> &Film;
+
+    /// All queues that are traced, for their counters: any unfinished or not-ready ray means that
+    /// the picture is not what was asked for.
+    fn queues(&self) -> Vec<&RayQueue>;
+
+    /// Most rays in a wave.
+    fn wave_capacity(&self) -> u32;
+
+    /// Most traces that a wave records.
+    fn traces_per_wave(&self) -> u32;
+
+    /// Bytes of queues and path states; the film is apart.
+    fn bytes(&self) -> u64;
+
+    /// Records that film and counters start at 0.
+    fn record_reset(&self, recorder: &mut Recorder<'_>) {
+        self.film().record_clear(recorder);
+        for queue in self.queues() {
+            queue.record_reset(recorder);
+        }
+    }
+}
+
+/// An error unless the wave fits.
+pub(crate) fn check_wave(wave: Wave, capacity: u32, pixels: u32) -> Result<(), IntegratorError> {
+    if wave.pixel_count == 0 || wave.pixel_count > capacity {
+        return Err(IntegratorError::WaveSize { wave, capacity });
+    }
+    match wave.first_pixel.checked_add(wave.pixel_count) {
+        Some(end) if end <= pixels => Ok(()),
+        _ => Err(IntegratorError::WaveOutsideImage { wave, pixels }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_that_do_not_fit_are_refused() {
+        let wave = |first_pixel, pixel_count| Wave { first_pixel, pixel_count, sample: 0 };
+        assert!(check_wave(wave(0, 8), 8, 16).is_ok());
+        assert!(check_wave(wave(8, 8), 8, 16).is_ok());
+        assert!(matches!(check_wave(wave(0, 0), 8, 16), Err(IntegratorError::WaveSize { .. })));
+        assert!(matches!(check_wave(wave(0, 9), 8, 16), Err(IntegratorError::WaveSize { .. })));
+        assert!(matches!(check_wave(wave(9, 8), 8, 16), Err(IntegratorError::WaveOutsideImage { .. })));
+        assert!(matches!(check_wave(wave(u32::MAX, 8), 8, 16), Err(IntegratorError::WaveOutsideImage { .. })));
+        assert!(check_capacity(1).is_ok() && check_capacity(WAVE_CAPACITY).is_ok());
+        assert!(check_capacity(0).is_err() && check_capacity(WAVE_CAPACITY + 1).is_err());
+    }
+}

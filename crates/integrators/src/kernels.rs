@@ -1,0 +1,155 @@
+//! Pipelines over the slots of a wave, all made and recorded the same way.
+
+use bytemuck::{Pod, Zeroable, bytes_of};
+use rasray_ads::RayQueue;
+use rasray_gpu::{
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
+    MemoryLocation, Recorder, SetLayout,
+};
+use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_shaders_glsl::{Shader, constants::contract::QUEUE_GROUP_SIZE};
+
+use crate::{IntegratorError, Wave};
+
+/// Buffers in the integrators' set.
+const BINDINGS: u32 = 7;
+
+/// Specialisation constants of `integrators/shading_constants.glsl` and `integrators/primary.comp`.
+const CONSTANT_TEXTURES: u32 = 90;
+const CONSTANT_TRANSMISSION: u32 = 91;
+const CONSTANT_BLEND: u32 = 92;
+const CONSTANT_PIXEL_CENTRES: u32 = 93;
+
+/// Constants that switch off shading code which `features` says is never reached.
+pub(crate) fn shading_constants(features: ShadingFeatures) -> [(u32, u32); 3] {
+    [
+        (CONSTANT_TEXTURES, u32::from(features.textures)),
+        (CONSTANT_TRANSMISSION, u32::from(features.transmission)),
+        (CONSTANT_BLEND, u32::from(features.blend)),
+    ]
+}
+
+/// Constants of the camera rays: through random points of their pixels, or through the centres.
+pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
+    [(CONSTANT_PIXEL_CENTRES, u32::from(pixel_centres))]
+}
+
+/// Push constants of all kernels, `WaveConstants` of `integrators/storage.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct WaveConstants {
+    pub first_pixel: u32,
+    pub pixel_count: u32,
+    pub sample: u32,
+    pub round: u32,
+    pub bounces: u32,
+    pub range: f32,
+}
+
+impl From<Wave> for WaveConstants {
+    fn from(wave: Wave) -> Self {
+        let Wave { first_pixel, pixel_count, sample } = wave;
+        Self { first_pixel, pixel_count, sample, round: 0, bounces: 0, range: 0.0 }
+    }
+}
+
+/// A pipeline with its label: the shader's path.
+#[derive(Debug)]
+pub(crate) struct Kernel {
+    label: &'static str,
+    pipeline: ComputePipeline,
+}
+
+/// The buffers of the integrators' set, in the order of its bindings; absent ones are not used by
+/// the kernels that the set is bound for.
+#[derive(Debug, Default)]
+pub(crate) struct Storage<'a> {
+    pub film: Option<&'a Buffer>,
+    pub film_faults: Option<&'a Buffer>,
+    pub path_states: Option<&'a Buffer>,
+    pub pending: Option<&'a Buffer>,
+    pub shadow_rays: Option<&'a Buffer>,
+    pub shadow_hits: Option<&'a Buffer>,
+    pub aov: Option<&'a Buffer>,
+}
+
+/// The sets that the kernels of one integrator are bound to.
+#[derive(Debug)]
+pub(crate) struct Bindings {
+    layouts: [SetLayout; 4],
+    sets: [BindingSet; 4],
+}
+
+impl Bindings {
+    /// Sets 0 to 3: geometry, storage, queue, scene.
+    ///
+    /// # Errors
+    /// Out of memory, or a buffer exceeds what one binding can hold.
+    pub fn new(
+        device: &Device,
+        scene: &GpuScene,
+        queue: &RayQueue,
+        storage: &Storage<'_>,
+    ) -> Result<Self, IntegratorError> {
+        let placeholder = device_buffer(device, "unused binding", 16)?;
+        let slots = [
+            storage.film,
+            storage.film_faults,
+            storage.path_states,
+            storage.pending,
+            storage.shadow_rays,
+            storage.shadow_hits,
+            storage.aov,
+        ];
+        let buffers = slots.map(|buffer| buffer.unwrap_or(&placeholder));
+        let layout = device.create_set_layout("integrator", BINDINGS)?;
+        let set = device.create_binding_set(&layout, "integrator", &buffers)?;
+        Ok(Self {
+            layouts: [
+                scene.geometry().layout().clone(),
+                layout,
+                queue.set_layout().clone(),
+                scene.binding().layout.clone(),
+            ],
+            sets: [scene.geometry().set().clone(), set, queue.set().clone(), scene.binding().set.clone()],
+        })
+    }
+
+    /// Makes a pipeline over these sets.
+    ///
+    /// # Errors
+    /// The device refuses it.
+    pub fn kernel(
+        &self,
+        device: &Device,
+        shader: &'static Shader,
+        constants: &[(u32, u32)],
+    ) -> Result<Kernel, IntegratorError> {
+        let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
+            name: shader.name,
+            spirv: shader.words(),
+            sets: &self.layouts.each_ref(),
+            push_constant_bytes: size_of::<WaveConstants>() as u32,
+            constants,
+        })?;
+        Ok(Kernel { label: shader.name, pipeline })
+    }
+
+    /// Records one pass over the slots of the wave; its results are visible to compute shaders and
+    /// transfers recorded after it.
+    pub fn record(&self, recorder: &mut Recorder<'_>, kernel: &Kernel, constants: &WaveConstants) {
+        recorder.begin_pass(kernel.label);
+        recorder.bind_compute(&kernel.pipeline);
+        recorder.bind_sets(0, &self.sets.each_ref());
+        recorder.push_constants(bytes_of(constants));
+        recorder.dispatch([constants.pixel_count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
+        recorder.end_pass();
+    }
+}
+
+/// A device-local storage buffer.
+pub(crate) fn device_buffer(device: &Device, name: &str, size: u64) -> Result<Buffer, IntegratorError> {
+    let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
+    Ok(device.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?)
+}

@@ -1,0 +1,179 @@
+//! Path tracing with light sampling.
+
+use bytemuck::{Pod, Zeroable};
+use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_gpu::{Buffer, Recorder};
+use rasray_shaders_glsl::{
+    INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE, INTEGRATORS_PRIMARY,
+    constants::scene::PATH_LAYER_LIMIT,
+};
+
+use crate::{
+    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    integrator::check_wave,
+    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer, shading_constants},
+};
+
+/// Most scatterings of a path. A wave records up to this many rounds.
+pub const BOUNCE_LIMIT: u32 = 1024;
+
+/// What a path carries from one round to the next; `PathState` of `scene/types.glsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct PathState {
+    /// Share of the light met next that reaches the camera.
+    pub throughput: [f32; 3],
+    /// Number of the pixel in the whole image.
+    pub pixel: u32,
+    /// Gathered so far, W/(sr m^2).
+    pub radiance: [f32; 3],
+    /// Index of the sample.
+    pub sample_index: u32,
+    /// 1/sr of the last scattering; 0: emission met next counts fully.
+    pub bsdf_pdf: f32,
+    /// Material whose inside the path is in, or `MATERIAL_NONE`.
+    pub medium: u32,
+    /// Scatterings so far.
+    pub bounce: u32,
+    /// Blended surfaces met so far.
+    pub layers: u32,
+    /// Zero.
+    pub flags: u32,
+}
+
+/// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
+/// closest-hit ray and at most one shadow ray.
+#[derive(Debug)]
+pub struct Path {
+    bounces: u32,
+    /// Closest-hit rounds of a wave.
+    rounds: u32,
+    film: Film,
+    queue: RayQueue,
+    shadow_queue: RayQueue,
+    states: Buffer,
+    pending: Buffer,
+    bindings: Bindings,
+    primary: Kernel,
+    shade: Kernel,
+    resolve: Kernel,
+    accumulate: Kernel,
+}
+
+impl Path {
+    /// Makes queues, states and kernels. `bounces` 1 is direct light only, 0 emission only.
+    ///
+    /// # Errors
+    /// More than [`BOUNCE_LIMIT`] bounces, sizes that do not fit, out of memory, or the device
+    /// refuses a pipeline.
+    pub fn new(desc: &IntegratorDesc<'_>, bounces: u32) -> Result<Self, IntegratorError> {
+        if bounces > BOUNCE_LIMIT {
+            return Err(IntegratorError::Option {
+                option: "bounces",
+                value: bounces.to_string(),
+                expected: "at most 1024",
+            });
+        }
+        let capacity = desc.check()?;
+        let device = desc.device;
+        let queue = RayQueue::new(device, "path rays", capacity, true)?;
+        let shadow_queue = RayQueue::new(device, "shadow rays", capacity, false)?;
+        let slots = u64::from(capacity);
+        let states = device_buffer(device, "path states", slots * size_of::<PathState>() as u64)?;
+        let pending = device_buffer(device, "pending radiance", slots * size_of::<[f32; 3]>() as u64)?;
+        let storage = Storage {
+            film: Some(desc.film.pixels()),
+            film_faults: Some(desc.film.faults()),
+            path_states: Some(&states),
+            pending: Some(&pending),
+            shadow_rays: Some(shadow_queue.rays()),
+            shadow_hits: Some(shadow_queue.hits()),
+            ..Storage::default()
+        };
+        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        Ok(Self {
+            bounces,
+            rounds: rounds(bounces, desc.features.blend),
+            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            shade: bindings.kernel(device, &INTEGRATORS_PATH_SHADE, &shading_constants(desc.features))?,
+            resolve: bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?,
+            accumulate: bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?,
+            film: desc.film.clone(),
+            queue,
+            shadow_queue,
+            states,
+            pending,
+            bindings,
+        })
+    }
+}
+
+/// Closest-hit rounds that a path can need: one a scattering, one for what the last scattered ray
+/// meets, and one for every blended surface that it passes.
+fn rounds(bounces: u32, blend: bool) -> u32 {
+    bounces + 1 + if blend { PATH_LAYER_LIMIT } else { 0 }
+}
+
+impl Integrator for Path {
+    fn name(&self) -> &'static str {
+        "path"
+    }
+
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        structure: &dyn Structure,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        let count = wave.pixel_count;
+        let trace_rounds = structure.rounds();
+        let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
+        self.bindings.record(recorder, &self.primary, &constants);
+        for round in 0..self.rounds {
+            constants.round = round;
+            structure.record_trace(recorder, &self.queue, count, TraceMode::Closest, trace_rounds);
+            structure.record_surfaces(recorder, &self.queue, count)?;
+            self.bindings.record(recorder, &self.shade, &constants);
+            // In the last round every path has scattered as often as it may: it asks for no light.
+            if round + 1 < self.rounds {
+                structure.record_trace(recorder, &self.shadow_queue, count, TraceMode::Occluded, trace_rounds);
+                self.bindings.record(recorder, &self.resolve, &constants);
+            }
+        }
+        self.bindings.record(recorder, &self.accumulate, &constants);
+        Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    fn queues(&self) -> Vec<&RayQueue> {
+        vec![&self.queue, &self.shadow_queue]
+    }
+
+    fn wave_capacity(&self) -> u32 {
+        self.queue.capacity()
+    }
+
+    fn traces_per_wave(&self) -> u32 {
+        2 * self.rounds - 1
+    }
+
+    fn bytes(&self) -> u64 {
+        self.queue.bytes() + self.shadow_queue.bytes() + self.states.size() + self.pending.size()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_round_a_scattering_and_one_for_what_is_met_last() {
+        assert_eq!(rounds(0, false), 1);
+        assert_eq!(rounds(4, false), 5);
+        assert_eq!(rounds(4, true), 5 + PATH_LAYER_LIMIT);
+    }
+}

@@ -1,0 +1,89 @@
+//! Ray casting: what camera rays meet, lit from the eye.
+
+use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_gpu::Recorder;
+use rasray_shaders_glsl::{INTEGRATORS_PRIMARY, INTEGRATORS_RAYCAST_SHADE};
+
+use crate::{
+    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    integrator::check_wave,
+    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
+};
+
+/// Emission plus base colour times the cosine between shading normal and ray; the environment where
+/// nothing is met. One trace a wave.
+#[derive(Debug)]
+pub struct Raycast {
+    film: Film,
+    queue: RayQueue,
+    bindings: Bindings,
+    primary: Kernel,
+    shade: Kernel,
+}
+
+impl Raycast {
+    /// Makes queue and kernels.
+    ///
+    /// # Errors
+    /// Sizes that do not fit, out of memory, or the device refuses a pipeline.
+    pub fn new(desc: &IntegratorDesc<'_>) -> Result<Self, IntegratorError> {
+        let capacity = desc.check()?;
+        let device = desc.device;
+        let queue = RayQueue::new(device, "camera rays", capacity, true)?;
+        let storage = Storage {
+            film: Some(desc.film.pixels()),
+            film_faults: Some(desc.film.faults()),
+            ..Storage::default()
+        };
+        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        Ok(Self {
+            primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
+            shade: bindings.kernel(device, &INTEGRATORS_RAYCAST_SHADE, &[])?,
+            film: desc.film.clone(),
+            queue,
+            bindings,
+        })
+    }
+}
+
+impl Integrator for Raycast {
+    fn name(&self) -> &'static str {
+        "raycast"
+    }
+
+    fn record_wave(
+        &self,
+        recorder: &mut Recorder<'_>,
+        structure: &dyn Structure,
+        wave: Wave,
+    ) -> Result<(), IntegratorError> {
+        check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
+        let constants = WaveConstants::from(wave);
+        self.bindings.record(recorder, &self.primary, &constants);
+        let rounds = structure.rounds();
+        structure.record_trace(recorder, &self.queue, wave.pixel_count, TraceMode::Closest, rounds);
+        structure.record_surfaces(recorder, &self.queue, wave.pixel_count)?;
+        self.bindings.record(recorder, &self.shade, &constants);
+        Ok(())
+    }
+
+    fn film(&self) -> &Film {
+        &self.film
+    }
+
+    fn queues(&self) -> Vec<&RayQueue> {
+        vec![&self.queue]
+    }
+
+    fn wave_capacity(&self) -> u32 {
+        self.queue.capacity()
+    }
+
+    fn traces_per_wave(&self) -> u32 {
+        1
+    }
+
+    fn bytes(&self) -> u64 {
+        self.queue.bytes()
+    }
+}

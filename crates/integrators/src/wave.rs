@@ -1,0 +1,55 @@
+//! Waves: how the pixels of an image are cut into dispatches.
+
+/// Most rays in a wave. Bounds the memory of queues and path states and, on software drivers, the
+/// time of one dispatch.
+pub const WAVE_CAPACITY: u32 = 131_072;
+
+/// A run of pixels of which one sample is taken. Pixels are numbered row by row from the top left;
+/// slot `i` of the queues holds the ray of pixel `first_pixel + i`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wave {
+    /// Number of the first pixel in the whole image.
+    pub first_pixel: u32,
+    /// Pixels in the wave, at least 1, at most the capacity of the queues.
+    pub pixel_count: u32,
+    /// Index of the sample. Random numbers depend on it and on the pixel, never on the wave, so
+    /// that the picture is the same however the image is cut.
+    pub sample: u32,
+}
+
+/// Cuts every sample of `pixels` pixels into waves of at most `capacity`: all pixels of a sample
+/// before the next sample starts, so that stopping early leaves an even picture.
+pub fn waves(pixels: u32, samples: u32, capacity: u32) -> impl Iterator<Item = Wave> {
+    let capacity = capacity.clamp(1, WAVE_CAPACITY);
+    (0..samples).flat_map(move |sample| {
+        (0..pixels.div_ceil(capacity)).map(move |number| {
+            let first_pixel = number * capacity;
+            Wave { first_pixel, pixel_count: capacity.min(pixels - first_pixel), sample }
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pixel_of_every_sample_is_in_exactly_one_wave() {
+        for (pixels, samples, capacity) in [(1, 1, 1), (10, 2, 3), (131_073, 2, u32::MAX), (7, 0, 3), (0, 4, 8)] {
+            let mut seen = vec![0u32; pixels as usize * samples as usize];
+            for wave in waves(pixels, samples, capacity) {
+                assert!(wave.pixel_count >= 1 && wave.pixel_count <= capacity.min(WAVE_CAPACITY));
+                for pixel in wave.first_pixel..wave.first_pixel + wave.pixel_count {
+                    seen[(wave.sample * pixels + pixel) as usize] += 1;
+                }
+            }
+            assert!(seen.iter().all(|&count| count == 1));
+        }
+    }
+
+    #[test]
+    fn samples_are_taken_one_after_the_other() {
+        let samples: Vec<u32> = waves(10, 3, 4).map(|wave| wave.sample).collect();
+        assert_eq!(samples, [0, 0, 0, 1, 1, 1, 2, 2, 2]);
+    }
+}
