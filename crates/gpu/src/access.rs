@@ -15,9 +15,9 @@ impl Access {
     pub const COMPUTE_READ: Access = Access(1);
     /// Storage buffers written by compute shaders, atomics included.
     pub const COMPUTE_WRITE: Access = Access(1 << 1);
-    /// Storage buffers read by vertex and geometry shaders.
+    /// Storage buffers read by vertex shaders.
     pub const VERTEX_READ: Access = Access(1 << 2);
-    /// Storage buffers written by vertex and geometry shaders, atomics included.
+    /// Storage buffers written by vertex shaders, atomics included.
     pub const VERTEX_WRITE: Access = Access(1 << 3);
     /// Storage buffers read by fragment shaders.
     pub const FRAGMENT_READ: Access = Access(1 << 4);
@@ -48,18 +48,13 @@ impl Access {
         self.0 & other.0 == other.0
     }
 
-    /// Stages and accesses as Vulkan has them. `graphics` and `geometry` say whether the queue knows those
-    /// stages.
-    pub(crate) fn scope(self, graphics: bool, geometry: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
+    /// Stages and accesses as Vulkan has them. `graphics` says whether the queue knows the stages of drawing.
+    pub(crate) fn scope(self, graphics: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
         use vk::{AccessFlags2 as Flags, PipelineStageFlags2 as Stages};
         if self == Self::ALL {
             return (Stages::ALL_COMMANDS | Stages::HOST, Flags::MEMORY_READ | Flags::MEMORY_WRITE);
         }
-        let vertex = match (graphics, geometry) {
-            (true, true) => Stages::VERTEX_SHADER | Stages::GEOMETRY_SHADER,
-            (true, false) => Stages::VERTEX_SHADER,
-            (false, _) => Stages::NONE,
-        };
+        let vertex = if graphics { Stages::VERTEX_SHADER } else { Stages::NONE };
         let fragment = if graphics { Stages::FRAGMENT_SHADER } else { Stages::NONE };
         let table = [
             (Self::COMPUTE_READ, Stages::COMPUTE_SHADER, Flags::SHADER_STORAGE_READ),
@@ -110,15 +105,15 @@ mod tests {
     #[test]
     fn accesses_combine_and_leave_out_stages_the_queue_lacks() {
         let access = Access::COMPUTE_WRITE | Access::FRAGMENT_READ;
-        let (stages, flags) = access.scope(true, false);
+        let (stages, flags) = access.scope(true);
         assert_eq!(
             stages,
             vk::PipelineStageFlags2::COMPUTE_SHADER | vk::PipelineStageFlags2::FRAGMENT_SHADER
         );
         assert!(flags.contains(vk::AccessFlags2::SHADER_STORAGE_WRITE));
-        let (stages, _) = access.scope(false, false);
+        let (stages, _) = access.scope(false);
         assert_eq!(stages, vk::PipelineStageFlags2::COMPUTE_SHADER);
-        let (stages, flags) = Access::VERTEX_READ.scope(false, false);
+        let (stages, flags) = Access::VERTEX_READ.scope(false);
         assert_eq!((stages, flags), (vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE));
     }
 }

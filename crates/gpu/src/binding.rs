@@ -5,8 +5,8 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::buffer::{Buffer, BufferUsage};
-use crate::core::Core;
 use crate::device::Device;
+use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
 /// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders. Clones are handles to

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-use crate::core::Core;
 use crate::device::Device;
+use crate::device_core::Core;
 use crate::error::{GpuError, Result};
 use crate::features::Feature;
 use crate::memory::{Allocation, MemoryLocation};

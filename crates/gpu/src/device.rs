@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 use ash::vk;
 
 use crate::choose::{Candidate, DeviceSummary, candidates, choose};
-use crate::core::{Commands, Core, Identity};
+use crate::device_core::{Commands, Core, Identity};
 use crate::error::{During, GpuError, Result};
 use crate::features::{Feature, FeatureStructs, Requirements};
 use crate::instance::Instance;

@@ -19,8 +19,6 @@ pub enum Feature {
     FragmentStoresAndAtomics,
     /// Storage buffer writes from vertex shaders (`vertexPipelineStoresAndAtomics`).
     VertexStoresAndAtomics,
-    /// Geometry shaders (`geometryShader`).
-    GeometryShader,
     /// Several views in one draw (`multiview`).
     Multiview,
     /// The layer written by the vertex shader (`shaderOutputLayer`).
@@ -51,13 +49,12 @@ pub enum Feature {
 
 impl Feature {
     /// Every feature this crate knows.
-    pub const ALL: [Feature; 19] = [
+    pub const ALL: [Feature; 18] = [
         Self::ScalarBlockLayout,
         Self::Synchronization2,
         Self::DynamicRendering,
         Self::FragmentStoresAndAtomics,
         Self::VertexStoresAndAtomics,
-        Self::GeometryShader,
         Self::Multiview,
         Self::ShaderOutputLayer,
         Self::ConservativeRasterization,
@@ -81,7 +78,6 @@ impl Feature {
             Self::DynamicRendering => "dynamicRendering",
             Self::FragmentStoresAndAtomics => "fragmentStoresAndAtomics",
             Self::VertexStoresAndAtomics => "vertexPipelineStoresAndAtomics",
-            Self::GeometryShader => "geometryShader",
             Self::Multiview => "multiview",
             Self::ShaderOutputLayer => "shaderOutputLayer",
             Self::ConservativeRasterization => "VK_EXT_conservative_rasterization",
@@ -120,7 +116,6 @@ impl Feature {
             Self::DynamicRendering
                 | Self::FragmentStoresAndAtomics
                 | Self::VertexStoresAndAtomics
-                | Self::GeometryShader
                 | Self::Multiview
                 | Self::ShaderOutputLayer
                 | Self::ConservativeRasterization
@@ -135,7 +130,6 @@ impl Feature {
             Self::DynamicRendering => Some(&mut structs.dynamic_rendering.dynamic_rendering),
             Self::FragmentStoresAndAtomics => Some(&mut structs.core.fragment_stores_and_atomics),
             Self::VertexStoresAndAtomics => Some(&mut structs.core.vertex_pipeline_stores_and_atomics),
-            Self::GeometryShader => Some(&mut structs.core.geometry_shader),
             Self::Multiview => Some(&mut structs.v11.multiview),
             Self::ShaderOutputLayer => Some(&mut structs.v12.shader_output_layer),
             Self::BufferDeviceAddress => Some(&mut structs.v12.buffer_device_address),

@@ -27,6 +27,10 @@
 //!
 //! **Threads.** All types but [`Recorder`] can be shared between threads. Submissions are serialised.
 //!
+//! **Validation** is asked for when the device is made and reports warnings and errors through `tracing` and
+//! [`Device::validation_messages`]. Synchronisation checks are switched on from outside, by
+//! `VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT`.
+//!
 //! # Example
 //!
 //! ```no_run
@@ -52,8 +56,8 @@ mod access;
 mod binding;
 mod buffer;
 mod choose;
-mod core;
 mod device;
+mod device_core;
 mod error;
 mod features;
 mod instance;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use ash::vk;
 
 use crate::binding::SetLayout;
-use crate::core::Core;
 use crate::device::Device;
+use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use ash::vk;
 
 use crate::access::Access;
-use crate::core::Core;
 use crate::device::Device;
+use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::recorder::Recorder;
 use crate::timers::{PassTiming, Timing};
@@ -123,6 +123,12 @@ impl OneTime {
         let core = &device.core;
         if !core.is_usable() {
             return Err(GpuError::Abandoned { during: "new work".to_owned() });
+        }
+        if device.raw_queue() == vk::Queue::null() {
+            return Err(GpuError::InvalidUse {
+                name: device.name().to_owned(),
+                reason: "was handed in without a queue, so nothing can be submitted to it".to_owned(),
+            });
         }
         let info = vk::CommandPoolCreateInfo::default()
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)

@@ -47,17 +47,24 @@ impl Device {
     /// - Every feature in `enabled` was enabled when the device was made (with its extension where it is one),
     ///   and `debug_utils` is true only if that extension is enabled.
     /// - The queue is not used elsewhere while [`Device::submit`], [`Device::upload`] or [`Device::download`]
-    ///   run, and the pipeline cache is not externally synchronised or not used while pipelines are created.
+    ///   run, and the pipeline cache was made without `VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT`.
     ///
     /// # Errors
     /// [`GpuError::FeatureNotEnabled`] if synchronization2 is not in `enabled`, [`GpuError::InvalidUse`] if a
     /// feature in it is not supported by the device or the queue family cannot compute.
     pub unsafe fn from_raw(raw: RawDevice) -> Result<Device> {
+        if raw.api_version < vk::API_VERSION_1_2 {
+            // The queries below exist only in instances of newer versions.
+            return Err(GpuError::InvalidUse {
+                name: "the device handed in".to_owned(),
+                reason: "its instance must be made for Vulkan 1.2 or newer".to_owned(),
+            });
+        }
         // SAFETY: the caller vouches that the physical device belongs to the instance.
         let candidate = unsafe { Candidate::inspect(&raw.instance, raw.physical, Some(raw.queue_family)) }?;
         let invalid = |reason: String| GpuError::InvalidUse { name: candidate.name.clone(), reason };
         let api_version = raw.api_version.min(candidate.api_version);
-        if !candidate.is_usable() || api_version < vk::API_VERSION_1_2 {
+        if !candidate.is_usable() {
             return Err(invalid("Vulkan 1.2 and a queue family that computes are needed".to_owned()));
         }
         if !raw.enabled.contains(&Feature::Synchronization2) {

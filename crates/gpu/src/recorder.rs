@@ -1,33 +1,25 @@
 //! Recording into a command buffer.
 
+mod bind;
+mod compute;
+mod raster;
+mod transfer;
+
 use std::any::Any;
 use std::sync::Arc;
 
 use ash::vk;
 
 use crate::access::Access;
-use crate::binding::BindingSet;
 use crate::buffer::{Buffer, BufferUsage};
-use crate::core::{Core, c_name};
 use crate::device::Device;
+use crate::device_core::{Core, c_name};
 use crate::error::{GpuError, Result};
-use crate::features::Feature;
-use crate::pipeline::{ComputePipeline, PipelineInner, RasterPipeline};
 use crate::queue::OneTime;
 use crate::timers::{PassTiming, TimerKind, Timers};
 
-/// What is drawn into: a number of pixels, no images.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RenderArea {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Layers that the vertex shader can choose from; ignored with a view mask.
-    pub layers: u32,
-    /// Views drawn at once, one bit each; 0 is off.
-    pub view_mask: u32,
-}
+use self::bind::State;
+pub use self::raster::RenderArea;
 
 /// Records commands into a command buffer. It never submits, waits or allocates device memory.
 ///
@@ -43,14 +35,6 @@ pub struct Recorder<'a> {
     state: State,
     timers: Option<Timers>,
     submission: Option<Submission<'a>>,
-}
-
-/// What is bound.
-#[derive(Default)]
-struct State {
-    pipeline: Option<Arc<PipelineInner>>,
-    sets: Vec<Option<BindingSet>>,
-    constants: Vec<u8>,
 }
 
 /// What a recorder keeps for a submission of this crate.
@@ -179,239 +163,6 @@ impl<'a> Recorder<'a> {
         self.split_here(Some(label));
     }
 
-    /// Binds a compute pipeline.
-    pub fn bind_compute(&mut self, pipeline: &ComputePipeline) {
-        self.bind_pipeline(&pipeline.inner);
-    }
-
-    /// Binds a raster pipeline.
-    pub fn bind_raster(&mut self, pipeline: &RasterPipeline) {
-        self.bind_pipeline(&pipeline.inner);
-    }
-
-    /// Binds sets from number `first` up, for the bound pipeline. Binding a pipeline with other set layouts or
-    /// push constants in front of a set makes Vulkan forget the set: bind sets after the pipeline.
-    pub fn bind_sets(&mut self, first: u32, sets: &[&BindingSet]) {
-        if !self.is_recording() || sets.is_empty() {
-            return;
-        }
-        let Some(pipeline) = self.state.pipeline.clone() else {
-            return self.misuse("sets were bound without a pipeline");
-        };
-        let start = first as usize;
-        let fits = pipeline.sets.get(start..).and_then(|layouts| layouts.get(..sets.len()));
-        let Some(layouts) = fits else {
-            let reason = format!(
-                "sets {first} to {} were bound, but the pipeline has {}",
-                u64::from(first) + sets.len() as u64 - 1,
-                pipeline.sets.len()
-            );
-            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
-        };
-        for (set, layout) in sets.iter().zip(layouts) {
-            // Layouts of the same content are compatible, even if made twice.
-            let inner = &set.inner.layout.inner;
-            let compatible = inner.storage_buffers == layout.inner.storage_buffers
-                && Arc::ptr_eq(&inner.core, &layout.inner.core);
-            if !compatible {
-                let reason = format!("set `{}` has another layout than `{}`", set.name(), layout.inner.name);
-                return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
-            }
-        }
-        if self.state.sets.len() < start + sets.len() {
-            self.state.sets.resize(start + sets.len(), None);
-        }
-        for (slot, set) in self.state.sets[start..].iter_mut().zip(sets) {
-            *slot = Some((*set).clone());
-        }
-        for set in sets {
-            self.keep(set.inner.clone());
-        }
-        self.emit_sets(&pipeline, first, &sets.iter().map(|set| set.inner.raw).collect::<Vec<_>>());
-    }
-
-    /// Sets the push constants of the bound pipeline, from byte 0 on.
-    pub fn push_constants(&mut self, bytes: &[u8]) {
-        if !self.is_recording() || bytes.is_empty() {
-            return;
-        }
-        let Some(pipeline) = self.state.pipeline.clone() else {
-            return self.misuse("push constants were set without a pipeline");
-        };
-        if bytes.len() > pipeline.push_constant_bytes as usize || !bytes.len().is_multiple_of(4) {
-            let reason = format!(
-                "{} bytes of push constants were given: it takes at most {}, in multiples of 4",
-                bytes.len(),
-                pipeline.push_constant_bytes
-            );
-            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
-        }
-        self.state.constants.clear();
-        self.state.constants.extend_from_slice(bytes);
-        self.emit_constants(&pipeline, bytes);
-    }
-
-    /// Runs the bound compute pipeline on `groups` workgroups.
-    pub fn dispatch(&mut self, groups: [u32; 3]) {
-        if !self.outside_rendering("dispatch") || !self.has_pipeline(vk::PipelineBindPoint::COMPUTE) {
-            return;
-        }
-        let limits = self.device.limits().max_workgroup_count;
-        for (asked, limit) in groups.into_iter().zip(limits) {
-            if asked > limit {
-                return self.exceed("the number of workgroups", asked.into(), limit.into());
-            }
-        }
-        // SAFETY: recording, outside of rendering, with a compute pipeline and within the limits; the caller has
-        // bound what the shader reads (validation checks it).
-        unsafe { self.raw_device().cmd_dispatch(self.command, groups[0], groups[1], groups[2]) };
-    }
-
-    /// Runs the bound compute pipeline on a number of workgroups read from three u32 in a buffer, at an offset
-    /// that is a multiple of 4. The numbers must be within [`crate::Limits::max_workgroup_count`].
-    pub fn dispatch_indirect(&mut self, buffer: &Buffer, offset: u64) {
-        if !self.outside_rendering("dispatch_indirect") || !self.has_pipeline(vk::PipelineBindPoint::COMPUTE)
-        {
-            return;
-        }
-        if !self.indirect_arguments(buffer, offset, 12) {
-            return;
-        }
-        // SAFETY: as for `dispatch`; the arguments lie within a buffer made for them.
-        unsafe { self.raw_device().cmd_dispatch_indirect(self.command, buffer.raw(), offset) };
-    }
-
-    /// Begins to draw into `width` x `height` pixels of one layer. Viewport and scissor are set to all of it.
-    pub fn begin_rendering(&mut self, width: u32, height: u32) {
-        self.begin_rendering_area(RenderArea { width, height, layers: 1, view_mask: 0 });
-    }
-
-    /// Begins to draw into several layers or views.
-    pub fn begin_rendering_area(&mut self, area: RenderArea) {
-        if !self.outside_rendering("begin_rendering") {
-            return;
-        }
-        let RenderArea { width, height, layers, view_mask } = area;
-        let limits = self.device.limits();
-        let views = u32::BITS - view_mask.leading_zeros();
-        let checks: [(&'static str, u32, u32); 4] = [
-            ("the width", width, limits.max_framebuffer_size[0]),
-            ("the height", height, limits.max_framebuffer_size[1]),
-            ("the number of layers", layers, limits.max_framebuffer_layers),
-            ("the number of views", views, limits.max_multiview_views),
-        ];
-        if let Some((what, asked, limit)) = checks.into_iter().find(|(_, asked, limit)| asked > limit) {
-            return self.exceed(what, asked.into(), limit.into());
-        }
-        if width == 0 || height == 0 || (layers == 0 && view_mask == 0) {
-            return self.misuse("rendering needs at least one pixel and one layer");
-        }
-        let checked = if view_mask == 0 { Feature::DynamicRendering } else { Feature::Multiview };
-        if let Err(error) = self.core().require(checked, "begin_rendering") {
-            return self.fail(error);
-        }
-        let Some(begin) = self.core().commands.begin_rendering else {
-            let what = "begin_rendering".to_owned();
-            return self.fail(GpuError::FeatureNotEnabled { feature: Feature::DynamicRendering, what });
-        };
-        let extent = vk::Rect2D::default().extent(vk::Extent2D { width, height });
-        let info =
-            vk::RenderingInfo::default().render_area(extent).layer_count(layers.max(1)).view_mask(view_mask);
-        let viewport =
-            vk::Viewport::default().width(width as f32).height(height as f32).min_depth(0.0).max_depth(1.0);
-        // SAFETY: recording, outside of rendering, on a device with dynamic rendering and within its limits.
-        unsafe {
-            begin(self.command, &info);
-            self.raw_device().cmd_set_viewport(self.command, 0, &[viewport]);
-            self.raw_device().cmd_set_scissor(self.command, 0, &[extent]);
-        }
-        self.rendering = Some(area);
-    }
-
-    /// Draws `vertices` vertices `instances` times, with the bound raster pipeline.
-    pub fn draw(&mut self, vertices: u32, instances: u32, first_instance: u32) {
-        if !self.can_draw() {
-            return;
-        }
-        // SAFETY: recording, within rendering, with a raster pipeline of the same views; the caller has bound
-        // what the shaders read (validation checks it).
-        unsafe { self.raw_device().cmd_draw(self.command, vertices, instances, 0, first_instance) };
-    }
-
-    /// Draws with four u32 read from a buffer (vertices, instances, 0, 0), at an offset that is a multiple of 4.
-    pub fn draw_indirect(&mut self, buffer: &Buffer, offset: u64) {
-        if !self.can_draw() || !self.indirect_arguments(buffer, offset, 16) {
-            return;
-        }
-        // SAFETY: as for `draw`; the arguments lie within a buffer made for them.
-        unsafe { self.raw_device().cmd_draw_indirect(self.command, buffer.raw(), offset, 1, 16) };
-    }
-
-    /// Ends drawing.
-    pub fn end_rendering(&mut self) {
-        if !self.is_recording() {
-            return;
-        }
-        if self.rendering.take().is_none() {
-            return self.misuse("rendering was ended that was not begun");
-        }
-        if let Some(end) = self.core().commands.end_rendering {
-            // SAFETY: recording, within rendering begun by this recorder.
-            unsafe { end(self.command) };
-        }
-    }
-
-    /// Fills part of a buffer with a value. Offset and size are in bytes and multiples of 4.
-    pub fn fill(&mut self, buffer: &Buffer, offset: u64, size: u64, value: u32) {
-        if !self.outside_rendering("fill") || size == 0 {
-            return;
-        }
-        let usage = buffer.check_usage(BufferUsage::TRANSFER_DST, "being filled");
-        if let Err(error) = usage.and_then(|()| buffer.check_range(offset, size)) {
-            return self.fail(error);
-        }
-        if offset % 4 != 0 || size % 4 != 0 {
-            let reason =
-                format!("{size} bytes at offset {offset} cannot be filled: both must be multiples of 4");
-            return self.fail(GpuError::InvalidUse { name: buffer.name().to_owned(), reason });
-        }
-        self.keep(buffer.inner.clone());
-        // SAFETY: recording, outside of rendering; range, alignment and usage were checked.
-        unsafe { self.raw_device().cmd_fill_buffer(self.command, buffer.raw(), offset, size, value) };
-    }
-
-    /// Copies bytes between buffers, or within one if the ranges do not overlap.
-    pub fn copy(
-        &mut self,
-        source: &Buffer,
-        source_offset: u64,
-        target: &Buffer,
-        target_offset: u64,
-        size: u64,
-    ) {
-        if !self.outside_rendering("copy") || size == 0 {
-            return;
-        }
-        let checked = source
-            .check_usage(BufferUsage::TRANSFER_SRC, "being copied from")
-            .and_then(|()| target.check_usage(BufferUsage::TRANSFER_DST, "being copied to"))
-            .and_then(|()| source.check_range(source_offset, size))
-            .and_then(|()| target.check_range(target_offset, size));
-        if let Err(error) = checked {
-            return self.fail(error);
-        }
-        let apart = source_offset.abs_diff(target_offset) >= size;
-        if source.raw() == target.raw() && !apart {
-            let reason = "source and target of a copy overlap".to_owned();
-            return self.fail(GpuError::InvalidUse { name: source.name().to_owned(), reason });
-        }
-        self.keep(source.inner.clone());
-        self.keep(target.inner.clone());
-        let region = vk::BufferCopy::default().src_offset(source_offset).dst_offset(target_offset).size(size);
-        // SAFETY: recording, outside of rendering; ranges, usages and overlap were checked.
-        unsafe { self.raw_device().cmd_copy_buffer(self.command, source.raw(), target.raw(), &[region]) };
-    }
-
     /// Makes `to` wait for `from` and see what it wrote, for all memory.
     pub fn barrier(&mut self, from: Access, to: Access) {
         if self.outside_rendering("barrier") {
@@ -496,21 +247,6 @@ impl<'a> Recorder<'a> {
         self.is_recording()
     }
 
-    fn can_draw(&mut self) -> bool {
-        if !self.has_pipeline(vk::PipelineBindPoint::GRAPHICS) {
-            return false;
-        }
-        let view_mask = self.state.pipeline.as_ref().map_or(0, |pipeline| pipeline.view_mask);
-        match self.rendering {
-            None => self.misuse("a draw was recorded outside of begin_rendering and end_rendering"),
-            Some(area) if area.view_mask != view_mask => {
-                self.misuse("pipeline and rendering have different view masks");
-            }
-            Some(_) => {}
-        }
-        self.is_recording()
-    }
-
     fn indirect_arguments(&mut self, buffer: &Buffer, offset: u64, size: u64) -> bool {
         let usage = buffer.check_usage(BufferUsage::INDIRECT, "indirect arguments");
         if let Err(error) = usage.and_then(|()| buffer.check_range(offset, size)) {
@@ -522,48 +258,10 @@ impl<'a> Recorder<'a> {
         self.is_recording()
     }
 
-    fn bind_pipeline(&mut self, pipeline: &Arc<PipelineInner>) {
-        if !self.is_recording() {
-            return;
-        }
-        if !Arc::ptr_eq(&pipeline.core, &self.device.core) {
-            let reason = "belongs to another device".to_owned();
-            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
-        }
-        self.keep(pipeline.clone());
-        self.state.pipeline = Some(pipeline.clone());
-        self.state.constants.clear();
-        // SAFETY: recording; a pipeline of this device.
-        unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
-    }
-
-    fn emit_sets(&self, pipeline: &PipelineInner, first: u32, sets: &[vk::DescriptorSet]) {
-        // SAFETY: recording; sets and pipeline layout were found compatible, and live as the caller promises (or
-        // as long as the submission, which keeps them).
-        unsafe {
-            self.raw_device().cmd_bind_descriptor_sets(
-                self.command,
-                pipeline.bind_point,
-                pipeline.layout,
-                first,
-                sets,
-                &[],
-            );
-        }
-    }
-
-    fn emit_constants(&self, pipeline: &PipelineInner, bytes: &[u8]) {
-        // SAFETY: recording; the bytes lie within the only range of the layout, which has these stages.
-        unsafe {
-            self.raw_device().cmd_push_constants(self.command, pipeline.layout, pipeline.stages, 0, bytes);
-        }
-    }
-
     pub(crate) fn emit_barrier(&mut self, from: Access, to: Access) {
         let core = self.core();
-        let geometry = core.enabled.contains(&Feature::GeometryShader);
-        let (from_stages, from_access) = from.scope(core.graphics, geometry);
-        let (to_stages, to_access) = to.scope(core.graphics, geometry);
+        let (from_stages, from_access) = from.scope(core.graphics);
+        let (to_stages, to_access) = to.scope(core.graphics);
         let barriers = [vk::MemoryBarrier2::default()
             .src_stage_mask(from_stages)
             .src_access_mask(from_access)
@@ -604,23 +302,6 @@ impl<'a> Recorder<'a> {
         self.emit_barrier(Access::ALL, Access::ALL);
         self.emit_state();
         false
-    }
-
-    /// Binds again what was bound before the command buffer was replaced.
-    fn emit_state(&self) {
-        let Some(pipeline) = &self.state.pipeline else { return };
-        // SAFETY: recording; a pipeline of this device.
-        unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
-        for (number, (set, layout)) in (0_u32..).zip(self.state.sets.iter().zip(&pipeline.sets)) {
-            if let Some(set) = set
-                && set.inner.layout.inner.storage_buffers == layout.inner.storage_buffers
-            {
-                self.emit_sets(pipeline, number, &[set.inner.raw]);
-            }
-        }
-        if !self.state.constants.is_empty() {
-            self.emit_constants(pipeline, &self.state.constants);
-        }
     }
 }
 

@@ -4,8 +4,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use ash::vk;
 
-use crate::core::Core;
 use crate::device::Device;
+use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
 /// Whether and how passes are timed.
@@ -122,6 +122,11 @@ impl Timers {
                 PassTiming { label, milliseconds, timer: TimerKind::Device }
             })
             .collect())
+    }
+
+    /// Forgets the passes recorded so far, for a recording that will not be submitted.
+    pub fn clear(&self) {
+        self.inner.labels.lock().unwrap_or_else(PoisonError::into_inner).clear();
     }
 
     /// What a submission keeps until the device is done.

@@ -181,3 +181,13 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
     drop((scale, timers));
     finish(device);
 }
+
+#[test]
+fn a_device_without_a_queue_records_but_does_not_submit() {
+    let host = common::device();
+    let device = adopt(RawDevice { queue: vk::Queue::null(), ..raw(&host) }).expect("adoption");
+    let error = device.submit(|_| ()).expect_err("no queue");
+    assert!(error.to_string().contains("without a queue"), "{error}");
+    drop(device);
+    finish(host);
+}

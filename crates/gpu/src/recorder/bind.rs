@@ -1,0 +1,146 @@
+//! Binding pipelines, sets and push constants.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::Recorder;
+use crate::binding::BindingSet;
+use crate::error::GpuError;
+use crate::pipeline::{ComputePipeline, PipelineInner, RasterPipeline};
+
+/// What is bound.
+#[derive(Default)]
+pub(super) struct State {
+    pub(super) pipeline: Option<Arc<PipelineInner>>,
+    sets: Vec<Option<BindingSet>>,
+    constants: Vec<u8>,
+}
+
+impl Recorder<'_> {
+    /// Binds a compute pipeline.
+    pub fn bind_compute(&mut self, pipeline: &ComputePipeline) {
+        self.bind_pipeline(&pipeline.inner);
+    }
+
+    /// Binds a raster pipeline.
+    pub fn bind_raster(&mut self, pipeline: &RasterPipeline) {
+        self.bind_pipeline(&pipeline.inner);
+    }
+
+    /// Binds sets from number `first` up, for the bound pipeline. Binding a pipeline with other set layouts or
+    /// push constants in front of a set makes Vulkan forget the set: bind sets after the pipeline.
+    pub fn bind_sets(&mut self, first: u32, sets: &[&BindingSet]) {
+        if !self.is_recording() || sets.is_empty() {
+            return;
+        }
+        let Some(pipeline) = self.state.pipeline.clone() else {
+            return self.misuse("sets were bound without a pipeline");
+        };
+        let start = first as usize;
+        let fits = pipeline.sets.get(start..).and_then(|layouts| layouts.get(..sets.len()));
+        let Some(layouts) = fits else {
+            let reason = format!(
+                "sets {first} to {} were bound, but the pipeline has {}",
+                u64::from(first) + sets.len() as u64 - 1,
+                pipeline.sets.len()
+            );
+            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
+        };
+        for (set, layout) in sets.iter().zip(layouts) {
+            // Layouts of the same content are compatible, even if made twice.
+            let inner = &set.inner.layout.inner;
+            let compatible = inner.storage_buffers == layout.inner.storage_buffers
+                && Arc::ptr_eq(&inner.core, &layout.inner.core);
+            if !compatible {
+                let reason = format!("set `{}` has another layout than `{}`", set.name(), layout.inner.name);
+                return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
+            }
+        }
+        if self.state.sets.len() < start + sets.len() {
+            self.state.sets.resize(start + sets.len(), None);
+        }
+        for (slot, set) in self.state.sets[start..].iter_mut().zip(sets) {
+            *slot = Some((*set).clone());
+        }
+        for set in sets {
+            self.keep(set.inner.clone());
+        }
+        self.emit_sets(&pipeline, first, &sets.iter().map(|set| set.inner.raw).collect::<Vec<_>>());
+    }
+
+    /// Sets the push constants of the bound pipeline, from byte 0 on.
+    pub fn push_constants(&mut self, bytes: &[u8]) {
+        if !self.is_recording() || bytes.is_empty() {
+            return;
+        }
+        let Some(pipeline) = self.state.pipeline.clone() else {
+            return self.misuse("push constants were set without a pipeline");
+        };
+        if bytes.len() > pipeline.push_constant_bytes as usize || !bytes.len().is_multiple_of(4) {
+            let reason = format!(
+                "{} bytes of push constants were given: it takes at most {}, in multiples of 4",
+                bytes.len(),
+                pipeline.push_constant_bytes
+            );
+            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
+        }
+        self.state.constants.clear();
+        self.state.constants.extend_from_slice(bytes);
+        self.emit_constants(&pipeline, bytes);
+    }
+
+    fn bind_pipeline(&mut self, pipeline: &Arc<PipelineInner>) {
+        if !self.is_recording() {
+            return;
+        }
+        if !Arc::ptr_eq(&pipeline.core, &self.device.core) {
+            let reason = "belongs to another device".to_owned();
+            return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
+        }
+        self.keep(pipeline.clone());
+        self.state.pipeline = Some(pipeline.clone());
+        self.state.constants.clear();
+        // SAFETY: recording; a pipeline of this device.
+        unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
+    }
+
+    fn emit_sets(&self, pipeline: &PipelineInner, first: u32, sets: &[vk::DescriptorSet]) {
+        // SAFETY: recording; sets and pipeline layout were found compatible, and live as the caller promises (or
+        // as long as the submission, which keeps them).
+        unsafe {
+            self.raw_device().cmd_bind_descriptor_sets(
+                self.command,
+                pipeline.bind_point,
+                pipeline.layout,
+                first,
+                sets,
+                &[],
+            );
+        }
+    }
+
+    fn emit_constants(&self, pipeline: &PipelineInner, bytes: &[u8]) {
+        // SAFETY: recording; the bytes lie within the only range of the layout, which has these stages.
+        unsafe {
+            self.raw_device().cmd_push_constants(self.command, pipeline.layout, pipeline.stages, 0, bytes);
+        }
+    }
+
+    /// Binds again what was bound before the command buffer was replaced.
+    pub(super) fn emit_state(&self) {
+        let Some(pipeline) = &self.state.pipeline else { return };
+        // SAFETY: recording; a pipeline of this device.
+        unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
+        for (number, (set, layout)) in (0_u32..).zip(self.state.sets.iter().zip(&pipeline.sets)) {
+            if let Some(set) = set
+                && set.inner.layout.inner.storage_buffers == layout.inner.storage_buffers
+            {
+                self.emit_sets(pipeline, number, &[set.inner.raw]);
+            }
+        }
+        if !self.state.constants.is_empty() {
+            self.emit_constants(pipeline, &self.state.constants);
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Fills and copies.
+
+use ash::vk;
+
+use super::Recorder;
+use crate::buffer::{Buffer, BufferUsage};
+use crate::error::GpuError;
+
+impl Recorder<'_> {
+    /// Fills part of a buffer with a value. Offset and size are in bytes and multiples of 4.
+    pub fn fill(&mut self, buffer: &Buffer, offset: u64, size: u64, value: u32) {
+        if !self.outside_rendering("fill") || size == 0 {
+            return;
+        }
+        let usage = buffer.check_usage(BufferUsage::TRANSFER_DST, "being filled");
+        if let Err(error) = usage.and_then(|()| buffer.check_range(offset, size)) {
+            return self.fail(error);
+        }
+        if !offset.is_multiple_of(4) || !size.is_multiple_of(4) {
+            let reason =
+                format!("{size} bytes at offset {offset} cannot be filled: both must be multiples of 4");
+            return self.fail(GpuError::InvalidUse { name: buffer.name().to_owned(), reason });
+        }
+        self.keep(buffer.inner.clone());
+        // SAFETY: recording, outside of rendering; range, alignment and usage were checked.
+        unsafe { self.raw_device().cmd_fill_buffer(self.command, buffer.raw(), offset, size, value) };
+    }
+
+    /// Copies bytes between buffers, or within one if the ranges do not overlap.
+    pub fn copy(
+        &mut self,
+        source: &Buffer,
+        source_offset: u64,
+        target: &Buffer,
+        target_offset: u64,
+        size: u64,
+    ) {
+        if !self.outside_rendering("copy") || size == 0 {
+            return;
+        }
+        let checked = source
+            .check_usage(BufferUsage::TRANSFER_SRC, "being copied from")
+            .and_then(|()| target.check_usage(BufferUsage::TRANSFER_DST, "being copied to"))
+            .and_then(|()| source.check_range(source_offset, size))
+            .and_then(|()| target.check_range(target_offset, size));
+        if let Err(error) = checked {
+            return self.fail(error);
+        }
+        let apart = source_offset.abs_diff(target_offset) >= size;
+        if source.raw() == target.raw() && !apart {
+            let reason = "source and target of a copy overlap".to_owned();
+            return self.fail(GpuError::InvalidUse { name: source.name().to_owned(), reason });
+        }
+        self.keep(source.inner.clone());
+        self.keep(target.inner.clone());
+        let region = vk::BufferCopy::default().src_offset(source_offset).dst_offset(target_offset).size(size);
+        // SAFETY: recording, outside of rendering; ranges, usages and overlap were checked.
+        unsafe { self.raw_device().cmd_copy_buffer(self.command, source.raw(), target.raw(), &[region]) };
+    }
+}
