@@ -4,37 +4,24 @@
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
 
-#include "abuffer/types.glsl"
+#include "abuffer/header.glsl"
 #include "ads/bucket.glsl"
 #include "ads/views.glsl"
 
-#ifndef STRUCTURE_SET
-#define STRUCTURE_SET 1
-#endif
-
-// Where an A-buffer is. Unused with descriptors.
-struct AbufferRef {
-    uvec2 header;
-};
-
 #ifdef ADDRESSING_ADDRESS
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferHeaderAddress { AbufferHeader header; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordAddress { uint words[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferNodeAddress { AbufferNode nodes[]; };
-#define ABUFFER_HEADER(s) AbufferHeaderAddress(s.header).header
 #define ABUFFER_BOUNDS(s) AbufferWordAddress(ABUFFER_HEADER(s).bounds_address).words
 #define ABUFFER_LISTS(s) AbufferWordAddress(ABUFFER_HEADER(s).lists_address).words
 #define ABUFFER_NODES(s) AbufferNodeAddress(ABUFFER_HEADER(s).nodes_address).nodes
 #define ABUFFER_DATA(s) AbufferWordAddress(ABUFFER_HEADER(s).data_address).words
 #define ABUFFER_NEAR(s) AbufferWordAddress(ABUFFER_HEADER(s).near_address).words
 #else
-layout(set = STRUCTURE_SET, binding = 0, scalar) buffer AbufferHeaderBuffer { AbufferHeader abuffer_header; };
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer AbufferListsBuffer { uint abuffer_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer AbufferNodesBuffer { AbufferNode abuffer_nodes[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer AbufferDataBuffer { uint abuffer_data_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer AbufferNearBuffer { uint abuffer_near_words[]; };
-#define ABUFFER_HEADER(s) abuffer_header
 #define ABUFFER_BOUNDS(s) abuffer_bounds_words
 #define ABUFFER_LISTS(s) abuffer_list_words
 #define ABUFFER_NODES(s) abuffer_nodes

@@ -3,6 +3,7 @@
 // Source: MMRT section 3.1, second geometry pass.
 #version 460
 #include "contract/extensions.glsl"
+#include "abuffer/accessors.glsl"
 #include "abuffer/raster.glsl"
 #include "contract/alpha.glsl"
 #ifdef PAYLOAD_ATTRIBUTES

@@ -3,6 +3,7 @@
 // Source: MMRT section 3.1; instances replace the paper's geometry-shader amplification.
 #version 460
 #include "contract/extensions.glsl"
+#define ABUFFER_READ_ONLY
 #include "abuffer/raster.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_face;

@@ -6,7 +6,7 @@
 
 #include "ads/geometry.glsl"
 #include "ads/coverage.glsl"
-#include "abuffer/accessors.glsl"
+#include "abuffer/header.glsl"
 
 layout(push_constant, scalar) uniform AbufferBuildConstants {
     AbufferRef abuffer_built;

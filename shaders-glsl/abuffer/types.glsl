@@ -16,7 +16,7 @@ layout(constant_id = 14) const uint ABUFFER_SKIP = 1u;
 layout(constant_id = 15) const uint ABUFFER_PAYLOAD = ABUFFER_PAYLOAD_INDEX;
 layout(constant_id = 16) const uint ABUFFER_COVERAGE = ABUFFER_COVERAGE_EXACT;
 
-// State and sizes of one A-buffer. 112 bytes.
+// State and sizes of one A-buffer. 136 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, also those beyond the capacity

@@ -1,1 +1,22 @@
-//! rasray: abuffer.
+//! Multiview, multilayer A-buffers: the rasterizer stores every fragment of the six faces of a cube
+//! around the eye in per-cell, per-bucket lists, and rays are traced through the cells.
+//!
+//! Source: Vardis, Vasilakis, Papaioannou, "A multiview and multilayer approach for interactive ray
+//! tracing", I3D 2016 (MMRT). The list storage is DLLB, the paper's own: doubly linked lists in depth
+//! buckets, with payload decoupled from the nodes. See `docs/systems/mmrt.md` for passes, bytes,
+//! options, limits and departures.
+//!
+//! [`ABuffer`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+
+mod build;
+mod config;
+mod header;
+mod layout;
+mod structure;
+mod validate;
+
+pub use config::{Accept, Addressing, Config, Coverage, March, Payload};
+pub use header::Header;
+pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use structure::ABuffer;
+pub use validate::{Contents, Fault, well_formed};

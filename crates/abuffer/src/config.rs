@@ -1,0 +1,223 @@
+//! Options of the A-buffer and the two presets.
+
+use rasray_ads::AdsError;
+use rasray_shaders_glsl::constants::abuffer as numbers;
+
+/// How a ray steps through cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum March {
+    /// Steps of equal length on the screen, at most [`Config::samples`] a face. Cells between are not
+    /// visited.
+    Samples,
+    /// Every cell the ray crosses.
+    Exact,
+}
+
+/// When a fragment counts as hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accept {
+    /// Its depth lies in the ray's half-open depth interval within the cell.
+    Interval,
+    /// The same, with each fragment extended away from the eye by [`Config::thickness`].
+    Thickness,
+    /// The ray meets the plane of its triangle within the cell. Needs [`Payload::Index`].
+    Plane,
+}
+
+/// What a fragment carries beside its node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Payload {
+    /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
+    Index,
+    /// The paper's quantised attributes, 16 bytes. Needs a scene.
+    Attributes,
+}
+
+/// Who decides which cells a triangle covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// The rasterizer, with its sub-pixel grid.
+    Hardware,
+    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
+    Exact,
+}
+
+/// How shaders reach the pools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addressing {
+    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
+    Descriptor,
+    /// Device addresses in the header; needs `bufferDeviceAddress`.
+    Address,
+}
+
+/// Everything that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Cells a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
+    pub resolution: u32,
+    /// Depth buckets a cell, 1 to 32.
+    pub buckets: u32,
+    /// How rays step.
+    pub march: March,
+    /// Most samples a face, 1 to 65535; only for [`March::Samples`].
+    pub samples: u32,
+    /// When a fragment counts.
+    pub accept: Accept,
+    /// Metres; only for [`Accept::Thickness`].
+    pub thickness: f32,
+    /// What a fragment carries.
+    pub payload: Payload,
+    /// Who decides coverage.
+    pub coverage: Coverage,
+    /// Sort lists, so that a search can end early. Changes no hit.
+    pub sort: bool,
+    /// Skip cells and buckets that the ray's depths cannot meet. Changes no hit.
+    pub skip: bool,
+    /// How pools are reached. Changes no hit.
+    pub addressing: Addressing,
+    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    pub fragments: Option<u64>,
+    /// Count cells, entries and tests of every ray. Changes no hit.
+    pub counters: bool,
+    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// The repaired structure: exact march, plane acceptance, triangle ids.
+    pub fn robust(resolution: u32) -> Self {
+        Self {
+            resolution,
+            buckets: 4,
+            march: March::Exact,
+            samples: 100,
+            accept: Accept::Plane,
+            thickness: 0.0,
+            payload: Payload::Index,
+            coverage: Coverage::Exact,
+            sort: true,
+            skip: true,
+            addressing: Addressing::Descriptor,
+            fragments: None,
+            counters: false,
+            work_budget: None,
+        }
+    }
+
+    /// The paper's approximations: 100 samples a face, half-open depth intervals, quantised
+    /// attributes, the rasterizer's own coverage.
+    pub fn published(resolution: u32) -> Self {
+        Self {
+            march: March::Samples,
+            accept: Accept::Interval,
+            payload: Payload::Attributes,
+            coverage: Coverage::Hardware,
+            ..Self::robust(resolution)
+        }
+    }
+
+    /// Checks ranges and combinations.
+    ///
+    /// # Errors
+    /// The first option out of range, or the combination that is not possible.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let range = |option, value: u32, lowest, highest, expected| {
+            if (lowest..=highest).contains(&value) {
+                Ok(())
+            } else {
+                Err(AdsError::Option { option, value: value.to_string(), expected })
+            }
+        };
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
+        range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
+        range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
+        if !(self.thickness >= 0.0 && self.thickness.is_finite()) {
+            return Err(AdsError::Option {
+                option: "thickness",
+                value: self.thickness.to_string(),
+                expected: "a finite length in metres, 0 or more",
+            });
+        }
+        if self.accept == Accept::Plane && self.payload != Payload::Index {
+            return Err(AdsError::Option {
+                option: "accept",
+                value: "plane".to_owned(),
+                expected: "plane acceptance needs the payload `index`, which names the triangle",
+            });
+        }
+        Ok(())
+    }
+
+    /// Specialisation constants: id and bits.
+    pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
+        vec![
+            (10, self.buckets),
+            (
+                11,
+                match self.march {
+                    March::Samples => numbers::ABUFFER_MARCH_SAMPLES,
+                    March::Exact => numbers::ABUFFER_MARCH_EXACT,
+                },
+            ),
+            (
+                12,
+                match self.accept {
+                    Accept::Interval => numbers::ABUFFER_ACCEPT_INTERVAL,
+                    Accept::Thickness => numbers::ABUFFER_ACCEPT_THICKNESS,
+                    Accept::Plane => numbers::ABUFFER_ACCEPT_PLANE,
+                },
+            ),
+            (13, u32::from(self.sort)),
+            (14, u32::from(self.skip)),
+            (
+                15,
+                match self.payload {
+                    Payload::Index => numbers::ABUFFER_PAYLOAD_INDEX,
+                    Payload::Attributes => numbers::ABUFFER_PAYLOAD_ATTRIBUTES,
+                },
+            ),
+            (
+                16,
+                match self.coverage {
+                    Coverage::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
+                    Coverage::Exact => numbers::ABUFFER_COVERAGE_EXACT,
+                },
+            ),
+        ]
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        let switch = |on: bool| if on { "on" } else { "off" }.to_owned();
+        let mut options = vec![
+            ("storage", "dllb".to_owned()),
+            ("resolution", self.resolution.to_string()),
+            ("buckets", self.buckets.to_string()),
+            ("march", lower(&self.march)),
+            ("accept", lower(&self.accept)),
+            ("payload", lower(&self.payload)),
+            ("views", "cube".to_owned()),
+            ("sort", switch(self.sort)),
+            ("skip", switch(self.skip)),
+        ];
+        if self.march == March::Samples {
+            options.push(("samples", self.samples.to_string()));
+        }
+        if self.accept == Accept::Thickness {
+            options.push(("thickness", self.thickness.to_string()));
+        }
+        options
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        vec![
+            ("builder", "raster".to_owned()),
+            ("coverage", lower(&self.coverage)),
+            ("addressing", lower(&self.addressing)),
+        ]
+    }
+}

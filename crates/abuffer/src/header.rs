@@ -1,0 +1,55 @@
+//! The header of an A-buffer as shaders see it.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `AbufferHeader` of `shaders-glsl/abuffer/types.glsl`, field by field.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Header {
+    /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
+    pub status: u32,
+    /// Fragments met by the build, also those beyond the capacity.
+    pub demand: u32,
+    /// Fragments the pools hold.
+    pub capacity: u32,
+    /// Triangles that meet the near box.
+    pub near_demand: u32,
+    /// Triangles the near list holds.
+    pub near_capacity: u32,
+    /// Lists too long to be sorted.
+    pub unsorted: u32,
+    /// List entries that named no node.
+    pub corrupted: u32,
+    /// Cells a side of a face, border not counted.
+    pub resolution: u32,
+    /// Marching samples a face.
+    pub samples: u32,
+    /// Metres.
+    pub thickness: f32,
+    /// Half side of the near box, metres.
+    pub near_size: f32,
+    /// Zero.
+    pub spare: u32,
+    /// Common centre of the faces, metres relative to the frame origin.
+    pub eye: [f32; 3],
+    /// Zero.
+    pub spare_scale: f32,
+    /// Lower corner of the geometry relative to the eye, metres.
+    pub lower: [f32; 3],
+    /// Zero.
+    pub spare_lower: f32,
+    /// Upper corner of the geometry relative to the eye, metres.
+    pub upper: [f32; 3],
+    /// Zero.
+    pub spare_upper: f32,
+    /// Device address of the bounds; zero with descriptors.
+    pub bounds_address: [u32; 2],
+    /// Device address of the list heads and tails.
+    pub lists_address: [u32; 2],
+    /// Device address of the nodes.
+    pub nodes_address: [u32; 2],
+    /// Device address of the payload.
+    pub data_address: [u32; 2],
+    /// Device address of the near list.
+    pub near_address: [u32; 2],
+}
