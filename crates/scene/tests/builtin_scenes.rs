@@ -123,7 +123,8 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("corridor:width=0", "from 0.5 to 50"),
     ];
     for (spec, expected) in table {
-        let error = builtin(spec).expect("a built-in name").err().unwrap_or_else(|| panic!("{spec} was accepted"));
+        let error =
+            builtin(spec).expect("a built-in name").err().unwrap_or_else(|| panic!("{spec} was accepted"));
         assert!(matches!(error, SceneError::Builtin { .. }), "{spec}");
         let message = error.to_string();
         assert!(message.contains(expected) && message.contains(spec), "{spec}: {message}");
@@ -216,7 +217,8 @@ fn atrium_has_textures_masks_sun_and_sky() {
     let scene = scene("atrium");
     let count = triangles(&scene);
     assert!((50_000..=100_000).contains(&count), "{count}");
-    let textured: Vec<_> = scene.materials.iter().filter(|material| material.base_color_texture.is_some()).collect();
+    let textured: Vec<_> =
+        scene.materials.iter().filter(|material| material.base_color_texture.is_some()).collect();
     assert!(textured.len() >= 3);
     assert!(scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Mask { cutoff: 0.5 }));
     assert!(scene.materials.iter().any(|material| material.metallic == 1.0));

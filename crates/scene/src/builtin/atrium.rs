@@ -199,7 +199,10 @@ fn arcades(shapes: &mut Shapes, ground: f64, fineness: Fineness) {
             shapes.patch(steps, 1, DVec2::new(3.0, 0.5), |u, v| {
                 let (sin, cos) = angle(u).sin_cos();
                 let across = outward * (ARCADE * (v - 0.5));
-                (middle + along * (radius * cos) + DVec3::Y * (radius * sin) + across, -along * cos - DVec3::Y * sin)
+                (
+                    middle + along * (radius * cos) + DVec3::Y * (radius * sin) + across,
+                    -along * cos - DVec3::Y * sin,
+                )
             });
         }
     }
@@ -231,7 +234,8 @@ fn spandrel(
     // What the fan leaves open: between the springing line, the slanted border and the bay's edge.
     let corner = |x: f64, y: f64| middle + along * x + DVec3::Y * y;
     for side in [-1.0, 1.0] {
-        let (foot, edge, high) = (corner(side * radius, 0.0), corner(side * half, 0.0), corner(side * half, rise));
+        let (foot, edge, high) =
+            (corner(side * radius, 0.0), corner(side * half, 0.0), corner(side * half, rise));
         let first = shapes.vertex(foot, normal, DVec2::ZERO);
         let second = shapes.vertex(edge, normal, DVec2::X);
         let third = shapes.vertex(high, normal, DVec2::Y);
@@ -288,20 +292,26 @@ fn gallery() -> crate::Mesh {
 fn drapes(name: &str, material: usize, turn: usize, fineness: Fineness) -> crate::Mesh {
     let mut shapes = Shapes::new(name, material);
     let (columns, rows) = (fineness.of(44.0, 10), fineness.of(32.0, 8));
-    for (index, (start, along, outward, bays)) in sides().into_iter().enumerate().filter(|(_, side)| side.3 > 4) {
+    for (index, (start, along, outward, bays)) in
+        sides().into_iter().enumerate().filter(|(_, side)| side.3 > 4)
+    {
         for bay in (0..bays).filter(|bay| (bay + index / 2) % 4 == 2 * turn) {
             let storey = turn as f64;
-            let rod = start + along * ((bay as f64 + 0.5) * BAY) + DVec3::Y * (storey * STOREY + COLUMN - 0.1)
-                - outward * (ARCADE / 2.0 + 0.25);
+            let rod =
+                start + along * ((bay as f64 + 0.5) * BAY) + DVec3::Y * (storey * STOREY + COLUMN - 0.1)
+                    - outward * (ARCADE / 2.0 + 0.25);
             let (half, drop) = (0.8, 2.1);
             let phase = bay as f64 * 1.3 + index as f64;
             // Folds deepen downwards; the lower hem swings.
             let place = |u: f64, v: f64| {
                 let down = 1.0 - v;
-                let fold = (0.03 + 0.09 * down) * (u * 9.0 * PI + phase).sin() + 0.03 * (u * 23.0 + phase).cos() * down;
+                let fold = (0.03 + 0.09 * down) * (u * 9.0 * PI + phase).sin()
+                    + 0.03 * (u * 23.0 + phase).cos() * down;
                 let sway = 0.05 * down * (phase + 2.0 * u).sin();
                 let narrow = 1.0 - 0.12 * down * down;
-                rod + along * ((2.0 * u - 1.0) * half * narrow + sway) - DVec3::Y * (drop * down) - outward * fold
+                rod + along * ((2.0 * u - 1.0) * half * narrow + sway)
+                    - DVec3::Y * (drop * down)
+                    - outward * fold
             };
             shapes.patch(columns, rows, DVec2::new(1.0, 1.4), |u, v| {
                 let step = 1.0e-4;
@@ -331,7 +341,13 @@ fn screens() -> crate::Mesh {
 /// Brass globes under the arches of the lower storey, and two urns in the courtyard.
 fn lamps(fineness: Fineness) -> crate::Mesh {
     let mut shapes = Shapes::new("brass", BRASS);
-    let unit = Icosphere::new(if fineness.0 < 0.6 { 1 } else if fineness.0 < 2.0 { 2 } else { 3 });
+    let unit = Icosphere::new(if fineness.0 < 0.6 {
+        1
+    } else if fineness.0 < 2.0 {
+        2
+    } else {
+        3
+    });
     for (start, along, outward, bays) in sides() {
         for bay in (0..bays).step_by(2) {
             let middle = start + along * ((bay as f64 + 0.5) * BAY) + outward * 1.2;

@@ -36,7 +36,14 @@ pub fn cornell() -> Scene {
     let fov_y = 2.0 * (12.5_f64 / 35.0).atan();
     let eye = DVec3::new(0.0, 0.273, 0.8);
     let camera = camera_looking_at("camera", eye, eye - DVec3::Z, fov_y as f32);
-    Scene { name: "cornell".to_owned(), meshes, instances, materials, cameras: vec![camera], ..Scene::default() }
+    Scene {
+        name: "cornell".to_owned(),
+        meshes,
+        instances,
+        materials,
+        cameras: vec![camera],
+        ..Scene::default()
+    }
 }
 
 /// A Lambertian material: no metal, no specular reflection.
@@ -76,10 +83,8 @@ fn room() -> Mesh {
     let mut shapes = Shapes::new("room", 0);
     let once = DVec2::ONE;
     shapes.quad([at(-w, 0.0, 0.0), at(w, 0.0, 0.0), at(w, 0.0, -DEPTH), at(-w, 0.0, -DEPTH)], once);
-    shapes.quad(
-        [at(-w, 0.0, -DEPTH), at(w, 0.0, -DEPTH), at(w, HEIGHT, -DEPTH), at(-w, HEIGHT, -DEPTH)],
-        once,
-    );
+    shapes
+        .quad([at(-w, 0.0, -DEPTH), at(w, 0.0, -DEPTH), at(w, HEIGHT, -DEPTH), at(-w, HEIGHT, -DEPTH)], once);
     let outer = [at(-w, HEIGHT, 0.0), at(-w, HEIGHT, -DEPTH), at(w, HEIGHT, -DEPTH), at(w, HEIGHT, 0.0)];
     let inner = light_corners();
     for side in 0..4 {

@@ -44,13 +44,21 @@ pub fn corridor(parameters: Corridor) -> Scene {
     let once = DVec2::ONE;
 
     let mut mirrors = Shapes::new("mirrors", 0);
-    mirrors.quad([at(-half, 0.0, end), at(-half, 0.0, -end), at(-half, HEIGHT, -end), at(-half, HEIGHT, end)], once);
-    mirrors.quad([at(half, 0.0, -end), at(half, 0.0, end), at(half, HEIGHT, end), at(half, HEIGHT, -end)], once);
+    mirrors.quad(
+        [at(-half, 0.0, end), at(-half, 0.0, -end), at(-half, HEIGHT, -end), at(-half, HEIGHT, end)],
+        once,
+    );
+    mirrors
+        .quad([at(half, 0.0, -end), at(half, 0.0, end), at(half, HEIGHT, end), at(half, HEIGHT, -end)], once);
 
     let mut plaster = Shapes::new("plaster", 1);
     plaster.quad([at(-half, 0.0, end), at(half, 0.0, end), at(half, 0.0, -end), at(-half, 0.0, -end)], once);
-    plaster.quad([at(-half, 0.0, -end), at(half, 0.0, -end), at(half, HEIGHT, -end), at(-half, HEIGHT, -end)], once);
-    plaster.quad([at(half, 0.0, end), at(-half, 0.0, end), at(-half, HEIGHT, end), at(half, HEIGHT, end)], once);
+    plaster.quad(
+        [at(-half, 0.0, -end), at(half, 0.0, -end), at(half, HEIGHT, -end), at(-half, HEIGHT, -end)],
+        once,
+    );
+    plaster
+        .quad([at(half, 0.0, end), at(-half, 0.0, end), at(-half, HEIGHT, end), at(half, HEIGHT, end)], once);
     // The ceiling leaves the lamp's place free and shares its edges.
     let ring = |x: f64, z: f64| [at(-x, HEIGHT, z), at(-x, HEIGHT, -z), at(x, HEIGHT, -z), at(x, HEIGHT, z)];
     let (outer, inner) = (ring(half, end), ring(half * 0.3, end * 0.5));

@@ -76,7 +76,12 @@ impl Parameters {
     }
 
     /// One of a few words; the returned word is one of `choices` or the default.
-    pub fn word<'a>(&mut self, key: &str, default: &'a str, choices: &[&'a str]) -> Result<&'a str, SceneError> {
+    pub fn word<'a>(
+        &mut self,
+        key: &str,
+        default: &'a str,
+        choices: &[&'a str],
+    ) -> Result<&'a str, SceneError> {
         let Some(text) = self.take(key) else { return Ok(default) };
         match choices.iter().find(|choice| **choice == text) {
             Some(choice) => Ok(choice),
@@ -100,7 +105,13 @@ impl Parameters {
         Some(self.named.swap_remove(place).1)
     }
 
-    fn out_of_range(&self, key: &str, text: &str, low: &dyn std::fmt::Display, high: &dyn std::fmt::Display) -> SceneError {
+    fn out_of_range(
+        &self,
+        key: &str,
+        text: &str,
+        low: &dyn std::fmt::Display,
+        high: &dyn std::fmt::Display,
+    ) -> SceneError {
         self.error(format!("`{key}={text}`: must be a number from {low} to {high}"))
     }
 

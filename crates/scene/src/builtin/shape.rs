@@ -63,8 +63,8 @@ impl Shapes {
         for (side, wanted) in sides.into_iter().zip(faces) {
             if wanted {
                 let corners = side.map(corner);
-                let repeat =
-                    DVec2::new(corners[0].distance(corners[1]), corners[0].distance(corners[3])) * repeat_per_metre;
+                let repeat = DVec2::new(corners[0].distance(corners[1]), corners[0].distance(corners[3]))
+                    * repeat_per_metre;
                 self.quad(corners, repeat);
             }
         }
@@ -212,7 +212,8 @@ fn icosahedron_faces(corners: &[DVec3]) -> Vec<[u32; 3]> {
         for b in a + 1..corners.len() {
             for c in b + 1..corners.len() {
                 if near(a, b) && near(b, c) && near(c, a) {
-                    let outward = (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(corners[a]) > 0.0;
+                    let outward =
+                        (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(corners[a]) > 0.0;
                     let face = if outward { [a, b, c] } else { [a, c, b] };
                     faces.push(face.map(|corner| corner as u32));
                 }

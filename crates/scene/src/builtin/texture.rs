@@ -59,8 +59,13 @@ pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
 pub(super) fn screen() -> Image {
     paint("screen", |u, v| {
         let (x, y) = ((u * 4.0).fract() - 0.5, (v * 4.0).fract() - 0.5);
-        let pierced = x.hypot(y) < 0.36 || x.abs().max(y.abs()) > 0.5 - 0.06 && (x.abs() - y.abs()).abs() < 0.05;
-        shade([150.0, 116.0, 62.0], 0.9 + 0.1 * grain((u * 256.0) as u32, (v * 256.0) as u32), u8::from(!pierced) * 255)
+        let pierced =
+            x.hypot(y) < 0.36 || x.abs().max(y.abs()) > 0.5 - 0.06 && (x.abs() - y.abs()).abs() < 0.05;
+        shade(
+            [150.0, 116.0, 62.0],
+            0.9 + 0.1 * grain((u * 256.0) as u32, (v * 256.0) as u32),
+            u8::from(!pierced) * 255,
+        )
     })
 }
 

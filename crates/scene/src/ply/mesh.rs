@@ -1,0 +1,237 @@
+//! Elements to a mesh.
+
+use std::path::Path;
+
+use super::body::Body;
+use super::header::{Element, Header, Property, Scalar};
+use crate::{Limits, Mesh, SceneError, Warning};
+
+/// Reads all elements of the body.
+pub(super) fn read(
+    path: &Path,
+    bytes: &[u8],
+    header: &Header,
+    limits: &Limits,
+    warnings: &mut Vec<Warning>,
+) -> Result<Mesh, SceneError> {
+    let mut body = Body::new(path, bytes, header);
+    let mut mesh = Mesh::default();
+    let mut faces = Faces::default();
+    let mut has_vertices = false;
+    for element in &header.elements {
+        // Nothing of an element without properties stands in the file, however many there are.
+        if element.properties.is_empty() || element.count == 0 {
+            continue;
+        }
+        check_room(&body, element)?;
+        match element.name.as_str() {
+            "vertex" if !has_vertices => {
+                has_vertices = true;
+                // Indices are u32, whatever the limit says.
+                let limit = limits.vertices.min(u64::from(u32::MAX));
+                Limits::check(path, "the number of vertices", element.count, limit, "vertices")?;
+                read_vertices(path, &mut body, element, &mut mesh)?;
+            }
+            "face" => faces.read(path, &mut body, element, limits, &mut mesh)?,
+            name => {
+                if name == "tristrips" {
+                    warnings.push(Warning {
+                        kind: "triangle-strips",
+                        message: "triangle strips are not supported and were skipped; write faces".to_owned(),
+                    });
+                }
+                for _ in 0..element.count {
+                    skip(&mut body, &element.properties)?;
+                }
+            }
+        }
+    }
+    if faces.short > 0 {
+        let message = format!("{} faces have fewer than three corners and were dropped", faces.short);
+        warnings.push(Warning { kind: "short-faces", message });
+    }
+    Ok(mesh)
+}
+
+/// Refuses counts that the rest of the file cannot hold, before memory is set aside.
+fn check_room(body: &Body<'_>, element: &Element) -> Result<(), SceneError> {
+    // At least one byte a property, in every encoding.
+    let least = element.count.saturating_mul(element.properties.len() as u64);
+    if least > body.left() as u64 {
+        let Element { name, count, .. } = element;
+        return Err(
+            body.error(&format!("{count} elements `{name}` are promised, more than the file can hold"))
+        );
+    }
+    Ok(())
+}
+
+fn skip(body: &mut Body<'_>, properties: &[Property]) -> Result<(), SceneError> {
+    for property in properties {
+        let count = match property.length {
+            Some(length) => body.length(length)?,
+            None => 1,
+        };
+        body.skip(property.scalar, count)?;
+    }
+    Ok(())
+}
+
+/// What a property of a vertex means: place in a row of twelve numbers.
+const COLUMNS: [(&str, usize); 16] = [
+    ("x", 0),
+    ("y", 1),
+    ("z", 2),
+    ("nx", 3),
+    ("ny", 4),
+    ("nz", 5),
+    ("s", 6),
+    ("t", 7),
+    ("u", 6),
+    ("v", 7),
+    ("texture_u", 6),
+    ("texture_v", 7),
+    ("red", 8),
+    ("green", 9),
+    ("blue", 10),
+    ("alpha", 11),
+];
+
+fn read_vertices(
+    path: &Path,
+    body: &mut Body<'_>,
+    element: &Element,
+    mesh: &mut Mesh,
+) -> Result<(), SceneError> {
+    let column = |property: &Property| {
+        let named = COLUMNS.iter().find(|(name, _)| *name == property.name);
+        named.filter(|_| property.length.is_none()).map(|(_, column)| *column)
+    };
+    let columns: Vec<Option<usize>> = element.properties.iter().map(column).collect();
+    let has = |wanted: &[usize]| wanted.iter().all(|column| columns.contains(&Some(*column)));
+    if !has(&[0, 1, 2]) {
+        return Err(SceneError::syntax(path, "element vertex lacks one of the properties x, y, z"));
+    }
+    let (has_normals, has_uvs, has_colors) = (has(&[3, 4, 5]), has(&[6, 7]), has(&[8, 9, 10]));
+    let color_scalars: [Option<Scalar>; 4] = std::array::from_fn(|channel| {
+        let place = columns.iter().position(|column| *column == Some(8 + channel))?;
+        Some(element.properties[place].scalar)
+    });
+
+    let count = element.count as usize;
+    mesh.positions.reserve_exact(count);
+    let mut normals = Vec::with_capacity(if has_normals { count } else { 0 });
+    let mut uvs = Vec::with_capacity(if has_uvs { count } else { 0 });
+    let mut colors = Vec::with_capacity(if has_colors { count } else { 0 });
+    for _ in 0..count {
+        let mut row = [0.0_f64; 12];
+        for (property, column) in element.properties.iter().zip(&columns) {
+            match column {
+                Some(column) => row[*column] = body.number(property.scalar)?,
+                None => skip(body, std::slice::from_ref(property))?,
+            }
+        }
+        let [x, y, z, nx, ny, nz, u, v] = std::array::from_fn(|column| row[column] as f32);
+        mesh.positions.push([x, y, z]);
+        if has_normals {
+            normals.push([nx, ny, nz]);
+        }
+        if has_uvs {
+            uvs.push([u, 1.0 - v]);
+        }
+        if has_colors {
+            colors.push(std::array::from_fn(|channel| match color_scalars[channel] {
+                Some(scalar) => color(row[8 + channel], scalar, channel == 3),
+                None => 1.0,
+            }));
+        }
+    }
+    mesh.normals = has_normals.then_some(normals);
+    mesh.uvs[0] = has_uvs.then_some(uvs);
+    mesh.colors = has_colors.then_some(colors);
+    Ok(())
+}
+
+/// A channel as a linear value. Whole numbers span their type and are sRGB, but for alpha.
+fn color(value: f64, scalar: Scalar, is_alpha: bool) -> f32 {
+    let largest = match scalar {
+        Scalar::F32 | Scalar::F64 => return value as f32,
+        Scalar::I8 => f64::from(i8::MAX),
+        Scalar::U8 => f64::from(u8::MAX),
+        Scalar::I16 => f64::from(i16::MAX),
+        Scalar::U16 => f64::from(u16::MAX),
+        Scalar::I32 => f64::from(i32::MAX),
+        Scalar::U32 => f64::from(u32::MAX),
+    };
+    let encoded = (value / largest).clamp(0.0, 1.0);
+    if is_alpha {
+        return encoded as f32;
+    }
+    let linear = if encoded <= 0.040_45 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) };
+    linear as f32
+}
+
+/// What was found in faces.
+#[derive(Default)]
+struct Faces {
+    /// Faces with fewer than three corners.
+    short: u64,
+}
+
+impl Faces {
+    fn read(
+        &mut self,
+        path: &Path,
+        body: &mut Body<'_>,
+        element: &Element,
+        limits: &Limits,
+        mesh: &mut Mesh,
+    ) -> Result<(), SceneError> {
+        let is_list = |property: &Property| {
+            property.length.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
+        };
+        let Some(list) = element.properties.iter().position(is_list) else {
+            return Err(SceneError::syntax(path, "element face lacks the list vertex_indices"));
+        };
+        if element.properties[list].scalar.is_float() {
+            return Err(SceneError::syntax(path, "vertex_indices must have a type of whole numbers"));
+        }
+        let mut corners = Vec::new();
+        for _ in 0..element.count {
+            skip(body, &element.properties[..list])?;
+            let Property { scalar, length, .. } = &element.properties[list];
+            let count = body.length(length.unwrap_or(Scalar::U8))?;
+            corners.clear();
+            for _ in 0..count {
+                let index = body.number(*scalar)?;
+                // Faces may stand before the vertices: the finished mesh is checked for the upper end.
+                if !(0.0..f64::from(u32::MAX)).contains(&index) {
+                    return Err(body.error(&format!("a face cannot have the vertex index {index}")));
+                }
+                corners.push(index as u32);
+            }
+            skip(body, &element.properties[list + 1..])?;
+            self.add(path, &corners, limits, mesh)?;
+        }
+        Ok(())
+    }
+
+    /// Splits a polygon into a fan from its first corner.
+    fn add(
+        &mut self,
+        path: &Path,
+        corners: &[u32],
+        limits: &Limits,
+        mesh: &mut Mesh,
+    ) -> Result<(), SceneError> {
+        if corners.len() < 3 {
+            self.short += 1;
+            return Ok(());
+        }
+        for pair in corners[1..].windows(2) {
+            mesh.indices.extend([corners[0], pair[0], pair[1]]);
+        }
+        let triangles = mesh.indices.len() as u64 / 3;
+        Limits::check(path, "the number of triangles", triangles, limits.triangles, "triangles")
+    }
+}

@@ -1,0 +1,58 @@
+//! PLY meshes: ASCII, and binary of either byte order.
+//!
+//! Of the element `vertex` are read `x y z`, `nx ny nz`, `s t` or `u v` or `texture_u texture_v`, and
+//! `red green blue alpha`; of `face` the list `vertex_indices` or `vertex_index`. Any scalar type
+//! will do. Polygons become fans from their first corner. Everything else is skipped.
+//!
+//! The v coordinate is turned over, as for OBJ. Colours in whole numbers are sRGB and become linear,
+//! colours in floating point are taken as linear; alpha is linear either way.
+
+mod body;
+mod header;
+mod mesh;
+
+use std::path::Path;
+
+use glam::DAffine3;
+
+use crate::default_view::plain_material;
+use crate::load::{read_file, scene_name};
+use crate::{Instance, LoadOptions, Material, Scene, SceneError, Warning};
+
+/// Loads a PLY file as one mesh, with a plain material, placed where the file has it.
+///
+/// A file without faces (a point cloud) is a scene without triangles, with a warning.
+///
+/// # Errors
+/// [`SceneError::Read`], [`SceneError::TooLarge`], [`SceneError::Syntax`] for a header or number that
+/// is not as it must be or a file that ends too early, and [`SceneError::IndexOutOfRange`] for a face
+/// that refers to a vertex that does not exist.
+pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+    let bytes = read_file(path, options.limits.file_bytes)?;
+    let mut warnings = Vec::new();
+    let header = header::parse(path, &bytes)?;
+    let mut mesh = mesh::read(path, &bytes, &header, &options.limits, &mut warnings)?;
+    drop(bytes);
+    let name = scene_name(path);
+    mesh.name.clone_from(&name);
+    crate::check::clean_mesh(path, &mut mesh, &mut warnings)?;
+
+    let mut material = plain_material("default");
+    if mesh.colors.is_some() {
+        material = Material { base_color: [1.0; 4], ..material };
+    }
+    let mut scene = Scene { name: name.clone(), materials: vec![material], warnings, ..Scene::default() };
+    if mesh.indices.is_empty() {
+        scene.warnings.push(Warning {
+            kind: "no-triangles",
+            message: format!(
+                "the file has {} vertices and no faces to show; points are not rendered",
+                mesh.positions.len()
+            ),
+        });
+    } else {
+        scene.meshes.push(mesh);
+        scene.instances.push(Instance { name, mesh: 0, world_from_mesh: DAffine3::IDENTITY });
+    }
+    Ok(scene)
+}
