@@ -1,6 +1,7 @@
 //! SIGINT and SIGTERM: the first asks for an early end with a valid result, the second ends at once.
 
 use crate::error::EXIT_INTERRUPTED;
+use crate::terminal;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -31,7 +32,9 @@ impl Interrupt {
                 if watched.requested.swap(true, Ordering::SeqCst) {
                     watched.leave();
                 }
-                eprintln!("stopping after the current wave; a second signal stops at once, without a result");
+                terminal::complain(
+                    "stopping after the current wave; a second signal stops at once, without a result\n",
+                );
             }
         })?;
         Ok(interrupt)

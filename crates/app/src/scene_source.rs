@@ -6,6 +6,7 @@ use crate::error::AppError;
 use crate::structure::Switch;
 use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -28,7 +29,7 @@ const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
 ///
 /// # Errors
 /// Names that are neither, and whatever is wrong with a file or a parameter.
-pub fn load(name: &str) -> Result<LoadedScene, AppError> {
+pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
     let path = Path::new(name);
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
@@ -43,7 +44,7 @@ pub fn load(name: &str) -> Result<LoadedScene, AppError> {
         })?;
         return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: Some(sha256) });
     }
-    if let Some(made) = builtin::builtin(name) {
+    if let Some(made) = name.to_str().and_then(builtin::builtin) {
         let scene = made?;
         return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: None });
     }
@@ -61,7 +62,7 @@ pub fn load(name: &str) -> Result<LoadedScene, AppError> {
 ///
 /// # Errors
 /// Those of [`load`] and of the environment.
-pub fn prepare(name: &str, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
+pub fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment.as_deref().map(environment::read).transpose()?;
     let mut loaded = load(name)?;
@@ -111,17 +112,17 @@ mod tests {
 
     #[test]
     fn a_built_in_scene_has_no_digest_and_counts_its_triangles() {
-        let loaded = load("cornell").expect("built in");
+        let loaded = load(OsStr::new("cornell")).expect("built in");
         assert!(loaded.triangles > 0 && loaded.sha256.is_none());
     }
 
     #[test]
     fn a_name_that_is_nothing_lists_what_there_is() {
         for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
-            let error = load(bad).expect_err(bad);
+            let error = load(OsStr::new(bad)).expect_err(bad);
             assert_eq!(error.exit_code(), 2);
             assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
         }
-        assert!(load("cornel").expect_err("misspelt").help().contains("cornell"));
+        assert!(load(OsStr::new("cornel")).expect_err("misspelt").help().contains("cornell"));
     }
 }

@@ -45,8 +45,14 @@ pub(crate) fn warn_of_scene(scene: &Scene, triangles: u64) {
 /// Sends log messages to stderr. `RASRAY_LOG` sets the filter; unless it does, warnings are shown,
 /// without those of scene files, which [`warn_of_scene`] shows.
 pub(crate) fn start_logging() {
-    let filter =
-        EnvFilter::try_from_env("RASRAY_LOG").unwrap_or_else(|_| EnvFilter::new("warn,rasray_scene=error"));
+    let usual = || EnvFilter::new("warn,rasray_scene=error");
+    let filter = match std::env::var("RASRAY_LOG") {
+        Ok(text) => EnvFilter::try_new(&text).unwrap_or_else(|error| {
+            warn(&format!("RASRAY_LOG={text} is no log filter: {error}"));
+            usual()
+        }),
+        Err(_) => usual(),
+    };
     // A second start in one process keeps the first one's settings.
     _ = tracing_subscriber::fmt()
         .with_env_filter(filter)

@@ -150,3 +150,21 @@ fn a_scene_without_triangles_is_a_warning() {
     assert_eq!(entries(folder.path()), ["a.png", "empty.gltf", "r.json"]);
     assert_eq!(report(&folder.path().join("r.json")).scene.sha256.map(|text| text.len()), Some(64));
 }
+
+#[test]
+fn info_describes_the_device_in_use() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = rasray(folder.path(), "info");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout);
+    for line in [
+        "  1  another",
+        "  Vulkan  1.2.3",
+        "  scalarBlockLayout  yes  required  a test",
+        "  shaderInt64        no   optional  a test",
+        "  storage buffer  128 MiB",
+        "  mmrt  addressing  descriptor  a software driver",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}

@@ -41,6 +41,8 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("render cornell -o a.png --system brute-force --preset published", "published", "robust"),
         ("render cornell -o a.png --integrator ao --bounces 1", "--bounces", "path"),
         ("render cornell -o a.png --eye 0,0,0 --target 0,0,0", "--eye", "--target"),
+        ("render broken.glb --report broken.glb", "scene file", "report.json"),
+        ("compare broken.glb --systems mmrt --report ./broken.glb", "scene file", "report.json"),
         ("compare cornell --systems brute-force --storage sb", "--storage", "mmrt"),
         ("compare cornell --systems brute-force mmrt.sort=on", "mmrt", "--systems"),
         ("compare cornell --systems mmrt --report missing/r.json", "missing/r.json", "mkdir"),

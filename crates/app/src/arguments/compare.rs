@@ -4,6 +4,7 @@ use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArgumen
 use crate::backend::RaySet;
 use crate::structure::{Preset, StructureOptions, SystemName};
 use clap::Args;
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
@@ -23,7 +24,7 @@ addresses one. Times of software devices are for ratios on that device.";
 pub struct CompareArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
-    pub scene: String,
+    pub scene: OsString,
     /// Options for one system, such as mmrt.storage=sb
     #[arg(value_name = "SYSTEM.OPTION=VALUE")]
     pub assignments: Vec<String>,

@@ -2,6 +2,7 @@
 
 use super::shared::{DeviceArguments, IntegratorName};
 use clap::Args;
+use std::ffi::OsString;
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -17,7 +18,7 @@ With a scene: what is in it, and what of that an image can show.";
 pub struct InfoArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
-    pub scene: Option<String>,
+    pub scene: Option<OsString>,
     /// With a scene: the integrator whose needs are shown
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,

@@ -5,6 +5,7 @@ use super::values;
 use crate::backend::AovSelection;
 use crate::structure::{Preset, StructureOptions, SystemName};
 use clap::{Args, ValueEnum};
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
@@ -29,7 +30,7 @@ once and writes nothing.";
 pub struct RenderArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
-    pub scene: String,
+    pub scene: OsString,
     /// What rays are traced through
     #[arg(long, value_enum, default_value_t = SystemName::Mmrt)]
     pub system: SystemName,

@@ -1,6 +1,6 @@
 //! `rasray compare`.
 
-use super::{check_whole, destination, stop_if_requested, with_progress};
+use super::{check_whole, destination, keep_inputs, stop_if_requested, with_progress};
 use crate::arguments::{CompareArguments, NeedsName};
 use crate::backend::{CompareJob, OpenBackend, RaySet};
 use crate::error::AppError;
@@ -20,6 +20,7 @@ pub(crate) fn compare(
     let frame = given.frame.frame()?;
     let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
     let report_target = destination(given.report.as_deref())?;
+    keep_inputs(report_target.as_ref(), &given.scene)?;
 
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;

@@ -14,6 +14,7 @@ use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::ProgressLine;
 use crate::report::Run;
+use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -37,6 +38,17 @@ fn bounces(frame: &Frame) -> Option<u32> {
 /// Checks the place of an output that was asked for.
 fn destination(path: Option<&Path>) -> Result<Option<Destination>, AppError> {
     path.map(Destination::check).transpose()
+}
+
+/// Refuses to write a report over the scene that it is about.
+fn keep_inputs(report: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
+    let scene = Path::new(scene);
+    match report {
+        Some(report) if scene.is_file() && report.is(scene) => {
+            Err(AppError::usage("--report names the scene file", "name another file, such as report.json"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Does `work` with a progress line; a signal asks it to end early.

@@ -1,6 +1,8 @@
 //! `rasray render`.
 
-use super::{bounces, check_whole, destination, integrator_name, stop_if_requested, with_progress};
+use super::{
+    bounces, check_whole, destination, integrator_name, keep_inputs, stop_if_requested, with_progress,
+};
 use crate::arguments::{NeedsName, RenderArguments};
 use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
 use crate::error::AppError;
@@ -24,11 +26,12 @@ pub(crate) fn render(
     let system = systems::single(given.system, given.preset, &given.structure)?;
     let image = image_target(given, aovs)?;
     let report_target = destination(given.report.as_deref())?;
-    if let (Some((place, _)), Some(report)) = (&image, &report_target) {
-        if place.same_as(report) {
-            return Err(AppError::usage("--output and --report name the same file", "name two files"));
-        }
+    if let (Some((place, _)), Some(report)) = (&image, &report_target)
+        && place.same_as(report)
+    {
+        return Err(AppError::usage("--output and --report name the same file", "name two files"));
     }
+    keep_inputs(report_target.as_ref(), &given.scene)?;
 
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;

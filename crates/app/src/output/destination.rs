@@ -71,14 +71,12 @@ impl Destination {
 
     /// Whether two names lead to the same file.
     pub fn same_as(&self, other: &Self) -> bool {
-        let absolute = |destination: &Self| {
-            let folder = std::fs::canonicalize(destination.folder());
-            folder.ok().zip(destination.path.file_name()).map(|(folder, name)| folder.join(name))
-        };
-        match (absolute(self), absolute(other)) {
-            (Some(one), Some(two)) => one == two,
-            _ => self.path == other.path,
-        }
+        absolute(&self.path) == absolute(&other.path)
+    }
+
+    /// Whether the file will be put where `path` leads.
+    pub fn is(&self, path: &Path) -> bool {
+        absolute(&self.path) == absolute(path)
     }
 
     /// The path as the user wrote it.
@@ -148,6 +146,17 @@ impl Destination {
         name.push(format!(".{}.tmp", std::process::id()));
         self.folder().join(name)
     }
+}
+
+/// A path without links or `..`, whether or not there is a file yet.
+fn absolute(path: &Path) -> PathBuf {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let whole = std::fs::canonicalize(path);
+    let beside = || Some(std::fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    whole.ok().or_else(beside).unwrap_or_else(|| path.to_owned())
 }
 
 #[cfg(test)]

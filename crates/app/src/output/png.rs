@@ -5,10 +5,10 @@ use crate::backend::RenderOutput;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// The 8-bit value of a linear one in [0, 1] or outside of it; not-a-number becomes 0.
+/// The 8-bit value of a linear one in [0, 1] or outside of it; not-a-number becomes 0, as conversion to
+/// an integer makes it.
 fn srgb8(linear: f32) -> u8 {
-    // max() takes the number where the other side is none.
-    let linear = linear.max(0.0).min(1.0);
+    let linear = linear.clamp(0.0, 1.0);
     let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (curved * 255.0 + 0.5) as u8
 }

@@ -5,7 +5,8 @@
 
 use rasray_app::AppError;
 use rasray_app::backend::{
-    Backend, CompareJob, DeviceChoice, DeviceDescription, OnProgress, Progress, RenderJob, RenderOutput,
+    Backend, ChosenPath, CompareJob, DeviceChoice, DeviceDescription, Feature, OnProgress, Progress,
+    RenderJob, RenderOutput,
 };
 use rasray_app::report::{Counters, Device, Run, Times};
 use std::path::Path;
@@ -92,7 +93,24 @@ impl Backend for Scripted {
     }
 
     fn info(&mut self) -> Result<DeviceDescription, AppError> {
-        Ok(DeviceDescription { devices: vec!["scripted".to_owned()], ..Default::default() })
+        let feature = |name: &str, present, required| Feature {
+            name: name.to_owned(),
+            present,
+            required,
+            purpose: "a test".to_owned(),
+        };
+        Ok(DeviceDescription {
+            devices: vec!["scripted".to_owned(), "another".to_owned()],
+            api_version: "1.2.3".to_owned(),
+            features: vec![feature("scalarBlockLayout", true, true), feature("shaderInt64", false, false)],
+            limits: vec![("storage buffer".to_owned(), "128 MiB".to_owned())],
+            paths: vec![ChosenPath {
+                system: "mmrt".to_owned(),
+                choice: "addressing".to_owned(),
+                chosen: "descriptor".to_owned(),
+                reason: "a software driver".to_owned(),
+            }],
+        })
     }
 }
 
