@@ -51,8 +51,6 @@ pub struct Frame {
     pub environment_sampled: u32,
     /// W/(sr m^2), the constant environment.
     pub environment_radiance: [f32; 3],
-    /// Zero.
-    pub spare: [f32; 4],
 }
 
 /// How a draw is shaded; same order as the draws. Offsets count words from the start of their

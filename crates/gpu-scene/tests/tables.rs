@@ -253,7 +253,7 @@ fn the_default_frame_origin_is_near_the_eye_and_stays_on_its_grid() {
 #[test]
 fn records_have_the_sizes_that_the_shaders_declare() {
     assert_eq!(size_of::<layout::Draw>(), 16);
-    assert_eq!(size_of::<layout::Frame>(), 136);
+    assert_eq!(size_of::<layout::Frame>(), 120);
     assert_eq!(size_of::<layout::DrawShading>(), 44);
     assert_eq!(size_of::<layout::TextureUse>(), 32);
     assert_eq!(size_of::<layout::Material>(), 256);

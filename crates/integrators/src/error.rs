@@ -23,7 +23,9 @@ pub enum IntegratorError {
         pixels: u32,
     },
     /// An image without pixels, or with more than can be numbered.
-    #[error("an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all")]
+    #[error(
+        "an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all"
+    )]
     ImageSize {
         /// Pixels a row.
         width: u32,

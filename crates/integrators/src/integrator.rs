@@ -124,7 +124,10 @@ mod tests {
         assert!(matches!(check_wave(wave(0, 0), 8, 16), Err(IntegratorError::WaveSize { .. })));
         assert!(matches!(check_wave(wave(0, 9), 8, 16), Err(IntegratorError::WaveSize { .. })));
         assert!(matches!(check_wave(wave(9, 8), 8, 16), Err(IntegratorError::WaveOutsideImage { .. })));
-        assert!(matches!(check_wave(wave(u32::MAX, 8), 8, 16), Err(IntegratorError::WaveOutsideImage { .. })));
+        assert!(matches!(
+            check_wave(wave(u32::MAX, 8), 8, 16),
+            Err(IntegratorError::WaveOutsideImage { .. })
+        ));
         assert!(check_capacity(1).is_ok() && check_capacity(WAVE_CAPACITY).is_ok());
         assert!(check_capacity(0).is_err() && check_capacity(WAVE_CAPACITY + 1).is_err());
     }

@@ -137,7 +137,13 @@ impl Integrator for Path {
             self.bindings.record(recorder, &self.shade, &constants);
             // In the last round every path has scattered as often as it may: it asks for no light.
             if round + 1 < self.rounds {
-                structure.record_trace(recorder, &self.shadow_queue, count, TraceMode::Occluded, trace_rounds);
+                structure.record_trace(
+                    recorder,
+                    &self.shadow_queue,
+                    count,
+                    TraceMode::Occluded,
+                    trace_rounds,
+                );
                 self.bindings.record(recorder, &self.resolve, &constants);
             }
         }

@@ -35,7 +35,9 @@ mod tests {
 
     #[test]
     fn every_pixel_of_every_sample_is_in_exactly_one_wave() {
-        for (pixels, samples, capacity) in [(1, 1, 1), (10, 2, 3), (131_073, 2, u32::MAX), (7, 0, 3), (0, 4, 8)] {
+        for (pixels, samples, capacity) in
+            [(1, 1, 1), (10, 2, 3), (131_073, 2, u32::MAX), (7, 0, 3), (0, 4, 8)]
+        {
             let mut seen = vec![0u32; pixels as usize * samples as usize];
             for wave in waves(pixels, samples, capacity) {
                 assert!(wave.pixel_count >= 1 && wave.pixel_count <= capacity.min(WAVE_CAPACITY));

@@ -1,0 +1,139 @@
+//! Small scenes and one way to render them with the brute-force structure, validation on.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use glam::{DAffine3, DMat3, DVec3};
+use rasray_ads::{BruteForce, RayQueue};
+use rasray_gpu::{Device, DeviceDesc};
+use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, waves};
+use rasray_scene::{Camera, Environment, Instance, Material, Mesh, Projection, Scene};
+
+/// A device with validation on.
+pub fn device() -> Device {
+    let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
+    Device::create(&desc).expect("these tests need a Vulkan device and the validation layer")
+}
+
+/// A camera at `eye` that looks along the rows of `axes`.
+pub fn camera(eye: DVec3, right: DVec3, up: DVec3, projection: Projection) -> Camera {
+    let axes = DMat3::from_cols(right, up, right.cross(up));
+    Camera {
+        name: "test".to_owned(),
+        world_from_camera: DAffine3::from_mat3_translation(axes, eye),
+        projection,
+    }
+}
+
+/// Looks along -z.
+pub fn forward_camera(eye: DVec3) -> Camera {
+    camera(eye, DVec3::X, DVec3::Y, Projection::Perspective { fov_y: 1.0 })
+}
+
+/// A diffuse material without any specular part: reflects exactly its base colour.
+pub fn lambert(albedo: f32, emission: f32) -> Material {
+    Material {
+        base_color: [albedo, albedo, albedo, 1.0],
+        metallic: 0.0,
+        specular: 0.0,
+        emission: [emission; 3],
+        double_sided: true,
+        ..Material::default()
+    }
+}
+
+/// A square of two triangles with corners at `centre` plus and minus `u` and `v`; counter-clockwise
+/// seen from the side that u x v points to.
+pub fn square(centre: DVec3, u: DVec3, v: DVec3, material: usize) -> Mesh {
+    let corners = [centre - u - v, centre + u - v, centre + u + v, centre - u + v];
+    Mesh {
+        name: "square".to_owned(),
+        positions: corners.map(|corner| corner.as_vec3().to_array()).to_vec(),
+        indices: vec![0, 1, 2, 0, 2, 3],
+        material,
+        ..Mesh::default()
+    }
+}
+
+/// The inside of a cube around the origin, faces turned inwards.
+pub fn box_inside(half: f64, material: usize) -> Vec<Mesh> {
+    let mut faces = Vec::new();
+    for axis in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let mut normal = [0.0; 3];
+            normal[axis] = -sign;
+            let normal = DVec3::from(normal);
+            let u = DVec3::from([normal.y.abs() + normal.z.abs(), normal.x.abs(), 0.0]) * half;
+            let v = normal.cross(u);
+            faces.push(square(-normal * half, u, v, material));
+        }
+    }
+    faces
+}
+
+pub fn scene(meshes: Vec<Mesh>, materials: Vec<Material>, environment: [f32; 3]) -> Scene {
+    let instances = (0..meshes.len())
+        .map(|mesh| Instance { name: format!("{mesh}"), mesh, world_from_mesh: DAffine3::IDENTITY })
+        .collect();
+    Scene {
+        name: "test".to_owned(),
+        meshes,
+        instances,
+        materials,
+        environment: Environment::Constant(environment),
+        ..Scene::default()
+    }
+}
+
+pub struct Stage {
+    pub device: Device,
+    pub scene: GpuScene,
+    pub structure: BruteForce,
+    pub film: Film,
+}
+
+impl Stage {
+    pub fn new(device: &Device, scene: &Scene, camera: Camera, width: u32, height: u32, seed: u32) -> Self {
+        let view = View { camera, width, height, seed };
+        let origin = SceneTables::default_frame_origin(scene, view.eye());
+        let tables = SceneTables::new(scene, origin, &Parts::ALL).expect("the scene is well formed");
+        let scene = GpuScene::upload(device, &tables, &view).expect("the scene fits");
+        let structure = BruteForce::new(device, scene.geometry(), Some(scene.binding()), false)
+            .expect("the structure can be made");
+        let film = Film::new(device, width, height).expect("the film fits");
+        Self { device: device.clone(), scene, structure, film }
+    }
+
+    pub fn desc(&self) -> IntegratorDesc<'_> {
+        IntegratorDesc::new(&self.device, &self.scene, &self.film)
+    }
+
+    pub fn desc_with(&self, wave_capacity: u32, features: ShadingFeatures) -> IntegratorDesc<'_> {
+        IntegratorDesc { wave_capacity, features, ..self.desc() }
+    }
+
+    /// Renders all samples and returns the image; every ray must have been finished.
+    pub fn render(&self, integrator: &dyn Integrator, samples: u32) -> Vec<[f32; 3]> {
+        self.device.submit(|recorder| integrator.record_reset(recorder)).expect("the reset runs");
+        for wave in waves(self.film.pixel_count(), samples, integrator.wave_capacity()) {
+            let submitted = self
+                .device
+                .submit(|recorder| integrator.record_wave(recorder, &self.structure, wave))
+                .expect("the wave runs");
+            submitted.value.expect("the wave can be recorded");
+        }
+        for queue in integrator.queues() {
+            let header = self.device.download_as(queue.header(), 0, 1).expect("the header can be read");
+            let counters = RayQueue::counters(&header[0]);
+            assert_eq!((counters.unfinished, counters.not_ready), (0, 0));
+        }
+        self.film.read(&self.device).expect("the film can be read")
+    }
+}
+
+pub fn mean(image: &[[f32; 3]]) -> f64 {
+    image.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / image.len() as f64
+}
+
+pub fn assert_silent(device: &Device) {
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
