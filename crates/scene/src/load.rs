@@ -19,6 +19,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|text| text.to_str()).unwrap_or_default().to_ascii_lowercase();
     let scene = match extension.as_str() {
         "gltf" | "glb" => crate::gltf::load(path, options),
+        "obj" => crate::obj::load(path, options),
+        "ply" => crate::ply::load(path, options),
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
     }?;
     for warning in &scene.warnings {

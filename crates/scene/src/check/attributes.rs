@@ -78,7 +78,7 @@ fn clean_normals(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
         match unit(*normal) {
             Some(unit) => {
                 let length = Vec3::from(*normal).length();
-                if !((length - 1.0).abs() <= LENGTH_TOLERANCE) {
+                if (length - 1.0).abs() > LENGTH_TOLERANCE {
                     rescaled += 1;
                 }
                 *normal = unit.to_array();

@@ -81,7 +81,7 @@ fn read_clip(
             Checked::Valid(Property::MorphTargetWeights) => {
                 let values: Vec<f32> = read_floats::<1>(document, output)?.into_iter().flatten().collect();
                 let targets = target_count(document, channel.target.node.value());
-                let elements = if targets == 0 { 0 } else { values.len() / targets };
+                let elements = values.len().checked_div(targets).unwrap_or(0);
                 (ChannelValues::Weights { values, targets }, elements)
             }
             Checked::Invalid => {

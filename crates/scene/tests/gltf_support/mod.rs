@@ -1,6 +1,8 @@
 //! Small glTF files made in the test, and the way to the folder of real scenes.
 #![allow(dead_code, reason = "every test file uses its own part of this")]
 
+pub mod rich;
+
 use std::path::{Path, PathBuf};
 
 use rasray_scene::{LoadOptions, Scene, SceneError, gltf};
