@@ -1,0 +1,112 @@
+//! Tables on a device, with validation on.
+
+use glam::{DAffine3, DVec3};
+use rasray_gpu::{Device, DeviceDesc, GpuError};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, SceneTables, View};
+use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
+
+fn device() -> Device {
+    let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
+    Device::create(&desc).expect("these tests need a Vulkan device and the validation layer")
+}
+
+fn view() -> View {
+    let camera = Camera {
+        name: "eye".to_owned(),
+        world_from_camera: DAffine3::from_translation(DVec3::new(100.0, 0.0, 0.5)),
+        projection: Projection::Perspective { fov_y: 1.0 },
+    };
+    View { camera, width: 16, height: 8, seed: 4 }
+}
+
+fn scene(triangles: usize) -> Scene {
+    let positions = (0..3 * triangles).map(|i| [i as f32, (i % 3) as f32, (i % 7) as f32]).collect();
+    let mesh = Mesh {
+        name: "triangles".to_owned(),
+        positions,
+        indices: (0..3 * triangles as u32).collect(),
+        ..Mesh::default()
+    };
+    Scene {
+        name: "triangles".to_owned(),
+        meshes: vec![mesh],
+        instances: vec![Instance {
+            name: "instance".to_owned(),
+            mesh: 0,
+            world_from_mesh: DAffine3::from_translation(DVec3::new(100.0, 0.0, 0.0)),
+        }],
+        materials: vec![Material::default()],
+        ..Scene::default()
+    }
+}
+
+#[test]
+fn what_was_packed_is_what_structures_read() {
+    let device = device();
+    let scene = scene(100);
+    let tables =
+        SceneTables::new(&scene, DVec3::new(100.0, 0.0, 0.0), &Parts::ALL).expect("the scene is well formed");
+    let mut uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
+    let geometry = uploaded.geometry().desc().clone();
+    let positions: Vec<[f32; 3]> = device.download_as(&geometry.positions, 0, 300).expect("readable");
+    assert_eq!(positions, tables.posed.positions);
+    let indices: Vec<u32> = device.download_as(&geometry.indices, 0, 300).expect("readable");
+    assert_eq!(indices, tables.posed.indices);
+    let draws: Vec<rasray_ads::Draw> = device.download_as(&geometry.draws, 0, 1).expect("readable");
+    assert_eq!(draws, tables.posed.draws);
+    assert_eq!((geometry.vertex_count, geometry.triangle_count, geometry.draw_count), (300, 100, 1));
+    assert_eq!(geometry.bounds, [[0.0; 3], [299.0, 2.0, 6.0]]);
+    assert_eq!(geometry.frame_origin, [100.0, 0.0, 0.0]);
+    assert_eq!((uploaded.eye(), uploaded.image_size()), ([0.0, 0.0, 0.5], [16, 8]));
+    let mut other = view();
+    other.camera.world_from_camera = DAffine3::from_translation(DVec3::new(101.0, 0.0, 0.0));
+    other.width = 20;
+    uploaded.update_camera(&other).expect("the frame can be written");
+    assert_eq!((uploaded.eye(), uploaded.image_size()), ([1.0, 0.0, 0.0], [20, 8]));
+    assert_eq!(uploaded.frame().triangle_count, 100);
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
+
+#[test]
+fn bytes_are_given_by_part_and_come_back() {
+    let device = device();
+    let tables = SceneTables::new(&scene(10), DVec3::ZERO, &Parts::ALL).expect("the scene is well formed");
+    let uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
+    let bytes = |name| uploaded.bytes_by_part().iter().find(|part| part.0 == name).map(|part| part.1);
+    assert_eq!(bytes("positions"), Some(10 * 36));
+    assert_eq!(bytes("indices"), Some(10 * 12));
+    assert_eq!(bytes("materials"), Some(256));
+    assert_eq!(bytes("lights"), Some(56), "one zero record stands in for an empty table");
+    assert_eq!(uploaded.bytes(), uploaded.bytes_by_part().iter().map(|part| part.1).sum::<u64>());
+    assert!(device.allocated_bytes() >= uploaded.bytes());
+    let log = device.validation_log();
+    drop(uploaded);
+    assert_eq!(device.allocated_bytes(), 0);
+    drop(device);
+    assert_eq!(log.messages(), Vec::<String>::new());
+}
+
+#[test]
+fn a_scene_without_triangles_can_be_uploaded() {
+    let device = device();
+    let tables =
+        SceneTables::new(&Scene::default(), DVec3::ZERO, &Parts::ALL).expect("the scene is well formed");
+    let uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
+    assert_eq!(uploaded.geometry().triangle_count(), 0);
+    assert!(!uploaded.binding().alpha_masked && !uploaded.features().textures);
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
+
+#[test]
+fn too_little_memory_is_an_error_that_names_the_table() {
+    let device = device();
+    let tables =
+        SceneTables::new(&scene(10_000), DVec3::ZERO, &Parts::ALL).expect("the scene is well formed");
+    device.set_memory_limit(Some(200_000));
+    match GpuScene::upload(&device, &tables, &view()) {
+        Err(GpuSceneError::Gpu(GpuError::OutOfDeviceMemory { name, .. })) => assert_eq!(name, "positions"),
+        other => panic!("expected to run out of memory, got {other:?}"),
+    }
+    assert_eq!(device.allocated_bytes(), 0);
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
