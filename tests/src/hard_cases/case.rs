@@ -1,0 +1,213 @@
+use super::random::Stream;
+use rasray_metrics::{DeviceHit, Truth};
+use rasray_reference::oracle::{Ray, Verdict};
+
+/// Three corners in metres.
+pub type Triangle = [[f32; 3]; 3];
+
+/// How much of a case is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// Rays to generate. Cases that consist of a few listed rays have no more than those.
+    pub rays: usize,
+    /// Chooses the random rays.
+    pub seed: u64,
+    /// Meshes in the size of the catalogue, not in one for software drivers.
+    pub full: bool,
+}
+
+impl Scale {
+    /// What every test run affords.
+    pub const QUICK: Self = Self { rays: 2000, seed: 1, full: false };
+    /// Enough to bound a failure rate by 2e-5 if none fails.
+    pub const FULL: Self = Self { rays: 150_000, seed: 1, full: true };
+}
+
+/// One scene with rays.
+#[derive(Clone, Debug)]
+pub struct HardCase {
+    /// Short and unique.
+    pub id: &'static str,
+    /// What it is and what it threatens.
+    pub title: &'static str,
+    /// In the order of their ids. May hold coordinates that loaders must drop.
+    pub triangles: Vec<Triangle>,
+    /// Some may be invalid on purpose.
+    pub rays: Vec<Ray>,
+    /// Where views are centred.
+    pub eye: [f32; 3],
+    /// What is known about the answers.
+    pub expect: Expectation,
+}
+
+/// What is known by construction about the answers to all rays of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expectation {
+    /// The oracle decides.
+    Oracle,
+    /// The same for all rays.
+    All(Answer),
+    /// One answer a ray.
+    PerRay(Vec<Answer>),
+}
+
+/// What is known by construction about the answer to one ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Answer {
+    /// The oracle decides.
+    Oracle,
+    /// Nothing is hit.
+    Miss,
+    /// Something is hit, however close to an edge the ray passes: a watertight test finds it.
+    Hit,
+    /// As `Hit`, at this t up to the relative tolerance.
+    HitAt {
+        /// In units of the direction's length.
+        t: f32,
+        /// Of t.
+        tolerance: f32,
+    },
+    /// As `HitAt`, on this triangle, also if another one lies at the same t.
+    HitOn {
+        /// Running index of the triangle.
+        primitive: u32,
+        /// In units of the direction's length.
+        t: f32,
+        /// Of t.
+        tolerance: f32,
+    },
+    /// Hit or miss; a hit must be finite and have a t in this closed range.
+    Anything {
+        /// Least and greatest t.
+        t: [f32; 2],
+    },
+}
+
+impl HardCase {
+    /// What is known about the answer to a ray.
+    pub fn answer(&self, ray: usize) -> Answer {
+        match &self.expect {
+            Expectation::Oracle => Answer::Oracle,
+            Expectation::All(answer) => *answer,
+            Expectation::PerRay(answers) => answers.get(ray).copied().unwrap_or(Answer::Oracle),
+        }
+    }
+
+    /// Positions and indices, three of each for every triangle.
+    pub fn buffers(&self) -> (Vec<[f32; 3]>, Vec<u32>) {
+        (self.triangles.as_flattened().to_vec(), (0..self.triangles.len() as u32 * 3).collect())
+    }
+
+    /// Whether a structure that finds triangles may give this answer to a ray with this verdict.
+    ///
+    /// For unambiguous rays the triangle must be the oracle's and t right to `t_tolerance` (relative);
+    /// for ambiguous rays the answer must be admissible. What is stated must hold as well.
+    pub fn accepts(&self, ray: usize, verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -> bool {
+        if hit.is_some_and(|hit| !hit.t.is_finite()) {
+            return false;
+        }
+        let answer = self.answer(ray);
+        match (&answer, hit) {
+            (Answer::Anything { t }, Some(hit)) => return t[0] <= hit.t && hit.t <= t[1],
+            (Answer::Anything { .. }, None) => return true,
+            _ => {}
+        }
+        answer.holds_for(hit) && oracle_accepts(verdict, hit, t_tolerance)
+    }
+}
+
+impl Answer {
+    /// Whether a hit or miss is what is stated.
+    pub fn holds_for(&self, hit: Option<DeviceHit>) -> bool {
+        let close = |t: f32, tolerance: f32| {
+            hit.is_some_and(|hit| (f64::from(hit.t) - f64::from(t)).abs() <= f64::from(tolerance * t.abs()))
+        };
+        match *self {
+            Self::Oracle => true,
+            Self::Miss => hit.is_none(),
+            Self::Hit => hit.is_some(),
+            Self::HitAt { t, tolerance } => close(t, tolerance),
+            Self::HitOn { primitive, t, tolerance } => {
+                close(t, tolerance)
+                    && hit.is_some_and(|hit| hit.primitive.is_none_or(|found| found == primitive))
+            }
+            Self::Anything { t } => hit.is_none_or(|hit| t[0] <= hit.t && hit.t <= t[1]),
+        }
+    }
+}
+
+fn oracle_accepts(verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -> bool {
+    match hit {
+        None if verdict.is_ambiguous() => verdict.admits_miss(),
+        Some(hit) if verdict.is_ambiguous() => verdict.admits_hit(hit.primitive, f64::from(hit.t)),
+        None => verdict.hit().is_none(),
+        Some(hit) => verdict.hit().is_some_and(|(primitive, t)| {
+            hit.primitive.is_none_or(|found| found == primitive)
+                && (f64::from(hit.t) - t).abs() <= t_tolerance * t.abs()
+        }),
+    }
+}
+
+/// A row of the catalogue.
+pub(super) struct Entry {
+    pub id: &'static str,
+    pub title: &'static str,
+    /// What tells the variants of a case apart; unused (0) where there is one only.
+    pub parameter: f32,
+    pub build: fn(&Context) -> Content,
+}
+
+/// What the construction of a case yields.
+pub(super) struct Content {
+    pub triangles: Vec<Triangle>,
+    pub rays: Vec<Ray>,
+    pub eye: [f32; 3],
+    pub expect: Expectation,
+}
+
+/// What the construction of a case may depend on.
+pub(super) struct Context {
+    pub id: &'static str,
+    pub parameter: f32,
+    pub scale: Scale,
+}
+
+impl Entry {
+    pub fn build(&self, scale: Scale) -> HardCase {
+        let context = Context { id: self.id, parameter: self.parameter, scale };
+        let Content { triangles, rays, eye, expect } = (self.build)(&context);
+        HardCase { id: self.id, title: self.title, triangles, rays, eye, expect }
+    }
+}
+
+impl Context {
+    /// As many rays as asked for; each from its own stream of random numbers and its index.
+    pub fn rays(&self, ray: impl Fn(&mut Stream, usize) -> Ray) -> Vec<Ray> {
+        (0..self.scale.rays).map(|index| ray(&mut self.stream(index), index)).collect()
+    }
+
+    /// As [`Context::rays`], with what is known about each.
+    pub fn answered(&self, ray: impl Fn(&mut Stream, usize) -> (Ray, Answer)) -> (Vec<Ray>, Expectation) {
+        let (rays, answers) = (0..self.scale.rays).map(|index| ray(&mut self.stream(index), index)).unzip();
+        (rays, Expectation::PerRay(answers))
+    }
+
+    fn stream(&self, index: usize) -> Stream {
+        Stream::new(self.id, self.scale.seed, index as u64)
+    }
+}
+
+impl Content {
+    /// A case seen from the origin.
+    pub fn new(triangles: Vec<Triangle>, rays: Vec<Ray>, expect: Expectation) -> Self {
+        Self { triangles, rays, eye: [0.0; 3], expect }
+    }
+
+    /// The same with views centred elsewhere.
+    pub fn seen_from(self, eye: [f32; 3]) -> Self {
+        Self { eye, ..self }
+    }
+}
+
+/// Rays aimed at a point have it at t = 1, up to the rounding of their direction and of f32 depth.
+pub(super) const AIMED: Answer = Answer::HitAt { t: 1.0, tolerance: 1e-5 };
