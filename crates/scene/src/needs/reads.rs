@@ -1,0 +1,72 @@
+//! Which textures of a material a workload reads.
+
+use super::{Integrator, Workload};
+use crate::{AlphaMode, Material, TextureRef};
+
+/// What a material's textures are read for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reads<'a> {
+    /// As colour, or for partial opacity.
+    pub base_color: Option<&'a TextureRef>,
+    /// For its alpha, against a cutoff.
+    pub mask: Option<&'a TextureRef>,
+    pub metallic_roughness: Option<&'a TextureRef>,
+    pub normal: Option<&'a TextureRef>,
+    pub emission: Option<&'a TextureRef>,
+    pub transmission: Option<&'a TextureRef>,
+}
+
+impl<'a> Reads<'a> {
+    pub fn of(material: &'a Material, workload: Workload) -> Self {
+        let shaded = workload.shades() && !material.unlit;
+        let scattered = workload.scatters() && !material.unlit;
+        let mut reads = Self::default();
+        if reads_base_color(material, workload) {
+            reads.base_color = material.base_color_texture.as_ref();
+        }
+        if matches!(material.alpha_mode, AlphaMode::Mask { .. }) {
+            reads.mask = material.base_color_texture.as_ref();
+        }
+        if shaded {
+            reads.normal = material.normal_texture.as_ref();
+        }
+        if scattered {
+            reads.metallic_roughness = material.metallic_roughness_texture.as_ref();
+        }
+        if scattered && material.transmission > 0.0 {
+            reads.transmission = material.transmission_texture.as_ref();
+        }
+        if workload.integrator != Integrator::AmbientOcclusion
+            && !material.unlit
+            && is_lit(&material.emission)
+        {
+            reads.emission = material.emission_texture.as_ref();
+        }
+        reads
+    }
+
+    /// All textures that are read; one that is read twice occurs twice.
+    pub fn textures(&self) -> impl Iterator<Item = &'a TextureRef> {
+        let Self { base_color, mask, metallic_roughness, normal, emission, transmission } = *self;
+        [base_color, mask, metallic_roughness, normal, emission, transmission].into_iter().flatten()
+    }
+}
+
+/// Whether the base colour, of material, texture or vertices, changes what the workload shows.
+pub(super) fn reads_base_color(material: &Material, workload: Workload) -> bool {
+    if workload.integrator == Integrator::AmbientOcclusion {
+        return false;
+    }
+    workload.shades() || material.unlit || blends(material, workload)
+}
+
+/// Whether the workload lets light through where a material blends.
+pub(super) fn blends(material: &Material, workload: Workload) -> bool {
+    let follows = matches!(workload.integrator, Integrator::Whitted | Integrator::Path);
+    follows && material.alpha_mode == AlphaMode::Blend
+}
+
+/// Whether a colour is not black.
+pub(super) fn is_lit(color: &[f32]) -> bool {
+    color.iter().any(|channel| *channel > 0.0)
+}
