@@ -1,3 +1,8 @@
-//! rasray: reference.
+//! What is true: exact hits, and images computed naively on the CPU from the scene model.
 
+pub mod integrators;
 pub mod oracle;
+pub mod shading;
+
+#[cfg(test)]
+mod testing;

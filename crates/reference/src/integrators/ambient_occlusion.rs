@@ -1,0 +1,22 @@
+use glam::{Vec2, Vec3};
+
+use super::Tracer;
+use crate::shading::{
+    View, basis_around, camera_ray, cosine_hemisphere, pixel_position,
+    random::{RANDOM_BSDF_U, RANDOM_BSDF_V, RandomStream, random_dimension},
+    spawn_ray,
+};
+
+impl Tracer<'_> {
+    /// One sample: 1 if nothing is met within `distance` metres, else 0.
+    pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: RandomStream) -> Vec3 {
+        let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
+        let Some(surface) = self.closest(&ray) else { return Vec3::ONE };
+        let place = Vec2::new(
+            random.float(random_dimension(0, RANDOM_BSDF_U)),
+            random.float(random_dimension(0, RANDOM_BSDF_V)),
+        );
+        let direction = (basis_around(surface.geometric_normal) * cosine_hemisphere(place)).normalize();
+        if self.occluded(&spawn_ray(&surface, direction, distance)) { Vec3::ZERO } else { Vec3::ONE }
+    }
+}

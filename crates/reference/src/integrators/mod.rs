@@ -1,0 +1,113 @@
+//! Images computed on the CPU, one sample of one pixel after the other, with exact hits.
+//!
+//! The random numbers are those of the device, so that an image from here differs from one of a
+//! device by rounding and by wrong hits, not by noise.
+
+mod ambient_occlusion;
+mod image;
+mod path;
+
+#[cfg(test)]
+mod tests;
+
+pub use image::Image;
+
+use glam::{DVec3, Vec2};
+use rasray_scene::{Camera, Scene};
+
+use crate::{
+    oracle::{Oracle, Outcome},
+    shading::{PosedScene, Ray, ReferenceError, Surface, View},
+};
+
+/// Scene and oracle, ready to be rendered.
+struct Tracer<'a> {
+    posed: &'a PosedScene<'a>,
+    oracle: Oracle<'a>,
+}
+
+impl Tracer<'_> {
+    fn closest(&self, ray: &Ray) -> Option<Surface> {
+        match self.oracle.closest(&ray.to_oracle()).outcome {
+            Outcome::Hit { primitive, t, barycentrics } => {
+                let barycentrics = Vec2::from(barycentrics.map(|weight| weight as f32));
+                Some(self.posed.surface(ray, t as f32, primitive, barycentrics))
+            }
+            Outcome::Miss => None,
+        }
+    }
+
+    fn occluded(&self, ray: &Ray) -> bool {
+        self.oracle.occluded(&ray.to_oracle()).occluded
+    }
+}
+
+impl PosedScene<'_> {
+    /// Cosine-weighted visibility of a white environment within `distance` metres; background 1.
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render_ambient_occlusion(&self, view: &View, distance: f32) -> Result<Image, ReferenceError> {
+        self.render(view, |tracer, random| tracer.ambient_occlusion(view, distance, random))
+    }
+
+    /// Path tracing with at most `bounces` scatterings; W/(sr m^2).
+    ///
+    /// # Errors
+    /// If the image is empty or the scene has more triangles than ids.
+    pub fn render_path(&self, view: &View, bounces: u32) -> Result<Image, ReferenceError> {
+        self.render(view, |tracer, random| tracer.path(view, bounces, random))
+    }
+
+    fn render(
+        &self,
+        view: &View,
+        sample: impl Fn(&Tracer<'_>, crate::shading::random::RandomStream) -> glam::Vec3 + Sync,
+    ) -> Result<Image, ReferenceError> {
+        view.check()?;
+        let accept = |primitive: u32, barycentrics: [f64; 2]| self.alpha_accepts(primitive, barycentrics);
+        let accept: Option<crate::oracle::Accept<'_>> =
+            if self.has_alpha_masks() { Some(&accept) } else { None };
+        let oracle = Oracle::new(self.positions(), self.indices(), accept)?;
+        let tracer = Tracer { posed: self, oracle };
+        Ok(Image::render(view, |random| sample(&tracer, random)))
+    }
+}
+
+/// [`PosedScene::render_ambient_occlusion`] with the frame origin at the eye.
+///
+/// # Errors
+/// If the scene names what it does not have, or the image is empty.
+pub fn render_ambient_occlusion(
+    scene: &Scene,
+    camera: &Camera,
+    width: u32,
+    height: u32,
+    samples: u32,
+    seed: u32,
+    distance: f32,
+) -> Result<Image, ReferenceError> {
+    let view = View { camera: camera.clone(), width, height, samples, seed };
+    PosedScene::new(scene, eye(camera))?.render_ambient_occlusion(&view, distance)
+}
+
+/// [`PosedScene::render_path`] with the frame origin at the eye.
+///
+/// # Errors
+/// If the scene names what it does not have, or the image is empty.
+pub fn render_path(
+    scene: &Scene,
+    camera: &Camera,
+    width: u32,
+    height: u32,
+    samples: u32,
+    seed: u32,
+    bounces: u32,
+) -> Result<Image, ReferenceError> {
+    let view = View { camera: camera.clone(), width, height, samples, seed };
+    PosedScene::new(scene, eye(camera))?.render_path(&view, bounces)
+}
+
+fn eye(camera: &Camera) -> DVec3 {
+    camera.world_from_camera.translation
+}

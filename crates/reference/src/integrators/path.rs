@@ -1,0 +1,148 @@
+//! Path tracing with light sampling, in the order of `docs/shading.md`, "Paths".
+
+use glam::Vec3;
+
+use super::Tracer;
+use crate::shading::{
+    LightSample, Ray, Surface, View, bsdf_evaluate, bsdf_pdf, bsdf_sample, camera_ray, pixel_position,
+    random::{
+        RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, RandomStream,
+        random_dimension,
+    },
+    spawn_ray,
+};
+
+/// A path may be ended at random from this scattering on.
+const ROULETTE_BOUNCE: u32 = 3;
+/// Blended surfaces a path passes before the next one counts as opaque.
+const LAYER_LIMIT: u32 = 16;
+
+struct PathState {
+    random: RandomStream,
+    throughput: Vec3,
+    radiance: Vec3,
+    /// 1/sr of the last scattering; `None`: emission met next counts fully.
+    bsdf_pdf: Option<f32>,
+    /// Material whose inside the path is in.
+    medium: Option<usize>,
+    /// Scatterings so far.
+    bounce: u32,
+    /// Blended surfaces met so far.
+    layers: u32,
+}
+
+/// Weight of the technique with density `used` beside one with density `other`.
+fn power_heuristic(used: f32, other: f32) -> f32 {
+    if !(other > 0.0) {
+        return 1.0;
+    }
+    let ratio = other / used;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+impl PathState {
+    fn emission_weight(&self, light_pdf: impl FnOnce() -> f32) -> f32 {
+        self.bsdf_pdf.map_or(1.0, |used| power_heuristic(used, light_pdf()))
+    }
+}
+
+impl Tracer<'_> {
+    /// One sample, W/(sr m^2).
+    pub(super) fn path(&self, view: &View, max_bounces: u32, random: RandomStream) -> Vec3 {
+        let mut state = PathState {
+            random,
+            throughput: Vec3::ONE,
+            radiance: Vec3::ZERO,
+            bsdf_pdf: None,
+            medium: None,
+            bounce: 0,
+            layers: 0,
+        };
+        let mut next = Some(camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random)));
+        while let Some(ray) = next {
+            next = match self.closest(&ray) {
+                Some(surface) => self.step(&mut state, &ray, &surface, max_bounces),
+                None => {
+                    let weight = state.emission_weight(|| self.posed.environment_pdf(ray.direction));
+                    state.radiance +=
+                        state.throughput * self.posed.environment_radiance(ray.direction) * weight;
+                    None
+                }
+            };
+        }
+        state.radiance
+    }
+
+    fn step(&self, state: &mut PathState, ray: &Ray, surface: &Surface, max_bounces: u32) -> Option<Ray> {
+        let footprint = ray.cone_width + ray.cone_spread * surface.t;
+        if let Some(medium) = state.medium {
+            state.throughput *= self.posed.transmittance(medium, surface.t);
+        }
+        if surface.opacity < 1.0 && state.layers < LAYER_LIMIT {
+            let passes = state.random.float(RANDOM_OPACITY_FIRST + state.layers) >= surface.opacity;
+            state.layers += 1;
+            if passes {
+                // Shadow rays end here, so light sampling cannot have found what is met next.
+                state.bsdf_pdf = None;
+                let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
+                return Some(Ray { cone_width: footprint, cone_spread: ray.cone_spread, ..ahead });
+            }
+        }
+        if surface.emission.max_element() > 0.0 {
+            let pdf = || match surface.primitive {
+                Some(primitive) => self.posed.light_pdf_emitter(primitive, ray.origin, surface.position),
+                None => 0.0,
+            };
+            state.radiance += state.throughput * surface.emission * state.emission_weight(pdf);
+        }
+        if state.bounce >= max_bounces {
+            return None;
+        }
+        state.radiance += self.direct_light(state, surface, -ray.direction);
+        scatter(state, ray, surface, footprint)
+    }
+
+    /// One light sample, seen from the surface.
+    fn direct_light(&self, state: &PathState, surface: &Surface, o: Vec3) -> Vec3 {
+        let random = state.random.four(random_dimension(state.bounce, RANDOM_LIGHT_KIND));
+        let Some(light) = self.posed.light_sample(surface, random) else { return Vec3::ZERO };
+        let pending = state.throughput * reflected(surface, o, &light);
+        if !(pending.max_element() > 0.0) {
+            return Vec3::ZERO;
+        }
+        match light.shadow_ray(surface) {
+            Some(ray) if !self.occluded(&ray) => pending,
+            _ => Vec3::ZERO,
+        }
+    }
+}
+
+/// What the surface sends along `o` of an unoccluded light sample, weighted.
+fn reflected(surface: &Surface, o: Vec3, light: &LightSample) -> Vec3 {
+    let value = bsdf_evaluate(surface, o, light.direction) * surface.normal.dot(light.direction).abs();
+    let weight =
+        if light.delta { 1.0 } else { power_heuristic(light.pdf, bsdf_pdf(surface, o, light.direction)) };
+    value * light.radiance * (weight / light.pdf)
+}
+
+fn scatter(state: &mut PathState, ray: &Ray, surface: &Surface, footprint: f32) -> Option<Ray> {
+    let random = state.random.four(random_dimension(state.bounce, RANDOM_BSDF_LOBE));
+    let chosen = bsdf_sample(surface, -ray.direction, random)?;
+    state.throughput *= chosen.weight;
+    state.bsdf_pdf = (!chosen.delta).then_some(chosen.pdf);
+    if chosen.transmitted && surface.thickness > 0.0 {
+        state.medium = surface.material.filter(|_| surface.front);
+    }
+    if state.bounce >= ROULETTE_BOUNCE {
+        let survival = state.throughput.max_element().min(0.95);
+        if state.random.float(random_dimension(state.bounce, RANDOM_ROULETTE)) >= survival {
+            return None;
+        }
+        state.throughput /= survival;
+    }
+    state.bounce += 1;
+    let rough = 0.5 * surface.roughness * surface.roughness;
+    let cone_spread = if chosen.delta { ray.cone_spread } else { ray.cone_spread.max(rough) };
+    let ahead = spawn_ray(surface, chosen.direction, f32::INFINITY);
+    Some(Ray { cone_width: footprint, cone_spread, ..ahead })
+}

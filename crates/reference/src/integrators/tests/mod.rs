@@ -1,0 +1,4 @@
+mod ambient_occlusion;
+mod direct;
+mod furnace;
+mod transparency;

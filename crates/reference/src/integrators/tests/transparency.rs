@@ -1,0 +1,103 @@
+use glam::{DVec3, Vec3};
+use rasray_scene::{AlphaMode, Environment, Material};
+
+use crate::{
+    shading::PosedScene,
+    testing::{assert_mean, cube, diffuse, quad, scene, view},
+};
+
+fn white_sky(material: Material, mesh: rasray_scene::Mesh) -> rasray_scene::Scene {
+    let mut scene = scene(vec![material], vec![mesh]);
+    scene.environment = Environment::Constant([1.0; 3]);
+    scene
+}
+
+fn sheet() -> rasray_scene::Mesh {
+    quad(Vec3::new(-5.0, -5.0, 0.0), Vec3::X * 10.0, Vec3::Y * 10.0, 0)
+}
+
+#[test]
+fn a_medium_dims_light_by_the_way_through_it() {
+    let clear = Material {
+        transmission: 1.0,
+        roughness: 0.0,
+        thickness: 1.0,
+        ior: 1.0,
+        attenuation_color: [0.25, 0.5, 1.0],
+        attenuation_distance: 1.0,
+        ..diffuse(1.0)
+    };
+    let scene = white_sky(clear, cube(0.5, false, 0));
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let straight = crate::testing::parallel_view([0.0, 0.0, 4.0], [0.0; 3], 0.3, 4, 1);
+    let image = posed.render_path(&straight, 3).expect("rendered");
+    for pixel in &image.pixels {
+        for (value, expected) in pixel.iter().zip([0.25, 0.5, 1.0]) {
+            assert!((value - expected).abs() < 1.0e-5, "{pixel:?}");
+        }
+    }
+}
+
+/// Light from behind a slab of glass, mirrored to and fro inside: (1 - R) / (1 + R), R = 0.04.
+#[test]
+fn a_slab_of_glass_passes_its_share() {
+    let glass =
+        Material { metallic: 0.0, roughness: 0.0, transmission: 1.0, thickness: 1.0, ..Material::default() };
+    let mut scene = white_sky(glass, cube(0.5, false, 0));
+    // Only the lower half of the sky shines, and the view looks straight down.
+    scene.environment = Environment::LatLong { width: 1, height: 2, radiance: vec![[0.0; 3], [1.0; 3]] };
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let down = crate::testing::parallel_view([0.0, 4.0, 0.0], [0.0; 3], 0.3, 32, 16);
+    let image = posed.render_path(&down, 40).expect("rendered");
+    assert_mean(&image, 0.923_077, 0.0, 0.02);
+}
+
+#[test]
+fn blended_surfaces_let_their_share_pass() {
+    let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
+    let scene = white_sky(blended, sheet());
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 16, 64), 2).expect("rendered");
+    assert_mean(&image, 0.7, 0.0, 0.04);
+}
+
+/// What lies behind a blended sheet is lit through it by scattered rays: the floor sees the sky with
+/// 0.7 of its light, and is itself seen with 0.7.
+#[test]
+fn light_through_a_blended_sheet_is_counted_once() {
+    let blended = Material { base_color: [0.0, 0.0, 0.0, 0.3], alpha_mode: AlphaMode::Blend, ..diffuse(0.0) };
+    let mut scene =
+        white_sky(blended, quad(Vec3::new(-90.0, -90.0, 0.01), Vec3::X * 180.0, Vec3::Y * 180.0, 0));
+    scene.materials.push(diffuse(1.0));
+    scene.meshes.push(quad(Vec3::new(-90.0, -90.0, 0.0), Vec3::X * 180.0, Vec3::Y * 180.0, 1));
+    scene.instances.push(rasray_scene::Instance { mesh: 1, ..scene.instances[0].clone() });
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 16, 96), 1).expect("rendered");
+    assert_mean(&image, 0.7 * 0.7, 0.002, 0.04);
+}
+
+#[test]
+fn masked_surfaces_are_there_or_not() {
+    for (alpha, expected) in [(0.49, 1.0), (0.51, 0.0)] {
+        let masked = Material {
+            base_color: [0.0, 0.0, 0.0, alpha],
+            alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
+            ..diffuse(0.0)
+        };
+        let scene = white_sky(masked, sheet());
+        let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+        let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 4, 1), 1).expect("rendered");
+        assert!(image.pixels.iter().flatten().all(|value| *value == expected), "{alpha}");
+    }
+}
+
+#[test]
+fn unlit_surfaces_show_their_colour_from_both_sides() {
+    let unlit = Material { base_color: [0.2, 0.4, 0.6, 1.0], unlit: true, ..Material::default() };
+    let scene = white_sky(unlit, sheet());
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    for eye in [5.0, -5.0] {
+        let image = posed.render_path(&view([0.0, 0.0, eye], [0.0; 3], 2, 1), 3).expect("rendered");
+        assert!(image.pixels.iter().all(|pixel| *pixel == [0.2, 0.4, 0.6]));
+    }
+}

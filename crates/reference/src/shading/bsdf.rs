@@ -1,0 +1,287 @@
+//! How a surface scatters: value, density and sampling of its lobes.
+//!
+//! Diffuse and GGX reflection, thin-wall and volume transmission; below [`SMOOTH_ROUGHNESS`] the
+//! microfacet lobes are perfect mirrors, which are sampled but neither evaluated nor given a density.
+
+use std::f32::consts::PI;
+
+use glam::{Mat3, Vec2, Vec3};
+
+use super::{
+    Surface, basis_around, cosine_hemisphere, luminance,
+    microfacet::{fresnel_power, ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
+};
+
+/// Perceptual roughness below which the microfacet lobes are perfect mirrors.
+pub const SMOOTH_ROUGHNESS: f32 = 0.03;
+/// Indices closer to 1 than this do not bend.
+const STRAIGHT_INDEX: f32 = 1.0e-3;
+/// Bounds of the probability of the diffuse family where both families exist.
+const DIFFUSE_BOUNDS: (f32, f32) = (0.05, 0.95);
+
+/// A direction chosen by the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfSample {
+    /// Unit.
+    pub direction: Vec3,
+    /// 1/sr; delta: probability of the choice.
+    pub pdf: f32,
+    /// Value times |cosine| over pdf.
+    pub weight: Vec3,
+    /// A perfect mirror or a smooth refraction.
+    pub delta: bool,
+    /// Went through the surface.
+    pub transmitted: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Reflected,
+    Transmitted,
+}
+
+struct Terms {
+    f0: Vec3,
+    f90: f32,
+    base_color: Vec3,
+    metallic: f32,
+    transmission: f32,
+    alpha: f32,
+    /// Index on the side of o over the index on the other side; 1: straight on.
+    eta: f32,
+    mirror: bool,
+    /// World from local.
+    frame: Mat3,
+    /// Local.
+    o: Vec3,
+}
+
+/// What the rough microfacet family does towards a direction.
+struct Facets {
+    /// Of o at the facet.
+    cosine: f32,
+    /// Per unit of light reflected or transmitted at the facet.
+    value: f32,
+    pdf: f32,
+}
+
+impl Terms {
+    fn new(surface: &Surface, o: Vec3) -> Self {
+        let ior = if surface.ior > 1.0e-3 { surface.ior } else { 1.0 };
+        let root = (surface.ior.max(0.0) - 1.0) / (surface.ior.max(0.0) + 1.0);
+        let straight =
+            surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
+        let frame = basis_around(surface.normal);
+        Self {
+            f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
+            f90: surface.specular,
+            base_color: surface.base_color,
+            metallic: surface.metallic,
+            transmission: surface.transmission,
+            alpha: (surface.roughness * surface.roughness).max(SMOOTH_ROUGHNESS * SMOOTH_ROUGHNESS),
+            eta: match (straight, surface.front) {
+                (true, _) => 1.0,
+                (false, true) => 1.0 / ior,
+                (false, false) => ior,
+            },
+            mirror: surface.roughness < SMOOTH_ROUGHNESS,
+            frame,
+            o: frame.transpose() * o,
+        }
+    }
+
+    /// Reflected share of the dielectric at a facet seen under `cosine`.
+    fn fresnel(&self, cosine: f32) -> Vec3 {
+        let mut x = cosine;
+        if self.eta > 1.0 {
+            let sine_squared = self.eta * self.eta * (1.0 - cosine * cosine);
+            if sine_squared >= 1.0 {
+                return Vec3::ONE;
+            }
+            x = (1.0 - sine_squared).sqrt();
+        }
+        self.f0 + (Vec3::splat(self.f90) - self.f0) * fresnel_power(x)
+    }
+
+    fn reflected(&self, cosine: f32) -> Vec3 {
+        let metal = self.base_color + (Vec3::ONE - self.base_color) * fresnel_power(cosine);
+        self.fresnel(cosine).lerp(metal, self.metallic)
+    }
+
+    fn transmitted(&self, cosine: f32) -> Vec3 {
+        let through = 1.0 - self.fresnel(cosine).max_element();
+        self.base_color * ((1.0 - self.metallic) * self.transmission * through)
+    }
+
+    fn diffuse(&self, cosine_o: f32, cosine_i: f32) -> Vec3 {
+        let share = (1.0 - self.metallic) * (1.0 - self.transmission);
+        if share <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let through =
+            (1.0 - self.fresnel(cosine_o).max_element()) * (1.0 - self.fresnel(cosine_i).max_element());
+        self.base_color * (share * through / PI)
+    }
+
+    fn diffuse_probability(&self) -> f32 {
+        let diffuse = luminance(self.diffuse(self.o.z, 1.0)) * PI;
+        let facets = luminance(self.reflected(self.o.z) + self.transmitted(self.o.z));
+        if diffuse <= 0.0 {
+            0.0
+        } else if facets <= 0.0 {
+            1.0
+        } else {
+            (diffuse / (diffuse + facets)).clamp(DIFFUSE_BOUNDS.0, DIFFUSE_BOUNDS.1)
+        }
+    }
+
+    fn reflect_probability(&self, cosine: f32) -> f32 {
+        let (reflected, transmitted) =
+            (luminance(self.reflected(cosine)), luminance(self.transmitted(cosine)));
+        if transmitted > 0.0 { reflected / (reflected + transmitted) } else { 1.0 }
+    }
+
+    fn facets(&self, i: Vec3, side: Side) -> Facets {
+        let (o, alpha) = (self.o, self.alpha);
+        if side == Side::Reflected || self.eta == 1.0 {
+            let up = Vec3::new(i.x, i.y, i.z.abs());
+            let h = (o + up).normalize();
+            let distribution = ggx_distribution(h, alpha);
+            return Facets {
+                cosine: o.dot(h),
+                value: distribution * ggx_visibility(o.z, up.z, alpha),
+                pdf: distribution * ggx_visibility_one(o.z, alpha),
+            };
+        }
+        let h = (self.eta * o + i).normalize();
+        let h = if h.z < 0.0 { -h } else { h };
+        let (cosine_o, cosine_i) = (o.dot(h), i.dot(h));
+        // Both ends of a refraction lie on opposite sides of the facet.
+        if cosine_o <= 0.0 || cosine_i >= 0.0 {
+            return Facets { cosine: 0.0, value: 0.0, pdf: 0.0 };
+        }
+        let sum = self.eta * cosine_o + cosine_i;
+        let jacobian = -cosine_i / (sum * sum);
+        let distribution = ggx_distribution(h, alpha);
+        Facets {
+            cosine: cosine_o,
+            value: distribution * ggx_visibility(o.z, -i.z, alpha) * 4.0 * cosine_o * jacobian,
+            pdf: distribution * ggx_visibility_one(o.z, alpha) * 4.0 * cosine_o * jacobian,
+        }
+    }
+
+    fn refract(&self, h: Vec3) -> Option<Vec3> {
+        let cosine = self.o.dot(h);
+        if self.eta == 1.0 {
+            let reflected = 2.0 * cosine * h - self.o;
+            return Some(Vec3::new(reflected.x, reflected.y, -reflected.z));
+        }
+        let sine_squared = self.eta * self.eta * (1.0 - cosine * cosine).max(0.0);
+        (sine_squared < 1.0)
+            .then(|| (self.eta * cosine - (1.0 - sine_squared).sqrt()) * h - self.eta * self.o)
+    }
+}
+
+/// `None` if shading and geometric normal disagree or the direction grazes.
+fn side_of(surface: &Surface, world_i: Vec3, i: Vec3) -> Option<Side> {
+    let geometric = surface.geometric_normal.dot(world_i);
+    if i.z > 0.0 && geometric > 0.0 {
+        Some(Side::Reflected)
+    } else if i.z < 0.0 && geometric < 0.0 {
+        Some(Side::Transmitted)
+    } else {
+        None
+    }
+}
+
+/// 1/sr, cosine not included; delta lobes are left out. `o` and `i` are unit and point away.
+pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
+    let terms = Terms::new(surface, o);
+    let local = terms.frame.transpose() * i;
+    let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return Vec3::ZERO };
+    let value = if side == Side::Reflected { terms.diffuse(terms.o.z, local.z) } else { Vec3::ZERO };
+    if terms.mirror {
+        return value;
+    }
+    let facets = terms.facets(local, side);
+    value
+        + facets.value
+            * match side {
+                Side::Reflected => terms.reflected(facets.cosine),
+                Side::Transmitted => terms.transmitted(facets.cosine),
+            }
+}
+
+/// 1/sr with which [`bsdf_sample`] answers `i`; delta lobes are left out.
+pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
+    let terms = Terms::new(surface, o);
+    let local = terms.frame.transpose() * i;
+    let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return 0.0 };
+    let diffuse = terms.diffuse_probability();
+    let density = if side == Side::Reflected { diffuse * local.z / PI } else { 0.0 };
+    if terms.mirror {
+        return density;
+    }
+    let facets = terms.facets(local, side);
+    let reflect_share = terms.reflect_probability(facets.cosine);
+    let share = if side == Side::Reflected { reflect_share } else { 1.0 - reflect_share };
+    density + (1.0 - diffuse) * facets.pdf * share
+}
+
+/// Random numbers: lobe, side, and two for the direction. `None`: absorbed.
+pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> Option<BsdfSample> {
+    let terms = Terms::new(surface, o);
+    if terms.o.z <= 0.0 {
+        return None;
+    }
+    let diffuse = terms.diffuse_probability();
+    let mut expected = Side::Reflected;
+    let local = if lobe < diffuse {
+        cosine_hemisphere(Vec2::new(u, v))
+    } else {
+        let h =
+            if terms.mirror { Vec3::Z } else { ggx_visible_normal(terms.o, terms.alpha, Vec2::new(u, v)) };
+        let cosine = terms.o.dot(h);
+        let reflect_share = terms.reflect_probability(cosine);
+        let reflects = side < reflect_share;
+        let local = if reflects {
+            2.0 * cosine * h - terms.o
+        } else {
+            expected = Side::Transmitted;
+            terms.refract(h)?
+        };
+        if terms.mirror {
+            let probability = (1.0 - diffuse) * if reflects { reflect_share } else { 1.0 - reflect_share };
+            let share = if reflects { terms.reflected(cosine) } else { terms.transmitted(cosine) };
+            let world = (terms.frame * local).normalize();
+            if side_of(surface, world, local) != Some(expected) || !(probability > 0.0) {
+                return None;
+            }
+            return Some(BsdfSample {
+                direction: world,
+                pdf: probability,
+                weight: share / probability,
+                delta: true,
+                transmitted: !reflects,
+            });
+        }
+        local
+    };
+    let world = (terms.frame * local).normalize();
+    // A facet can send light through the surface as a whole: single scattering loses it.
+    if side_of(surface, world, local) != Some(expected) {
+        return None;
+    }
+    let pdf = bsdf_pdf(surface, o, world);
+    if !(pdf > 0.0) || pdf > 1.0e30 {
+        return None;
+    }
+    let weight = bsdf_evaluate(surface, o, world) * (world.dot(surface.normal).abs() / pdf);
+    (weight.max_element() > 0.0).then_some(BsdfSample {
+        direction: world,
+        pdf,
+        weight,
+        delta: false,
+        transmitted: expected == Side::Transmitted,
+    })
+}

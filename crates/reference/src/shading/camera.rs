@@ -1,0 +1,69 @@
+//! Rays of a pixel.
+
+use glam::{DVec3, Vec2, Vec3};
+use rasray_scene::{Camera, Projection};
+
+use super::{
+    Ray, ReferenceError,
+    random::{RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RandomStream},
+};
+
+/// What is rendered.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// Placement and projection, world.
+    pub camera: Camera,
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+}
+
+impl View {
+    /// # Errors
+    /// If the image has no pixels or no samples.
+    pub fn check(&self) -> Result<(), ReferenceError> {
+        let Self { width, height, samples, .. } = *self;
+        if width == 0 || height == 0 || samples == 0 {
+            return Err(ReferenceError::EmptyImage { width, height, samples });
+        }
+        Ok(())
+    }
+}
+
+/// A place within the pixel of `random`, uniform, in pixels from the top left corner.
+pub fn pixel_position(width: u32, random: RandomStream) -> Vec2 {
+    let corner = Vec2::new((random.pixel % width) as f32, (random.pixel / width) as f32);
+    corner + Vec2::new(random.float(RANDOM_CAMERA_X), random.float(RANDOM_CAMERA_Y))
+}
+
+/// The ray through `position` (pixels from the top left corner; the first pixel's centre is
+/// (0.5, 0.5)), relative to `frame_origin` (world, metres).
+pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
+    let placement = view.camera.world_from_camera;
+    let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
+    let right = axis(placement.matrix3.x_axis, DVec3::X);
+    let up = axis(placement.matrix3.y_axis, DVec3::Y);
+    let forward = axis(-placement.matrix3.z_axis, DVec3::NEG_Z);
+    let eye = (placement.translation - frame_origin).as_vec3();
+    let (width, height) = (f64::from(view.width), f64::from(view.height));
+    let half_height = match view.camera.projection {
+        Projection::Perspective { fov_y } => (0.5 * f64::from(fov_y)).tan(),
+        Projection::Orthographic { half_height } => f64::from(half_height),
+    };
+    let half_width = (half_height * width / height) as f32;
+    let x = (2.0 * position.x / view.width as f32 - 1.0) * half_width;
+    let y = (1.0 - 2.0 * position.y / view.height as f32) * half_height as f32;
+    let across: Vec3 = right * x + up * y;
+    let (origin, direction, cone_width, cone_spread) = match view.camera.projection {
+        Projection::Perspective { .. } => {
+            (eye, (forward + across).normalize(), 0.0, (2.0 * half_height / height).atan() as f32)
+        }
+        Projection::Orthographic { .. } => (eye + across, forward, (2.0 * half_height / height) as f32, 0.0),
+    };
+    Ray { origin, direction, t_max: f32::INFINITY, exclude_primitive: None, cone_width, cone_spread }
+}

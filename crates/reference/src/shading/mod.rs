@@ -1,0 +1,36 @@
+//! What lies between a hit and its radiance, computed naively from the scene model.
+//!
+//! The mathematics is that of `docs/shading.md` and is written a second time here, in single precision
+//! and in the order of the shaders, because the outcome of a random choice depends on it. Nothing
+//! is shared with what is uploaded to a device: textures, attributes, lights and materials are read
+//! from [`rasray_scene::Scene`], so that a mistake in packing shows as a difference.
+//!
+//! Lengths are metres relative to the frame origin, radiance is W/(sr m^2) in linear Rec. 709.
+
+mod alpha;
+mod attributes;
+pub mod bsdf;
+mod camera;
+mod environment;
+mod error;
+mod light;
+mod microfacet;
+mod posed;
+pub mod random;
+mod ray;
+mod surface;
+mod texture;
+mod triangle;
+
+#[cfg(test)]
+mod tests;
+
+pub use bsdf::{BsdfSample, bsdf_evaluate, bsdf_pdf, bsdf_sample};
+pub use camera::{View, camera_ray, pixel_position};
+pub use environment::EnvironmentTable;
+pub use error::ReferenceError;
+pub use light::{LightSample, LightTable};
+pub use microfacet::{basis_around, cosine_hemisphere, luminance};
+pub use posed::PosedScene;
+pub use ray::{Ray, spawn_ray, spawn_segment};
+pub use surface::Surface;

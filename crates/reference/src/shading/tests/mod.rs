@@ -1,0 +1,4 @@
+mod bsdf;
+mod environment;
+mod surface;
+mod texture;

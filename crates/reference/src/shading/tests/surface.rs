@@ -1,0 +1,179 @@
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use rasray_scene::{Filter, Image, Material, Texture, TextureRef, Wrap};
+
+use crate::{
+    shading::{PosedScene, Ray, ReferenceError, Surface},
+    testing::{diffuse, quad, scene},
+};
+
+const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn ray(origin: Vec3, direction: Vec3) -> Ray {
+    Ray {
+        origin,
+        direction: direction.normalize(),
+        t_max: f32::INFINITY,
+        exclude_primitive: None,
+        cone_width: 0.0,
+        cone_spread: 0.0,
+    }
+}
+
+fn unit_quad(material: usize) -> rasray_scene::Mesh {
+    quad(Vec3::ZERO, Vec3::X, Vec3::Y, material)
+}
+
+fn seen(scene: &rasray_scene::Scene, from_front: bool) -> Surface {
+    let posed = PosedScene::new(scene, DVec3::ZERO).expect("valid");
+    let z = if from_front { 1.0 } else { -1.0 };
+    posed.surface(&ray(Vec3::new(0.5, 0.25, z), Vec3::new(0.0, 0.0, -z)), 1.0, 0, Vec2::new(0.25, 0.25))
+}
+
+#[test]
+fn the_front_is_counter_clockwise_and_mirrored_with_the_instance() {
+    let emitter = Material { emission: [2.0; 3], ..diffuse(0.5) };
+    let mut scene = scene(vec![emitter], vec![unit_quad(0)]);
+    for (mirrored, double_sided) in [(false, false), (true, false), (false, true), (true, true)] {
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        scene.instances[0].world_from_mesh =
+            DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(sign, 1.0, 1.0)));
+        scene.materials[0].double_sided = double_sided;
+        for from_front in [true, false] {
+            let surface = seen(&scene, from_front);
+            // The mesh's own front faces +z, and mirroring in x leaves that so.
+            assert_eq!(surface.front, from_front, "{mirrored}");
+            assert_eq!(surface.geometric_normal, if from_front { Vec3::Z } else { Vec3::NEG_Z });
+            let shines = from_front || double_sided;
+            assert_eq!(surface.emission, if shines { Vec3::splat(2.0) } else { Vec3::ZERO });
+        }
+    }
+}
+
+#[test]
+fn positions_lie_within_their_bound() {
+    let mut mesh = unit_quad(0);
+    mesh.positions.iter_mut().for_each(|p| *p = [p[0] * 3.7 + 1000.3, p[1] * 0.1 - 77.7, p[0] + p[1] * 0.3]);
+    let corners: Vec<DVec3> = mesh.positions.iter().map(|p| DVec3::from(p.map(f64::from))).collect();
+    let scene = scene(vec![diffuse(0.5)], vec![mesh]);
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let mut largest = 0.0_f64;
+    for step in 0..1000 {
+        let (b, c) = (f64::from(step) / 2001.0, f64::from(step % 37) / 80.0);
+        let barycentrics = Vec2::new(b as f32, c as f32);
+        let (b, c) = (f64::from(barycentrics.x), f64::from(barycentrics.y));
+        let exact = corners[0] * (1.0 - b - c) + corners[1] * b + corners[2] * c;
+        let surface = posed.surface(&ray(Vec3::ZERO, Vec3::X), 1.0, 0, barycentrics);
+        let error =
+            (surface.position.as_dvec3() - exact).abs().max_element() / f64::from(surface.position_error);
+        largest = largest.max(error);
+    }
+    assert!(largest < 1.0 && largest > 0.01, "{largest}");
+}
+
+#[test]
+fn shading_normals_are_interpolated_and_face_the_ray() {
+    let mut mesh = unit_quad(0);
+    let tilted = Vec3::new(0.6, 0.0, 0.8).to_array();
+    mesh.normals = Some(vec![tilted; 4]);
+    let mut scene = scene(vec![diffuse(0.5)], vec![mesh]);
+    assert!((seen(&scene, true).normal - Vec3::from(tilted)).length() < 1.0e-6);
+    assert!((seen(&scene, false).normal + Vec3::from(tilted)).length() < 1.0e-6);
+
+    // Stretching in z tilts normals the other way than positions.
+    scene.instances[0].world_from_mesh = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 4.0)));
+    let expected = Vec3::new(0.6, 0.0, 0.2).normalize();
+    assert!((seen(&scene, true).normal - expected).length() < 1.0e-6);
+
+    scene.meshes[0].normals = Some(vec![[0.0, 0.0, -1.0]; 4]);
+    assert!(
+        (seen(&scene, true).normal - Vec3::Z).length() < 1.0e-6,
+        "a normal that points inwards is turned"
+    );
+
+    scene.meshes[0].normals = Some(vec![Vec3::new(0.999, 0.0, 0.0447).to_array(); 4]);
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let grazing = ray(Vec3::ZERO, Vec3::new(1.0, 0.0, -0.3));
+    let surface = posed.surface(&grazing, 1.0, 0, Vec2::splat(0.2));
+    assert!(surface.normal.dot(-grazing.direction) > 0.005, "{}", surface.normal);
+    assert!((surface.normal.length() - 1.0).abs() < 1.0e-5);
+}
+
+fn with_texture(scene: &mut rasray_scene::Scene, texel: [u8; 4]) -> TextureRef {
+    scene.images.push(Image { name: "texel".to_owned(), width: 1, height: 1, rgba8: texel.to_vec() });
+    scene.textures.push(Texture {
+        image: scene.images.len() - 1,
+        wrap_u: Wrap::Repeat,
+        wrap_v: Wrap::Repeat,
+        filter: Filter::Linear,
+        mipmapped: true,
+    });
+    TextureRef { texture: scene.textures.len() - 1, uv_set: 0, uv_transform: IDENTITY }
+}
+
+/// Red tilts towards growing u, green towards the image's top, with and without tangents in the mesh,
+/// mirrored or not, from either side.
+#[test]
+fn normal_maps_tilt_towards_u_and_up() {
+    let mut scene = scene(vec![diffuse(0.5)], vec![unit_quad(0)]);
+    let reference = with_texture(&mut scene, [255, 204, 230, 255]);
+    scene.materials[0].normal_texture = Some(reference);
+    let tilt = (Vec3::new(255.0, 204.0, 230.0) / 255.0 * 2.0 - 1.0).normalize();
+    for with_tangents in [false, true] {
+        scene.meshes[0].tangents = with_tangents.then(|| vec![[1.0, 0.0, 0.0, 1.0]; 4]);
+        for mirrored in [false, true] {
+            let sign = if mirrored { -1.0 } else { 1.0 };
+            scene.instances[0].world_from_mesh =
+                DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(sign, 1.0, 1.0)));
+            // u runs along x (mirrored: -x); the image's top is at y = 1.
+            let expected = Vec3::new(tilt.x * sign as f32, tilt.y, tilt.z);
+            let normal = seen(&scene, true).normal;
+            assert!((normal - expected).length() < 1.0e-5, "{with_tangents} {mirrored}: {normal} {expected}");
+            let behind = seen(&scene, false).normal;
+            assert!((behind + expected).length() < 1.0e-5, "{with_tangents} {mirrored}: {behind}");
+        }
+    }
+}
+
+#[test]
+fn material_terms_are_factor_times_texture_times_vertex_colour() {
+    let mut scene = scene(vec![diffuse(0.5)], vec![unit_quad(0)]);
+    let linear = with_texture(&mut scene, [51, 102, 204, 255]);
+    scene.meshes[0].colors = Some(vec![[0.5, 1.0, 1.0, 0.25]; 4]);
+    let material = &mut scene.materials[0];
+    material.base_color = [1.0, 0.5, 1.0, 0.8];
+    material.base_color_texture = Some(linear);
+    material.metallic_roughness_texture = Some(linear);
+    material.transmission_texture = Some(linear);
+    (material.metallic, material.roughness, material.transmission) = (0.5, 1.0, 1.0);
+    material.alpha_mode = rasray_scene::AlphaMode::Blend;
+    let surface = seen(&scene, true);
+    let decoded = [51.0, 102.0, 204.0].map(|byte: f32| crate::shading::texture::srgb_decode(byte / 255.0));
+    let expected = Vec3::new(decoded[0] * 0.5, decoded[1] * 0.5, decoded[2]);
+    assert!((surface.base_color - expected).length() < 1.0e-6);
+    assert!((surface.metallic - 0.4).abs() < 1.0e-6 && (surface.roughness - 0.4).abs() < 1.0e-6);
+    assert!((surface.transmission - 0.2).abs() < 1.0e-6 && (surface.opacity - 0.2).abs() < 1.0e-6);
+}
+
+#[test]
+fn scenes_that_name_what_is_not_there_are_refused() {
+    let good = scene(vec![diffuse(0.5)], vec![unit_quad(0)]);
+    let refused = |change: &dyn Fn(&mut rasray_scene::Scene)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        matches!(PosedScene::new(&bad, DVec3::ZERO), Err(ReferenceError::Malformed { .. }))
+    };
+    assert!(!refused(&|_| ()));
+    assert!(refused(&|scene| scene.instances[0].mesh = 7));
+    assert!(refused(&|scene| scene.meshes[0].material = 1));
+    assert!(refused(&|scene| scene.meshes[0].indices[2] = 4));
+    assert!(refused(&|scene| scene.meshes[0].colors = Some(vec![[1.0; 4]; 3])));
+    assert!(refused(&|scene| {
+        scene.materials[0].base_color_texture =
+            Some(TextureRef { texture: 0, uv_set: 0, uv_transform: IDENTITY });
+    }));
+    let positions = vec![[0.0; 3]; 5];
+    assert_eq!(
+        PosedScene::with_positions(&good, DVec3::ZERO, positions).err(),
+        Some(ReferenceError::PositionCount { given: 5, expected: 4 })
+    );
+}
