@@ -13,6 +13,7 @@ pub mod gltf;
 mod limits;
 mod load;
 pub mod model;
+pub mod needs;
 pub mod obj;
 pub mod ply;
 
