@@ -1,1 +1,6 @@
-//! rasray: tests.
+//! What the tests of rasray share: a device, triangles, random numbers, hard cases.
+
+pub mod hard_cases;
+pub mod harness;
+pub mod random;
+pub mod shapes;

@@ -1,1 +1,11 @@
-//! rasray: tracer.
+//! Drives structures from the host: the loop that builds until complete, and batches of rays traced
+//! through a queue. This is the side that submits and waits; embedders with a frame of their own use
+//! [`rasray_ads`] alone.
+
+mod batch;
+mod build;
+mod error;
+
+pub use batch::{BatchTracer, TraceOutcome};
+pub use build::{BuildOutcome, build_until_complete};
+pub use error::TracerError;

@@ -1,0 +1,57 @@
+//! The one loop that builds, checks and grows.
+
+use std::time::Instant;
+
+use rasray_ads::{BuildStatus, Check, Structure};
+use rasray_gpu::{Device, PassTiming, Timing};
+
+use crate::TracerError;
+
+/// Rebuilds after which a structure counts as unstable. Demand is exact, but a later pool's demand may
+/// only be known once an earlier pool sufficed.
+const REBUILDS: u32 = 4;
+
+/// What a build cost.
+#[derive(Clone, Debug, Default)]
+pub struct BuildOutcome {
+    /// Passes of the last, complete build.
+    pub passes: Vec<PassTiming>,
+    /// Times the structure had to grow.
+    pub regrows: u32,
+    /// Milliseconds of the last build as the host saw it, submission and wait included.
+    pub host_milliseconds: f64,
+    /// What the last build left behind.
+    pub status: BuildStatus,
+}
+
+/// Builds as seen from `eye` (metres relative to the frame origin) and grows until complete.
+///
+/// # Errors
+/// The device fails, memory does not suffice, or the demand does not settle.
+pub fn build_until_complete(
+    device: &Device,
+    structure: &mut dyn Structure,
+    eye: [f32; 3],
+    timing: Timing,
+) -> Result<BuildOutcome, TracerError> {
+    let mut outcome = BuildOutcome::default();
+    loop {
+        let started = Instant::now();
+        let submitted = device.submit_passes(timing, |recorder| structure.record_build(recorder, eye))?;
+        submitted.value?;
+        outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
+        outcome.passes = submitted.passes;
+        outcome.status = structure.status()?;
+        match structure.check(&outcome.status) {
+            Check::Complete if outcome.status.complete => return Ok(outcome),
+            Check::Grow(sizes) if outcome.regrows < REBUILDS => {
+                tracing::debug!(structure = structure.name(), bytes = sizes.bytes(), "grows to its exact demand");
+                structure.resize(device, &sizes)?;
+                outcome.regrows += 1;
+            }
+            Check::Complete | Check::Grow(_) => {
+                return Err(TracerError::Unstable { structure: structure.name(), rebuilds: outcome.regrows });
+            }
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Errors of builds and traces.
+
+use rasray_ads::AdsError;
+use rasray_gpu::GpuError;
+
+/// Why a build or a trace has no result.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TracerError {
+    /// The structure or a queue failed.
+    #[error(transparent)]
+    Ads(#[from] AdsError),
+    /// The Vulkan layer failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A build still asked for more after its exact demand had been met.
+    #[error("{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable")]
+    Unstable {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Rebuilds made.
+        rebuilds: u32,
+    },
+    /// Rays were given up.
+    #[error("{unfinished} rays did not finish within {rounds} rounds; allow more rounds")]
+    Unfinished {
+        /// Rays given up.
+        unfinished: u32,
+        /// Rounds allowed.
+        rounds: u32,
+    },
+    /// Rays met an incomplete structure.
+    #[error("{rays} rays were traced through a structure that is not built")]
+    NotReady {
+        /// Rays without an answer.
+        rays: u32,
+    },
+}

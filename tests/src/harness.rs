@@ -1,0 +1,143 @@
+//! A device shared by the tests of one binary, geometry from plain triangles, and traces of both sides.
+
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode};
+use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
+use rasray_reference::oracle;
+use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
+
+/// A device with the validation layer watching. Dropping it fails the test if the layer said anything.
+pub struct Bench {
+    device: Device,
+    _turn: MutexGuard<'static, ()>,
+}
+
+/// Features that any test may use.
+pub fn requirements() -> Requirements {
+    let mut requirements = Requirements::floor();
+    requirements.required.push(Feature::FragmentStoresAndAtomics);
+    requirements.optional.push((Feature::BufferDeviceAddress, "pools reached by address"));
+    requirements
+}
+
+impl Bench {
+    /// Takes the device; tests of one binary take turns, so that a message belongs to one of them.
+    ///
+    /// # Panics
+    /// If there is no suitable device or no validation layer.
+    pub fn new() -> Self {
+        static TURN: Mutex<()> = Mutex::new(());
+        static DEVICE: OnceLock<Device> = OnceLock::new();
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+        let device = DEVICE.get_or_init(|| {
+            let desc = DeviceDesc { requirements: requirements(), validation: true, ..DeviceDesc::default() };
+            Device::create(&desc).expect("tests need a Vulkan device and the validation layer")
+        });
+        Self { device: device.clone(), _turn: turn }
+    }
+
+    /// The device.
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    /// Uploads triangles; ids follow the order given.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn geometry(&self, triangles: &[[[f32; 3]; 3]]) -> Geometry {
+        let positions: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
+        let indices: Vec<u32> = (0..positions.len() as u32).collect();
+        let count = triangles.len() as u32;
+        let draws = [Draw { first_triangle: 0, triangle_count: count, instance: 0, flags: 0 }];
+        let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+        for p in &positions {
+            for axis in 0..3 {
+                bounds[0][axis] = bounds[0][axis].min(p[axis]);
+                bounds[1][axis] = bounds[1][axis].max(p[axis]);
+            }
+        }
+        if positions.is_empty() {
+            bounds = [[0.0; 3]; 2];
+        }
+        let buffer = |name, bytes: &[u8]| {
+            self.device.create_buffer_with(name, BufferUsage::STORAGE, bytes).expect("geometry fits")
+        };
+        let desc = GeometryDesc {
+            positions: buffer("positions", bytemuck::cast_slice(&positions)),
+            indices: buffer("indices", bytemuck::cast_slice(&indices)),
+            draws: buffer("draws", bytemuck::cast_slice(&draws)),
+            vertex_count: positions.len() as u32,
+            triangle_count: count,
+            draw_count: 1,
+            bounds,
+            frame_origin: [0.0; 3],
+        };
+        Geometry::new(&self.device, desc).expect("geometry fits")
+    }
+
+    /// Builds and traces the nearest hits.
+    ///
+    /// # Panics
+    /// If the device fails or rays do not finish.
+    pub fn build_and_trace(&self, structure: &mut dyn Structure, eye: [f32; 3], rays: &[Ray]) -> Vec<Hit> {
+        build_until_complete(&self.device, structure, eye, Timing::None).expect("the build completes");
+        self.trace(structure, rays).hits
+    }
+
+    /// Traces the nearest hits.
+    ///
+    /// # Panics
+    /// If the device fails or rays do not finish.
+    pub fn trace(&self, structure: &dyn Structure, rays: &[Ray]) -> TraceOutcome {
+        let tracer =
+            BatchTracer::new(&self.device, rays.len().clamp(1, 65_536) as u32).expect("a queue fits");
+        tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish")
+    }
+
+    /// Whether each ray meets anything.
+    ///
+    /// # Panics
+    /// If the device fails or rays do not finish.
+    pub fn occluded(&self, structure: &dyn Structure, rays: &[Ray]) -> Vec<bool> {
+        let tracer =
+            BatchTracer::new(&self.device, rays.len().clamp(1, 65_536) as u32).expect("a queue fits");
+        let outcome =
+            tracer.trace(structure, rays, TraceMode::Occluded, Timing::None).expect("all rays finish");
+        outcome.hits.iter().map(Hit::is_hit).collect()
+    }
+}
+
+impl Default for Bench {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Drop for Bench {
+    fn drop(&mut self) {
+        let messages = self.device.validation_messages();
+        if !std::thread::panicking() {
+            assert!(messages.is_empty(), "the validation layer says: {messages:#?}");
+        }
+    }
+}
+
+/// The same ray for the oracle.
+pub fn oracle_ray(ray: &Ray) -> oracle::Ray {
+    oracle::Ray {
+        origin: ray.origin,
+        t_min: ray.t_min,
+        direction: ray.direction,
+        t_max: ray.t_max,
+        exclude_primitive: (ray.exclude_primitive != PRIMITIVE_NONE).then_some(ray.exclude_primitive),
+    }
+}
+
+/// An oracle over the same triangles.
+pub fn oracle_of(triangles: &[[[f32; 3]; 3]]) -> oracle::Oracle<'static> {
+    let positions: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
+    let indices: Vec<u32> = (0..positions.len() as u32).collect();
+    oracle::Oracle::new(&positions, &indices, None).expect("the triangles are indexed in order")
+}
