@@ -7,6 +7,11 @@
 //!
 //! Lengths are metres relative to the frame origin, radiance is W/(sr m^2) in linear Rec. 709.
 
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "`!(x > 0.0)` fails for NaN as well, as in the shaders"
+)]
+
 mod alpha;
 mod attributes;
 pub mod bsdf;
