@@ -1,7 +1,7 @@
 //! Emissive triangles, chosen as lights by their power.
 
 use glam::DVec3;
-use rasray_scene::Scene;
+use rasray_scene::{AlphaMode, Scene};
 
 use crate::{
     Posed,
@@ -53,9 +53,10 @@ pub fn pack_emissive(
 }
 
 /// Luminance of the brightest emission that the material can show, times the number of sides that
-/// emit. 0 for unlit materials, which are not lights.
+/// emit. 0 for unlit materials, which are not lights, and for blended ones: a scattered ray meets
+/// those by chance only, with their opacity, which a light sample would not know of.
 fn power_bound(scene: &Scene, material: &rasray_scene::Material) -> f64 {
-    if material.unlit {
+    if material.unlit || material.alpha_mode == AlphaMode::Blend {
         return 0.0;
     }
     let mut bound = material.emission;

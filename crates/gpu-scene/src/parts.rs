@@ -1,5 +1,7 @@
 //! Which parts of a scene are packed.
 
+use rasray_scene::needs::{Needs, Term};
+
 /// Texture kinds in the order of `Material`'s texture fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextureKind {
@@ -91,5 +93,37 @@ impl Parts {
             TextureKind::Emission => self.emission_textures,
             TextureKind::Transmission => self.transmission_textures,
         }
+    }
+}
+
+impl From<&Needs> for Parts {
+    /// What a render can observe. `Needs::all` gives [`Parts::ALL`].
+    fn from(needs: &Needs) -> Self {
+        let has = |term| needs.requires(term);
+        Self {
+            normals: has(Term::Normals),
+            tangents: has(Term::Tangents),
+            uvs: [has(Term::Uv0), has(Term::Uv1)],
+            colors: has(Term::Colors),
+            base_color_textures: has(Term::BaseColorTextures),
+            metallic_roughness_textures: has(Term::MetallicRoughnessTextures),
+            normal_textures: has(Term::NormalTextures),
+            emission_textures: has(Term::EmissionTextures),
+            transmission_textures: has(Term::TransmissionTextures),
+            alpha: has(Term::AlphaMask),
+            lights: has(Term::PointLights) || has(Term::DirectionalLights) || has(Term::SpotLights),
+            emissive_triangles: has(Term::AreaLights),
+            environment: has(Term::Environment),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_needs_are_all_parts() {
+        assert_eq!(Parts::from(&Needs::all()), Parts::ALL);
     }
 }

@@ -159,8 +159,12 @@ fn emissive_triangles_are_chosen_by_power() {
     let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
     assert!(tables.emissive_triangles.is_empty());
     assert!(tables.draw_shadings.iter().all(|draw| draw.first_emissive == numbers::EMISSIVE_NONE));
-    // Nor does an unlit material.
+    // Nor does a blended or an unlit material.
     scene.images[1].rgba8.fill(255);
+    scene.materials[1].alpha_mode = AlphaMode::Blend;
+    assert!(pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
+    scene.materials[1].alpha_mode = AlphaMode::Opaque;
+    assert!(!pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
     scene.materials[1].unlit = true;
     assert!(pack(&scene, DVec3::ZERO, &Parts::ALL).emissive_triangles.is_empty());
 }

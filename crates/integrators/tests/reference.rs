@@ -6,13 +6,11 @@
 
 mod common;
 
-use common::*;
-use glam::{DAffine3, DMat3, DVec3};
+use common::{scenes::*, *};
+use glam::DVec3;
 use rasray_integrators::{AmbientOcclusion, Path};
 use rasray_reference::shading::{PosedScene, View};
-use rasray_scene::{
-    AlphaMode, Camera, Environment, Filter, Image, Light, Material, Scene, Texture, TextureRef, Wrap, builtin,
-};
+use rasray_scene::{Camera, Scene};
 
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 20;
@@ -23,10 +21,19 @@ enum Kind {
     Occlusion(f32),
 }
 
-/// Renders both and compares: at most `deviating` of the pixels may differ by more than 1e-3.
-fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating: f64) {
+/// How far an image is from its reference.
+#[derive(Debug)]
+struct Difference {
+    /// Share of the pixels that differ by more than 1e-3 of their value.
+    share: f64,
+    /// Difference of the means over the reference's.
+    mean: f64,
+}
+
+/// Renders `shown` on the device and `scene` on the CPU.
+fn difference(shown: &Scene, scene: &Scene, camera: &Camera, samples: u32, kind: &Kind) -> Difference {
     let device = device();
-    let stage = Stage::new(&device, scene, camera.clone(), WIDTH, HEIGHT, SEED);
+    let stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
     let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
     let (image, reference) = match *kind {
@@ -44,27 +51,20 @@ fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating:
         (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3 * (b[channel].abs() + 1e-2))
     };
     let count = image.iter().zip(&reference).filter(|&pair| differs(pair)).count();
-    let share = count as f64 / image.len() as f64;
     let (mean_image, mean_reference) = (mean(&image), mean(&reference));
     assert!(mean_reference > 0.01, "{}: the reference is black", scene.name);
-    assert!(
-        share <= deviating,
-        "{}: {count} of {} pixels differ, means {mean_image} and {mean_reference}",
-        scene.name,
-        image.len()
-    );
-    assert!(
-        (mean_image - mean_reference).abs() <= 0.01 * mean_reference,
-        "{}: means {mean_image} and {mean_reference}",
-        scene.name
-    );
     assert_silent(&device);
+    Difference {
+        share: count as f64 / image.len() as f64,
+        mean: (mean_image - mean_reference).abs() / mean_reference,
+    }
 }
 
-fn cornell() -> (Scene, Camera) {
-    let scene = builtin::builtin("cornell").expect("a name of a built-in scene").expect("no parameters");
-    let camera = scene.cameras[0].clone();
-    (scene, camera)
+/// At most `deviating` of the pixels may differ.
+fn compare(scene: &Scene, camera: &Camera, samples: u32, kind: &Kind, deviating: f64) {
+    let found = difference(scene, scene, camera, samples, kind);
+    eprintln!("{}: {found:?}", scene.name);
+    assert!(found.share <= deviating && found.mean <= 0.01, "{}: {found:?}", scene.name);
 }
 
 #[test]
@@ -74,136 +74,32 @@ fn cornell_box() {
     compare(&scene, &camera, 4, &Kind::Occlusion(0.2), 0.01);
 }
 
-/// A checkered image with alpha in its dark squares.
-fn checker(size: u32, dark: [u8; 4], bright: [u8; 4]) -> Image {
-    let rgba8 = (0..size * size)
-        .flat_map(|i| if (i % size / 3 + i / size / 3).is_multiple_of(2) { dark } else { bright })
-        .collect();
-    Image { name: "checker".to_owned(), width: size, height: size, rgba8 }
-}
-
-fn textured(texture: usize, scale: f32) -> Option<TextureRef> {
-    let uv_transform = [[scale, 0.1, 0.05], [-0.1, scale, 0.3]];
-    Some(TextureRef { texture, uv_set: 0, uv_transform })
-}
-
-fn with_coordinates(mut mesh: rasray_scene::Mesh) -> rasray_scene::Mesh {
-    let corners = vec![[-0.2, -0.3], [1.4, 0.0], [1.1, 1.2], [0.0, 1.0]];
-    mesh.uvs[0] = Some(corners);
-    mesh.colors = Some(vec![[1.0, 0.8, 0.6, 1.0], [0.7, 1.0, 0.9, 1.0], [1.0; 4], [0.5, 0.6, 1.0, 1.0]]);
-    mesh
-}
-
-/// Every kind of texture, a mask, vertex colours, a mirrored instance, an environment map and lights.
-fn textured_room() -> Scene {
-    let floor = Material {
-        base_color_texture: textured(0, 3.0),
-        metallic_roughness_texture: textured(2, 2.0),
-        normal_texture: textured(3, 1.5),
-        metallic: 0.6,
-        roughness: 0.8,
-        ..lambert(0.9, 0.0)
-    };
-    let fence = Material {
-        base_color_texture: textured(1, 1.0),
-        alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
-        specular: 1.0,
-        ..lambert(0.8, 0.0)
-    };
-    let lamp = Material { emission_texture: textured(0, 1.0), ..lambert(0.2, 6.0) };
-    let meshes = vec![
-        with_coordinates(square(DVec3::new(0.0, -1.0, -2.0), DVec3::X * 3.0, -DVec3::Z * 3.0, 0)),
-        with_coordinates(square(DVec3::new(0.5, -0.3, -2.0), DVec3::X * 0.7, DVec3::Y * 0.7, 1)),
-        with_coordinates(square(DVec3::new(-1.5, 0.6, -2.5), DVec3::X * 0.4, DVec3::new(0.0, 0.2, 0.4), 2)),
-    ];
-    let mut scene = scene(meshes, vec![floor, fence, lamp], [0.0; 3]);
-    scene.name = "textured room".to_owned();
-    scene.instances.push(rasray_scene::Instance {
-        name: "mirrored fence".to_owned(),
-        mesh: 1,
-        world_from_mesh: DAffine3::from_mat3_translation(
-            DMat3::from_diagonal(DVec3::new(-1.0, 1.2, 0.9)),
-            DVec3::new(-0.4, 0.1, -0.8),
-        ),
-    });
-    let texture = |image, filter, mipmapped| Texture {
-        image,
-        wrap_u: Wrap::Repeat,
-        wrap_v: Wrap::Mirror,
-        filter,
-        mipmapped,
-    };
-    scene.images = vec![
-        checker(32, [40, 60, 90, 255], [250, 230, 200, 255]),
-        checker(13, [90, 160, 70, 30], [200, 220, 160, 255]),
-        checker(8, [0, 120, 200, 255], [0, 230, 40, 255]),
-        checker(16, [110, 140, 250, 255], [140, 120, 240, 255]),
-    ];
-    scene.textures = vec![
-        texture(0, Filter::Linear, true),
-        texture(1, Filter::Nearest, false),
-        texture(2, Filter::Linear, true),
-        Texture { wrap_u: Wrap::Clamp, ..texture(3, Filter::Linear, false) },
-    ];
-    let radiance =
-        (0..16 * 8).map(|i| [0.1 + (i % 5) as f32 * 0.2, 0.3, 0.2 + (i / 16) as f32 * 0.1]).collect();
-    scene.environment = Environment::LatLong { width: 16, height: 8, radiance };
-    scene.lights = vec![
-        Light::Point { position: DVec3::new(1.0, 1.5, -1.0), intensity: [2.0, 1.5, 1.0], range: 20.0 },
-        Light::Directional { direction: DVec3::new(0.3, -1.0, -0.2).normalize(), irradiance: [0.5; 3] },
-        Light::Spot {
-            position: DVec3::new(-1.0, 1.0, 0.0),
-            direction: DVec3::new(0.5, -1.0, -1.0).normalize(),
-            intensity: [4.0; 3],
-            range: f32::INFINITY,
-            inner_cone: 0.2,
-            outer_cone: 0.6,
-        },
-    ];
-    scene
+#[test]
+fn a_wrong_scene_is_noticed() {
+    let (scene, camera) = cornell();
+    let mut brighter = scene.clone();
+    for material in &mut brighter.materials {
+        material.base_color[0] *= 1.01;
+    }
+    let found = difference(&brighter, &scene, &camera, 4, &Kind::Path(4));
+    assert!(found.share > 0.5, "{found:?}");
+    let mut lower = scene.clone();
+    for instance in &mut lower.instances {
+        instance.world_from_mesh.translation.y -= 0.01;
+    }
+    let found = difference(&lower, &scene, &camera, 4, &Kind::Occlusion(0.2));
+    assert!(found.share > 0.1, "{found:?}");
 }
 
 #[test]
 fn textures_masks_lights_and_an_environment_map() {
     let eye = forward_camera(DVec3::new(0.0, 0.2, 1.0));
-    compare(&textured_room(), &eye, 4, &Kind::Path(3), 0.02);
+    compare(&textured_room(), &eye, 4, &Kind::Path(3), 0.01);
     compare(&textured_room(), &eye, 4, &Kind::Occlusion(1.0), 0.01);
 }
 
 #[test]
 fn glass_mirrors_and_blended_surfaces() {
-    let glass = Material {
-        transmission: 1.0,
-        roughness: 0.0,
-        specular: 1.0,
-        thickness: 0.2,
-        attenuation_color: [0.4, 0.9, 0.7],
-        attenuation_distance: 0.5,
-        ..lambert(1.0, 0.0)
-    };
-    let pane = Material { thickness: 0.0, roughness: 0.3, transmission: 0.7, ..glass.clone() };
-    let metal = Material { metallic: 1.0, roughness: 0.25, specular: 1.0, ..lambert(0.9, 0.0) };
-    let mut veil = lambert(0.7, 0.0);
-    veil.base_color[3] = 0.4;
-    veil.alpha_mode = AlphaMode::Blend;
-    let unlit = Material { unlit: true, ..lambert(0.3, 0.0) };
-    let mut meshes = box_inside(1.0, 0);
-    meshes.push(square(DVec3::new(0.0, 0.98, 0.0), DVec3::X * 0.4, DVec3::Z * 0.4, 1));
-    for face in box_inside(0.25, 2) {
-        // Turned outwards and moved to the left.
-        let mut face = face;
-        face.indices = face.indices.chunks_exact(3).flat_map(|t| [t[0], t[2], t[1]]).collect();
-        for position in &mut face.positions {
-            position[0] -= 0.5;
-        }
-        meshes.push(face);
-    }
-    meshes.push(square(DVec3::new(0.5, 0.3, -0.3), DVec3::X * 0.3, DVec3::Y * 0.3, 3));
-    meshes.push(square(DVec3::new(0.5, -0.5, -0.5), DVec3::X * 0.4, DVec3::new(0.0, 0.3, -0.2), 4));
-    meshes.push(square(DVec3::new(0.0, -0.3, 0.2), DVec3::X * 0.3, DVec3::Y * 0.4, 5));
-    meshes.push(square(DVec3::new(0.0, 0.6, -0.9), DVec3::X * 0.2, DVec3::Y * 0.1, 6));
-    let materials = vec![lambert(0.6, 0.0), lambert(0.0, 4.0), glass, pane, metal, veil, unlit];
-    let mut scene = scene(meshes, materials, [0.0; 3]);
-    scene.name = "glass, mirrors and a veil".to_owned();
-    compare(&scene, &forward_camera(DVec3::new(0.0, 0.0, 0.9)), 4, &Kind::Path(5), 0.03);
+    let eye = forward_camera(DVec3::new(0.0, 0.0, 0.9));
+    compare(&glass_room(), &eye, 4, &Kind::Path(5), 0.01);
 }

@@ -1,6 +1,8 @@
 //! Small scenes and one way to render them with the brute-force structure, validation on.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod scenes;
+
 use glam::{DAffine3, DMat3, DVec3};
 use rasray_ads::{BruteForce, RayQueue};
 use rasray_gpu::{Device, DeviceDesc};
@@ -93,13 +95,16 @@ pub struct Stage {
 
 impl Stage {
     pub fn new(device: &Device, scene: &Scene, camera: Camera, width: u32, height: u32, seed: u32) -> Self {
-        let view = View { camera, width, height, seed };
+        Self::with(device, scene, View { camera, width, height, seed }, &Parts::ALL)
+    }
+
+    pub fn with(device: &Device, scene: &Scene, view: View, parts: &Parts) -> Self {
         let origin = SceneTables::default_frame_origin(scene, view.eye());
-        let tables = SceneTables::new(scene, origin, &Parts::ALL).expect("the scene is well formed");
+        let tables = SceneTables::new(scene, origin, parts).expect("the scene is well formed");
         let scene = GpuScene::upload(device, &tables, &view).expect("the scene fits");
         let structure = BruteForce::new(device, scene.geometry(), Some(scene.binding()), false)
             .expect("the structure can be made");
-        let film = Film::new(device, width, height).expect("the film fits");
+        let film = Film::new(device, view.width, view.height).expect("the film fits");
         Self { device: device.clone(), scene, structure, film }
     }
 
