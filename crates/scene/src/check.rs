@@ -41,3 +41,108 @@ fn warn(warnings: &mut Vec<Warning>, kind: &'static str, count: usize, message: 
         warnings.push(Warning { kind, message: message() });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles over four corners of the unit square.
+    fn square() -> Mesh {
+        Mesh {
+            name: "square".to_owned(),
+            positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]],
+            indices: vec![0, 1, 2, 2, 1, 3],
+            ..Mesh::default()
+        }
+    }
+
+    fn clean(mesh: &mut Mesh) -> Vec<&'static str> {
+        let mut warnings = Vec::new();
+        clean_mesh(Path::new("square"), mesh, &mut warnings).expect("indices in range");
+        warnings.iter().map(|warning| warning.kind).collect()
+    }
+
+    #[test]
+    fn a_good_mesh_is_left_alone() {
+        let mut mesh = square();
+        mesh.normals = Some(vec![[0.0, 0.0, 1.0]; 4]);
+        mesh.tangents = Some(vec![[1.0, 0.0, 0.0, -1.0]; 4]);
+        mesh.uvs[1] = Some(vec![[-3.0, 1e6]; 4]);
+        mesh.colors = Some(vec![[2.0, 0.0, -0.0, 1.0]; 4]);
+        let before = mesh.clone();
+        assert!(clean(&mut mesh).is_empty());
+        assert_eq!(format!("{mesh:?}").replace("-0.0", "0.0"), format!("{before:?}").replace("-0.0", "0.0"));
+    }
+
+    #[test]
+    fn indices_are_checked_first() {
+        let path = Path::new("square");
+        for index in [4, 5, u32::MAX] {
+            let mut mesh = square();
+            mesh.indices[4] = index;
+            match clean_mesh(path, &mut mesh, &mut Vec::new()) {
+                Err(SceneError::IndexOutOfRange { index: found, vertices: 4, .. }) => {
+                    assert_eq!(found, u64::from(index));
+                }
+                other => panic!("{index}: {other:?}"),
+            }
+        }
+        let mut mesh = square();
+        mesh.indices.pop();
+        assert!(matches!(clean_mesh(path, &mut mesh, &mut Vec::new()), Err(SceneError::Invalid { .. })));
+        assert!(clean(&mut Mesh::default()).is_empty(), "an empty mesh is fine");
+    }
+
+    #[test]
+    fn a_bad_corner_takes_its_triangles_along() {
+        for (bad, left) in [(0, vec![2, 1, 3]), (3, vec![0, 1, 2]), (1, vec![])] {
+            let mut mesh = square();
+            mesh.positions[bad][1] = f32::NAN;
+            assert_eq!(clean(&mut mesh), ["dropped-triangles"]);
+            assert_eq!(mesh.indices, left);
+            assert_eq!(mesh.positions[bad], [0.0; 3]);
+        }
+    }
+
+    #[test]
+    fn unusable_normals_are_replaced_or_dropped() {
+        let mut mesh = square();
+        mesh.normals = Some(vec![[0.0, 0.0, 3.0], [f32::NAN, 0.0, 0.0], [0.0; 3], [1e-30, 0.0, 0.0]]);
+        assert_eq!(clean(&mut mesh), ["bad-normals", "bad-normals"]);
+        let normals = mesh.normals.expect("some were usable");
+        assert_eq!(normals, [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+        let mut mesh = square();
+        mesh.normals = Some(vec![[0.0; 3]; 4]);
+        assert_eq!(clean(&mut mesh), ["bad-normals"]);
+        assert!(mesh.normals.is_none());
+    }
+
+    #[test]
+    fn tangents_are_all_good_or_absent() {
+        let mut mesh = square();
+        mesh.normals = Some(vec![[0.0, 0.0, 1.0]; 4]);
+        mesh.tangents = Some(vec![[0.0, 2.0, 0.0, 0.5]; 4]);
+        assert!(clean(&mut mesh).is_empty());
+        assert_eq!(mesh.tangents, Some(vec![[0.0, 1.0, 0.0, 1.0]; 4]));
+        mesh.tangents =
+            Some(vec![[1.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]]);
+        assert_eq!(clean(&mut mesh), ["bad-tangents"]);
+        assert!(mesh.tangents.is_none());
+        let mut mesh = square();
+        mesh.tangents = Some(vec![[1.0, 0.0, 0.0, 1.0]; 4]);
+        assert_eq!(clean(&mut mesh), ["bad-tangents"]);
+        assert!(mesh.tangents.is_none(), "tangents need normals");
+    }
+
+    #[test]
+    fn other_attributes_become_finite() {
+        let mut mesh = square();
+        mesh.uvs[0] = Some(vec![[f32::NAN, 1.0], [0.0, f32::INFINITY], [0.0; 2], [1.0; 2]]);
+        mesh.colors = Some(vec![[f32::NAN, -1.0, 0.5, 1.0]; 4]);
+        mesh.uvs[1] = Some(vec![[0.0; 2]; 3]);
+        assert_eq!(clean(&mut mesh), ["attribute-length", "bad-texture-coordinates", "bad-colors"]);
+        assert_eq!(mesh.uvs[0].as_ref().map(|set| set[..2].to_vec()), Some(vec![[0.0, 1.0], [0.0, 0.0]]));
+        assert_eq!(mesh.colors.as_ref().map(|set| set[0]), Some([1.0, 0.0, 0.5, 1.0]));
+        assert!(mesh.uvs[1].is_none());
+    }
+}

@@ -14,6 +14,9 @@ pub struct Limits {
     pub triangles: u64,
     /// Elements of one vertex or index array.
     pub vertices: u64,
+    /// Elements of all vertex, index and animation arrays together, counted each time one is read:
+    /// a small file may refer to the same array many times.
+    pub elements: u64,
     /// Texels of one image.
     pub image_pixels: u64,
     /// Texels of all images together.
@@ -32,6 +35,7 @@ impl Default for Limits {
             file_bytes: 4 << 30,
             triangles: 1 << 27,
             vertices: 1 << 27,
+            elements: 1 << 29,
             image_pixels: 1 << 28,
             total_pixels: 1 << 30,
             nodes: 1 << 20,

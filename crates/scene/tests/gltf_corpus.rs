@@ -59,7 +59,6 @@ fn scenes_load_with_their_triangles() {
     for (file, triangles) in SCENES {
         match load_file(&folder.join(file)) {
             Ok(scene) => {
-                eprintln!("{file}: {:?}", scene.warnings);
                 if placed_triangles(&scene) != triangles {
                     wrong.push(format!(
                         "{file}: {} triangles, expected {triangles}",
@@ -180,4 +179,50 @@ fn every_file_of_the_corpus_is_listed() {
     let is_gltf = |path: &&PathBuf| path.extension().is_some_and(|found| found == "gltf" || found == "glb");
     let missing: Vec<_> = files.iter().filter(is_gltf).filter(|file| !listed.contains(file)).collect();
     assert!(missing.is_empty(), "not in the tables: {missing:?}");
+}
+
+/// What can move is said to be shown at rest, and nothing else is.
+#[test]
+fn what_moves_is_shown_at_rest_with_a_warning() {
+    let Some(folder) = scenes_folder("what_moves_is_shown_at_rest_with_a_warning") else { return };
+    for (file, _) in SCENES {
+        let scene = load_file(&folder.join(file)).unwrap_or_else(|error| panic!("{error}"));
+        let moves = ["animated/", "morph/", "skinned/"].iter().any(|part| file.starts_with(part));
+        assert_eq!(kinds(&scene).contains(&"animation-at-rest"), moves, "{file}");
+        assert_eq!(scene.animation.rig.placements.is_empty(), !moves, "{file}");
+    }
+}
+
+/// Extent of a scene in the world along each axis.
+fn extent(scene: &Scene) -> [f64; 3] {
+    let points = scene.instances.iter().flat_map(|instance| {
+        let mesh = &scene.meshes[instance.mesh];
+        mesh.indices.iter().map(|&index| {
+            let position = glam::Vec3::from(mesh.positions[index as usize]).as_dvec3();
+            instance.world_from_mesh.transform_point3(position)
+        })
+    });
+    let (low, high) = points
+        .fold((glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY), |(low, high), point| {
+            (low.min(point), high.max(point))
+        });
+    (high - low).to_array()
+}
+
+/// Skins decide where a mesh stands: placed by their nodes, these figures lie down or change size.
+#[test]
+fn skinned_figures_stand_upright() {
+    let Some(folder) = scenes_folder("skinned_figures_stand_upright") else { return };
+    let cases = [
+        ("skinned/CesiumMan/CesiumMan.glb", [1.138, 1.507, 0.312]),
+        ("skinned/Fox/Fox.glb", [25.19, 79.03, 154.72]),
+        ("skinned/RiggedFigure/RiggedFigure.glb", [1.179, 1.450, 0.326]),
+        ("skinned/RiggedSimple/RiggedSimple.glb", [2.0, 9.150, 2.0]),
+    ];
+    for (file, expected) in cases {
+        let scene = load_file(&folder.join(file)).unwrap_or_else(|error| panic!("{error}"));
+        let found = extent(&scene);
+        let close = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3 * b);
+        assert!(close, "{file}: {found:?}, expected {expected:?}");
+    }
 }

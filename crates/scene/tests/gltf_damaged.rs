@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use gltf_support::rich::{rich_glb, rich_gltf};
 use gltf_support::{assert_well_formed, kinds, load_bytes, placed_triangles};
-use rasray_scene::{LoadOptions, Scene, SceneError, load};
+use rasray_scene::{Limits, LoadOptions, Scene, SceneError, decode_image, load};
 
 /// Longest time that one small file may take.
 const PATIENCE: Duration = Duration::from_secs(2);
@@ -67,7 +67,7 @@ fn every_truncation_is_refused() {
 
 #[test]
 fn flipped_bits_of_gltf_do_no_harm() {
-    for (what, bytes, flips) in [("GLB", rich_glb(), 20_000), ("text", rich_gltf(), 10_000)] {
+    for (what, bytes, flips) in [("GLB", rich_glb(), 10_000), ("text", rich_gltf(), 5_000)] {
         let mut random = Random(17);
         let mut loaded = 0;
         for flip in 0..flips {
@@ -86,7 +86,7 @@ fn flipped_bits_of_gltf_do_no_harm() {
 fn several_damages_at_once_do_no_harm() {
     let bytes = rich_glb();
     let mut random = Random(23);
-    for round in 0..5_000 {
+    for round in 0..3_000 {
         let mut damaged = bytes.clone();
         for _ in 0..1 + random.below(8) {
             let at = random.below(damaged.len());
@@ -145,10 +145,43 @@ fn damage(file_name: &str, bytes: &[u8], flips: usize) {
 
 #[test]
 fn damaged_obj_does_no_harm() {
-    damage("damaged.obj", OBJ.as_bytes(), 4_000);
+    damage("damaged.obj", OBJ.as_bytes(), 2_000);
 }
 
 #[test]
 fn damaged_ply_does_no_harm() {
-    damage("damaged.ply", &ply(), 4_000);
+    damage("damaged.ply", &ply(), 2_000);
+}
+
+#[test]
+fn damaged_images_do_no_harm() {
+    let texels =
+        image::RgbImage::from_fn(24, 17, |x, y| image::Rgb([x as u8 * 10, y as u8 * 15, (x * y) as u8]));
+    for format in [image::ImageFormat::Png, image::ImageFormat::Jpeg] {
+        let mut encoded = std::io::Cursor::new(Vec::new());
+        texels.write_to(&mut encoded, format).expect("writing to memory cannot fail");
+        let bytes = encoded.into_inner();
+        let attempt = |damaged: &[u8]| {
+            let start = Instant::now();
+            let limits = Limits { image_pixels: 1 << 20, ..Limits::default() };
+            let result = decode_image(Path::new("scene.glb"), "image", damaged, &limits, &mut Vec::new());
+            assert!(start.elapsed() < PATIENCE);
+            match result {
+                Ok(image) => {
+                    assert_eq!(image.rgba8.len() as u64, u64::from(image.width) * u64::from(image.height) * 4)
+                }
+                Err(SceneError::Internal { reason, .. }) => panic!("{format:?}: {reason}"),
+                Err(_) => {}
+            }
+        };
+        attempt(&bytes);
+        (0..bytes.len()).for_each(|length| attempt(&bytes[..length]));
+        let mut random = Random(31);
+        for _ in 0..2_000 {
+            let mut damaged = bytes.clone();
+            let bit = random.below(damaged.len() * 8);
+            damaged[bit / 8] ^= 1 << (bit % 8);
+            attempt(&damaged);
+        }
+    }
 }

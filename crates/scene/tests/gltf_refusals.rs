@@ -205,13 +205,13 @@ fn every_limit_refuses() {
     };
     refused(|limits| limits.triangles = 7, "triangles");
     refused(|limits| limits.vertices = 5, "vertices");
+    refused(|limits| limits.elements = 60, "elements");
     refused(|limits| limits.image_pixels = 3, "image_pixels");
     refused(|limits| limits.total_pixels = 3, "total_pixels");
     refused(|limits| limits.nodes = 3, "nodes");
     refused(|limits| limits.instances = 3, "instances");
     refused(|limits| limits.depth = 1, "depth");
-    let mut exact = LoadOptions::default();
-    exact.limits = Limits {
+    let limits = Limits {
         triangles: 8,
         vertices: 6,
         image_pixels: 4,
@@ -221,6 +221,7 @@ fn every_limit_refuses() {
         depth: 2,
         ..Limits::default()
     };
+    let exact = LoadOptions { limits, ..LoadOptions::default() };
     gltf::from_slice(Path::new("limits.glb"), &file, &exact).expect("limits that are just met");
 
     let folder = tempfile::tempdir().expect("a temporary folder");

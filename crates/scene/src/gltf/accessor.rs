@@ -144,6 +144,7 @@ impl Resolved<'_> {
         convert: impl Fn(&[u8]) -> T,
         zero: T,
     ) -> Result<Vec<T>, SceneError> {
+        document.spend(self.count)?;
         let mut elements = match &self.base {
             Some(base) => base.elements().map(&convert).collect(),
             None => vec![zero; self.count],

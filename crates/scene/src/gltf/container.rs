@@ -57,5 +57,7 @@ pub(super) fn split<'a>(path: &Path, bytes: &'a [u8]) -> Result<Container<'a>, S
     }
     let json =
         json.ok_or_else(|| SceneError::syntax(path, "the first chunk of the GLB container is not JSON"))?;
-    Ok(Container { json, binary })
+    // Padding is meant to be spaces; some writers use zeros.
+    let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
+    Ok(Container { json: &json[..end], binary })
 }

@@ -1,6 +1,7 @@
 //! A file whose every claim has been checked: what all other modules read from.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::path::Path;
 
 use ::gltf::json::Root;
@@ -19,6 +20,8 @@ pub(super) struct Document<'a> {
     pub locals: Vec<NodeTransform>,
     /// Bytes of every buffer, at least as long as it claims.
     pub buffers: Vec<Cow<'a, [u8]>>,
+    /// Elements read so far, against [`Limits::elements`].
+    elements: Cell<u64>,
 }
 
 impl<'a> Document<'a> {
@@ -36,9 +39,17 @@ impl<'a> Document<'a> {
         Limits::check(path, "the number of nodes", root.nodes.len() as u64, limits.nodes, "nodes")?;
         indices::check(path, &root)?;
         let buffers = buffers::read(path, limits, &root, container.binary)?;
-        let document = Self { path, limits, root, locals, buffers };
+        let document = Self { path, limits, root, locals, buffers, elements: Cell::new(0) };
         accessor::check_all(&document)?;
         Ok(document)
+    }
+
+    /// Counts elements that are about to be read.
+    pub fn spend(&self, elements: usize) -> Result<(), SceneError> {
+        let total = self.elements.get().saturating_add(elements as u64);
+        self.elements.set(total);
+        let what = "the number of elements of all arrays";
+        Limits::check(self.path, what, total, self.limits.elements, "elements")
     }
 
     /// An error about an element of this file.

@@ -4,7 +4,7 @@ use ::gltf::json::material::{AlphaMode as JsonAlphaMode, Material as JsonMateria
 use ::gltf::json::validation::Checked;
 
 use super::document::Document;
-use super::textures::TextureReader;
+use super::textures::{TextureReader, Use};
 use crate::{AlphaMode, Material, Scene, SceneError, Warning};
 
 /// Converts the materials that `scene.meshes` use, in the order of the file, and makes
@@ -23,7 +23,7 @@ pub(super) fn convert(
     for (i, slot) in converted.iter_mut().enumerate().filter(|(_, slot)| slot.is_some()) {
         *slot = Some(scene.materials.len());
         scene.materials.push(match materials.get(i) {
-            Some(material) => convert_one(i, material, &mut textures, warnings)?,
+            Some(material) => convert_one(document, i, material, &mut textures, warnings)?,
             None => Material::default(),
         });
     }
@@ -40,6 +40,7 @@ pub(super) fn convert(
 }
 
 fn convert_one(
+    document: &Document<'_>,
     index: usize,
     source: &JsonMaterial,
     textures: &mut TextureReader<'_>,
@@ -70,7 +71,7 @@ fn convert_one(
     scalar_extensions(source, &mut material, &mut range);
     range.report(warnings);
 
-    let mut read = |wanted: Option<super::textures::Use<'_>>| match wanted {
+    let mut read = |wanted: Option<Use<'_>>| match wanted {
         Some(wanted) => textures.read(&place, wanted, warnings),
         None => Ok(None),
     };
@@ -81,7 +82,9 @@ fn convert_one(
     material.transmission_texture =
         read(transmission.and_then(|found| found.transmission_texture.as_ref()).map(Into::into))?;
     if let Some(normal) = &source.normal_texture {
-        material.normal_texture = read(Some(normal.into()))?;
+        let wanted = Use::of_normal(normal)
+            .map_err(|error| document.invalid(format!("{place}.normalTexture"), error.to_string()))?;
+        material.normal_texture = read(Some(wanted))?;
         material.normal_scale = if normal.scale.is_finite() { normal.scale } else { 1.0 };
     }
     unused_textures(&place, source, warnings);

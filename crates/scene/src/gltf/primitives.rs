@@ -107,7 +107,14 @@ pub(super) fn read(
             let vertices = mesh.positions.len();
             Some(skins::read_binding(document, &place, skin.value(), (joints, weights), vertices)?)
         }
-        _ => None,
+        (Some(_), ..) => {
+            warnings.push(Warning {
+                kind: "skin-without-joints",
+                message: format!("mesh {}: its node has a skin, but it has no joints or weights", mesh.name),
+            });
+            None
+        }
+        (None, ..) => None,
     };
     let morphed = primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
     let mut deformed = None;

@@ -32,16 +32,16 @@ impl<'a> From<&'a Info> for Use<'a> {
     }
 }
 
-impl<'a> From<&'a ::gltf::json::material::NormalTexture> for Use<'a> {
-    fn from(info: &'a ::gltf::json::material::NormalTexture) -> Self {
-        // The typed tree keeps the transform of a normal texture as plain JSON.
+impl<'a> Use<'a> {
+    /// Of a normal texture, whose transform the typed tree keeps as plain JSON.
+    pub fn of_normal(info: &'a ::gltf::json::material::NormalTexture) -> Result<Self, ::gltf::json::Error> {
         let raw = info.extensions.as_ref().and_then(|found| found.others.get("KHR_texture_transform"));
-        let transform = raw.and_then(|raw| from_value(raw.clone()).ok());
-        Self {
+        let transform: Option<TextureTransform> = raw.map(|raw| from_value(raw.clone())).transpose()?;
+        Ok(Self {
             texture: info.index.value(),
             uv_set: info.tex_coord,
             transform: transform.map(std::borrow::Cow::Owned),
-        }
+        })
     }
 }
 
