@@ -3,6 +3,7 @@
 use crate::error::AppError;
 use crate::report::{Counters, Device, Memory, Pass, Run, Times};
 use crate::systems::SystemConfig;
+use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -50,6 +51,19 @@ pub struct Frame {
     pub seed: u32,
 }
 
+impl Frame {
+    /// What an image like this one looks at in a scene.
+    pub fn workload(&self) -> Workload {
+        match self.integrator {
+            Integrator::Path { bounces } => Workload { integrator: needs::Integrator::Path, bounces },
+            Integrator::AmbientOcclusion { .. } => {
+                Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
+            }
+            Integrator::Raycast => Workload { integrator: needs::Integrator::Raycast, bounces: 0 },
+        }
+    }
+}
+
 /// Images beside the colours, from rays through pixel centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AovSelection {
@@ -74,8 +88,8 @@ pub struct RenderJob<'a> {
     pub frame: Frame,
     /// What else is wanted.
     pub aovs: AovSelection,
-    /// Upload and compile everything, observable or not.
-    pub needs_all: bool,
+    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    pub needs: Needs,
 }
 
 /// Where rays of a comparison come from.
@@ -108,8 +122,8 @@ pub struct CompareJob<'a> {
     pub frame: Frame,
     /// Whether an image of each system is compared with the reference as well.
     pub image: bool,
-    /// Upload and compile everything, observable or not.
-    pub needs_all: bool,
+    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    pub needs: Needs,
 }
 
 /// How far the work is.

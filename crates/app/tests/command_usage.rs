@@ -88,10 +88,17 @@ fn help_and_version_go_to_stdout() {
 #[test]
 fn info_shows_a_scene_without_a_device() {
     let folder = tempfile::tempdir().expect("a folder");
-    let output = rasray(folder.path(), "info cornell");
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let info = |line: &str| {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let text = info("info cornell");
     assert!(text.contains("triangles") && text.contains("cornell"), "{text}");
+    let needed = |text: &str| text.lines().filter(|line| line.contains("  needed  ")).count();
+    // Occlusion looks at no material.
+    assert!(needed(&text) > 0, "{text}");
+    assert_eq!(needed(&info("info cornell --integrator ao")), 0);
 }
 
 #[test]

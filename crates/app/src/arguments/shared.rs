@@ -5,6 +5,8 @@ use crate::backend::{DeviceChoice, Frame, Integrator};
 use crate::error::AppError;
 use crate::structure::Switch;
 use clap::{Args, ValueEnum};
+use rasray_scene::Scene;
+use rasray_scene::needs::{Needs, Workload};
 
 /// Integrators by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -15,6 +17,17 @@ pub enum IntegratorName {
     Ao,
     /// What the camera sees, unlit
     Raycast,
+}
+
+impl IntegratorName {
+    /// The integrator where its options are left out.
+    pub fn by_default(self) -> Integrator {
+        match self {
+            Self::Path => Integrator::Path { bounces: DEFAULT_BOUNCES },
+            Self::Ao => Integrator::AmbientOcclusion { distance: None },
+            Self::Raycast => Integrator::Raycast,
+        }
+    }
 }
 
 /// Bounces of a path unless told.
@@ -62,10 +75,12 @@ impl FrameArguments {
         if self.ao_distance.is_some() && self.integrator != IntegratorName::Ao {
             return Err(belongs("--ao-distance", "ao"));
         }
-        let integrator = match self.integrator {
-            IntegratorName::Path => Integrator::Path { bounces: self.bounces.unwrap_or(DEFAULT_BOUNCES) },
-            IntegratorName::Ao => Integrator::AmbientOcclusion { distance: self.ao_distance },
-            IntegratorName::Raycast => Integrator::Raycast,
+        let integrator = match self.integrator.by_default() {
+            Integrator::Path { bounces } => Integrator::Path { bounces: self.bounces.unwrap_or(bounces) },
+            Integrator::AmbientOcclusion { .. } => {
+                Integrator::AmbientOcclusion { distance: self.ao_distance }
+            }
+            Integrator::Raycast => Integrator::Raycast,
         };
         let Size { width, height } = self.size;
         Ok(Frame { integrator, width, height, spp: self.spp, seed: self.seed })
@@ -112,6 +127,16 @@ pub struct SceneArguments {
     /// What is uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]
     pub needs: NeedsName,
+}
+
+impl SceneArguments {
+    /// What of the scene the work needs.
+    pub fn needs(&self, scene: &Scene, workload: Workload) -> Needs {
+        match self.needs {
+            NeedsName::Observed => Needs::of(scene, workload),
+            NeedsName::All => Needs::all(),
+        }
+    }
 }
 
 /// Where the work is done.

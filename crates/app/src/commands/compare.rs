@@ -1,7 +1,7 @@
 //! `rasray compare`.
 
 use super::{check_whole, destination, keep_inputs, stop_if_requested, with_progress};
-use crate::arguments::{CompareArguments, NeedsName};
+use crate::arguments::CompareArguments;
 use crate::backend::{CompareJob, OpenBackend, RaySet};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -38,7 +38,7 @@ pub(crate) fn compare(
         rays: given.rays,
         frame,
         image: given.image,
-        needs_all: given.reading.needs == NeedsName::All,
+        needs: given.reading.needs(&loaded.scene, frame.workload()),
     };
     let runs = with_progress(interrupt, |progress| backend.compare(&job, progress))?;
     let finished = runs.len();

@@ -1,11 +1,13 @@
 //! `rasray info`.
 
+use super::integrator_name;
 use crate::arguments::InfoArguments;
-use crate::backend::{DeviceDescription, OpenBackend};
+use crate::backend::{DeviceDescription, Frame, OpenBackend};
 use crate::error::AppError;
-use crate::report::{Device, columns, grouped};
+use crate::report::{Device, bytes, columns, grouped};
 use crate::scene_source::LoadedScene;
 use crate::{scene_source, terminal};
+use rasray_scene::needs::Needs;
 use rasray_scene::{Environment, Projection, default_view};
 use std::fmt::Write;
 
@@ -15,8 +17,12 @@ use std::fmt::Write;
 /// A scene that cannot be read, or no suitable device.
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     if let Some(name) = &given.scene {
-        let loaded = scene_source::load(name)?;
+        let mut loaded = scene_source::load(name)?;
+        let frame = Frame { integrator: given.integrator.by_default(), width: 1, height: 1, spp: 1, seed: 0 };
         terminal::print(&scene_text(&loaded))?;
+        // A render would light the scene; what it needs then is what counts.
+        default_view::ensure_lit(&mut loaded.scene);
+        terminal::print(&needs_text(&Needs::of(&loaded.scene, frame.workload()), integrator_name(&frame)))?;
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
         return Ok(());
     }
@@ -72,6 +78,19 @@ fn scene_text(loaded: &LoadedScene) -> String {
         text += &columns(&rows, 3);
     }
     text
+}
+
+fn needs_text(needs: &Needs, integrator: &str) -> String {
+    let rows: Vec<_> = needs
+        .verdicts()
+        .iter()
+        .map(|verdict| {
+            let word = if verdict.needed { "needed" } else { "-" };
+            vec![verdict.term.name().to_owned(), word.to_owned(), verdict.why.clone()]
+        })
+        .collect();
+    let saved = bytes(needs.saved_bytes());
+    format!("needs of --integrator {integrator}; not uploaded: {saved}\n{}", columns(&rows, 3))
 }
 
 fn device_text(device: &Device, description: &DeviceDescription) -> String {

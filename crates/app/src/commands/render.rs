@@ -3,7 +3,7 @@
 use super::{
     bounces, check_whole, destination, integrator_name, keep_inputs, stop_if_requested, with_progress,
 };
-use crate::arguments::{NeedsName, RenderArguments};
+use crate::arguments::RenderArguments;
 use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -39,8 +39,8 @@ pub(crate) fn render(
 
     let mut backend = open(&given.device.choice())?;
     stop_if_requested(interrupt)?;
-    let needs_all = given.reading.needs == NeedsName::All;
-    let job = RenderJob { scene: &loaded.scene, camera, system: system.clone(), frame, aovs, needs_all };
+    let needs = given.reading.needs(&loaded.scene, frame.workload());
+    let job = RenderJob { scene: &loaded.scene, camera, system: system.clone(), frame, aovs, needs };
     let output = with_progress(interrupt, |progress| backend.render(&job, progress))?;
     if output.samples_done == 0 {
         return Err(AppError::interrupted(

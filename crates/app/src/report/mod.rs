@@ -7,7 +7,7 @@ pub use schema::{
     Accuracy, Counters, Device, ImageError, Memory, Pass, Report, Run, SCHEMA, SceneRecord, Timer, Times,
 };
 pub use table::table;
-pub(crate) use table::{columns, grouped};
+pub(crate) use table::{bytes, columns, grouped};
 
 use crate::scene_source::LoadedScene;
 
