@@ -256,3 +256,14 @@ fn corridor_is_closed_with_mirrors_as_far_apart_as_asked() {
     let eye = scene.cameras[0].world_from_camera.translation;
     assert!(eye.cmpgt(low).all() && eye.cmplt(high).all());
 }
+
+#[test]
+fn urns_and_drapes_stand_on_and_above_the_floor() {
+    let scene = scene("atrium");
+    let lowest = |name: &str| {
+        let mesh = scene.meshes.iter().find(|mesh| mesh.name == name).expect("mesh");
+        mesh.positions.iter().map(|point| point[1]).fold(f32::INFINITY, f32::min)
+    };
+    assert_eq!(lowest("brass"), 0.0);
+    assert!(lowest("red drapes") > 0.2 && lowest("blue drapes") > 4.5);
+}

@@ -84,8 +84,9 @@ fn common_models_have_all_their_triangles() {
 #[test]
 fn odd_files_end_as_the_table_says() {
     let Some(folder) = corpus("odd_files_end_as_the_table_says") else { return };
-    // Triangles and a warning that must be there, or a part of the error's message.
-    let table: [(&str, Result<(usize, &str), &str>); 14] = [
+    /// Triangles and a warning that must be there, or a part of the error's message.
+    type Outcome<'a> = Result<(usize, &'a str), &'a str>;
+    let table: [(&str, Outcome<'_>); 14] = [
         ("cube_compressed.obj", Ok((12, ""))),
         ("empty.obj", Ok((0, "no-triangles"))),
         ("face_in_group_name.obj", Ok((0, "no-triangles"))),

@@ -9,7 +9,7 @@
 //! | `cornell` | none | 38 |
 //! | `furnace` | `albedo` in [0, 1) (0.5), `emission` >= 0 (1), `shape` `sphere` or `box` (`sphere`) | 1,280 or 12 |
 //! | `spheres` | `triangles` from 10k to 10M (300k), also as `spheres:10k` | as asked, within 10 |
-//! | `atrium` | `detail` in [0.25, 4] (1) | about 70k at detail 1 |
+//! | `atrium` | `detail` in [0.25, 4] (1) | about 98k at detail 1 |
 //! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
 //!
 //! Counts may be written with the suffixes `k` (thousand) and `M` (million).

@@ -83,7 +83,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
     }
 
     let meshes: Vec<_> = shapes.into_iter().map(Shapes::finish).collect();
-    let camera = camera_looking_at("camera", DVec3::new(19.0, 11.0, 27.0), DVec3::ZERO, 0.8);
+    let camera = camera_looking_at("camera", DVec3::new(21.0, 12.0, 31.0), DVec3::ZERO, 0.8);
     Scene {
         name: "spheres".to_owned(),
         instances: place_each(&meshes),

@@ -39,7 +39,8 @@ pub(super) fn tiles() -> Image {
         if inset < 0.03 {
             return shade([92.0, 86.0, 78.0], 1.0, 255);
         }
-        let stone = if (column + row) % 2 == 0 { [206.0, 190.0, 162.0] } else { [128.0, 96.0, 78.0] };
+        let stone =
+            if (column + row).is_multiple_of(2) { [206.0, 190.0, 162.0] } else { [128.0, 96.0, 78.0] };
         let speck = grain((u * 256.0) as u32, (v * 256.0) as u32);
         shade(stone, 0.88 + 0.08 * grain(column + 100, row) + 0.08 * speck, 255)
     })
@@ -48,7 +49,7 @@ pub(super) fn tiles() -> Image {
 /// Woven cloth with a stripe of another colour and a diamond pattern; repeats.
 pub(super) fn cloth(name: &str, ground: [f64; 3], figure: [f64; 3]) -> Image {
     paint(name, |u, v| {
-        let thread = if ((u * 128.0) as u32 + (v * 128.0) as u32) % 2 == 0 { 1.0 } else { 0.88 };
+        let thread = if ((u * 128.0) as u32 + (v * 128.0) as u32).is_multiple_of(2) { 1.0 } else { 0.88 };
         let diamond = ((u * 4.0).fract() - 0.5).abs() + ((v * 4.0).fract() - 0.5).abs() < 0.24;
         let stripe = (v - 0.9).abs() < 0.04;
         shade(if diamond || stripe { figure } else { ground }, thread, 255)

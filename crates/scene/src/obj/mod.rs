@@ -118,20 +118,23 @@ fn translate(
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Material>, SceneError> {
     let mut materials = Vec::with_capacity(names.len());
+    let mut missing = Vec::new();
     for name in names {
         materials.push(match known.get(name) {
             Some(found) => material::translate(found, textures, warnings)?,
             None if name.is_empty() => plain_material("default"),
             None => {
-                warnings.push(Warning {
-                    kind: "missing-material",
-                    message: format!(
-                        "material `{name}` is not defined; its triangles are shown in light grey"
-                    ),
-                });
+                missing.push(name.as_str());
                 plain_material(name)
             }
         });
+    }
+    if let Some(first) = missing.first() {
+        let count = missing.len();
+        let message = format!(
+            "{count} materials are not defined, the first is `{first}`; their triangles are shown in light grey"
+        );
+        warnings.push(Warning { kind: "missing-material", message });
     }
     Ok(materials)
 }
