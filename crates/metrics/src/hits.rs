@@ -10,10 +10,10 @@ pub trait Truth {
     /// Whether rounding of a careful test may lead to another answer.
     fn is_ambiguous(&self) -> bool;
 
-    /// For ambiguous rays: whether a miss is admissible.
+    /// Whether a miss is admissible.
     fn admits_miss(&self) -> bool;
 
-    /// For ambiguous rays: whether a hit at this t, on this triangle if it is known, is admissible.
+    /// Whether a hit at this t, on this triangle if it is known, is admissible.
     fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool;
 }
 
@@ -48,6 +48,9 @@ pub struct HitConfusion {
     /// Of the rays that hit and got a hit with a known triangle: how many got the wrong one, with a
     /// t that is off by more than the tolerance. Absent if no triangle is known.
     pub wrong_primitive: Option<Rate>,
+    /// Of the rays that hit and got a hit on the right triangle (or on an unknown one): how many got a t that
+    /// rounding does not explain.
+    pub t_off: Rate,
     /// |dt| / t of the rays that hit and got a hit; absent if there are none.
     pub dt_rel: Option<Percentiles>,
     /// Of all rays: hits with a t that is NaN or infinite.
@@ -80,7 +83,7 @@ impl HitConfusion {
             } else if truth.is_ambiguous() {
                 confusion.judge_ambiguous(truth, hit);
             } else {
-                dt_rel.extend(confusion.judge(truth.hit(), hit, wrong_primitive_tolerance));
+                dt_rel.extend(confusion.judge(truth, hit, wrong_primitive_tolerance));
             }
         }
         confusion.dt_rel = Percentiles::of(&dt_rel);
@@ -99,11 +102,11 @@ impl HitConfusion {
     /// Returns |dt| / t if there is one.
     fn judge(
         &mut self,
-        truth: Option<(u32, f64)>,
+        truth: &impl Truth,
         hit: &Option<DeviceHit>,
         wrong_primitive_tolerance: f64,
     ) -> Option<f64> {
-        let Some((primitive, t)) = truth else {
+        let Some((primitive, t)) = truth.hit() else {
             count(&mut self.false_hits, hit.is_some());
             return None;
         };
@@ -116,11 +119,14 @@ impl HitConfusion {
                 && (wrong_primitive_tolerance <= 0.0 || dt_rel > wrong_primitive_tolerance);
             count(self.wrong_primitive.get_or_insert_default(), wrong);
         }
+        if hit.primitive.is_none_or(|found| found == primitive) {
+            count(&mut self.t_off, !truth.admits_hit(hit.primitive, f64::from(hit.t)));
+        }
         Some(dt_rel)
     }
 
     /// Whether a structure that finds triangles kept its promise: nothing missed, false, wrong, lost or
-    /// not finite.
+    /// not finite. (How exact t is, `dt_rel` and `t_off` say.)
     pub fn is_clean(&self) -> bool {
         let wrong = self.wrong_primitive.unwrap_or_default();
         [self.missed, self.false_hits, wrong, self.ambiguous_lost, self.ambiguous_wrong, self.non_finite]
@@ -163,7 +169,14 @@ mod tests {
         }
 
         fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool {
-            primitive.is_none_or(|p| p == 3 || p == 4) && (t - 1.0).abs() < 1e-6
+            let admits = |ids: &[u32], truth: f64| {
+                primitive.is_none_or(|p| ids.contains(&p)) && (t - truth).abs() < 1e-6
+            };
+            match self {
+                Self::Hit(primitive, t) => admits(&[*primitive], *t),
+                Self::Miss => false,
+                Self::Unsure { .. } => admits(&[3, 4], 1.0),
+            }
         }
     }
 
@@ -226,6 +239,18 @@ mod tests {
         assert_eq!(confusion.dt_rel.map(|p| (p.p50, p.max)), Some((0.0625, 0.125)));
         let confusion = HitConfusion::measure(&truths(), &hits, 0.1).expect("same length");
         assert_eq!(confusion.wrong_primitive, Some(Rate { count: 1, total: 2 }));
+    }
+
+    #[test]
+    fn depth_beyond_rounding_is_counted() {
+        let mut hits = right();
+        hits[1] = hit(2, 4.01);
+        let confusion = HitConfusion::measure(&truths(), &hits, 0.0).expect("same length");
+        assert_eq!(confusion.t_off, Rate { count: 1, total: 2 });
+        assert!(confusion.is_clean());
+        hits[1] = hit(2, 4.0);
+        let confusion = HitConfusion::measure(&truths(), &hits, 0.0).expect("same length");
+        assert_eq!(confusion.t_off, Rate { count: 0, total: 2 });
     }
 
     #[test]

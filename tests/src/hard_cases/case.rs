@@ -100,8 +100,9 @@ impl HardCase {
 
     /// Whether a structure that finds triangles may give this answer to a ray with this verdict.
     ///
-    /// For unambiguous rays the triangle must be the oracle's and t right to `t_tolerance` (relative);
-    /// for ambiguous rays the answer must be admissible. What is stated must hold as well.
+    /// For unambiguous rays the triangle must be the oracle's, and t must lie where rounding may put it, give
+    /// or take `t_tolerance` (relative); for ambiguous rays the answer must be admissible. What is
+    /// stated must hold as well.
     pub fn accepts(&self, ray: usize, verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -> bool {
         if hit.is_some_and(|hit| !hit.t.is_finite()) {
             return false;
@@ -141,10 +142,13 @@ fn oracle_accepts(verdict: &Verdict, hit: Option<DeviceHit>, t_tolerance: f64) -
         None if verdict.is_ambiguous() => verdict.admits_miss(),
         Some(hit) if verdict.is_ambiguous() => verdict.admits_hit(hit.primitive, f64::from(hit.t)),
         None => verdict.hit().is_none(),
-        Some(hit) => verdict.hit().is_some_and(|(primitive, t)| {
-            hit.primitive.is_none_or(|found| found == primitive)
-                && (f64::from(hit.t) - t).abs() <= t_tolerance * t.abs()
-        }),
+        Some(hit) => {
+            let [low, high] = verdict.t_range;
+            let (t, slack) = (f64::from(hit.t), t_tolerance * f64::from(hit.t).abs());
+            verdict.hit().is_some_and(|(primitive, _)| hit.primitive.is_none_or(|found| found == primitive))
+                && low - slack <= t
+                && t <= high + slack
+        }
     }
 }
 

@@ -27,6 +27,7 @@ pub use verdict::{Candidate, Occlusion, Outcome, Verdict};
 use bvh::Bvh;
 use contact::{Contact, ContactTest};
 use rayon::prelude::*;
+use verdict::NO_RANGE;
 
 /// Coordinates beyond this magnitude have squares that single precision cannot hold; triangles that
 /// use them are dropped, as loaders must do too. Metres.
@@ -46,6 +47,7 @@ pub struct Oracle<'a> {
     bvh: Option<Bvh>,
     accept: Option<Accept<'a>>,
     dropped: usize,
+    collapsed: usize,
 }
 
 impl std::fmt::Debug for Oracle<'_> {
@@ -54,6 +56,7 @@ impl std::fmt::Debug for Oracle<'_> {
             .debug_struct("Oracle")
             .field("triangles", &self.triangles.len())
             .field("dropped", &self.dropped)
+            .field("collapsed", &self.collapsed)
             .finish_non_exhaustive()
     }
 }
@@ -62,7 +65,7 @@ impl<'a> Oracle<'a> {
     /// Takes posed positions (metres, as uploaded) and three indices a triangle.
     ///
     /// Triangles with a coordinate that is not finite or beyond [`COORDINATE_LIMIT`] are never hit;
-    /// they keep their id and are counted in [`Oracle::dropped`]. `accept` is the alpha test; `None`
+    /// they are counted in [`Oracle::dropped`], and the ids of others do not change. `accept` is the alpha test; `None`
     /// accepts everything.
     ///
     /// # Errors
@@ -103,6 +106,7 @@ impl<'a> Oracle<'a> {
         }
         let mut triangles = Vec::with_capacity(count);
         let mut primitives = Vec::with_capacity(count);
+        let (mut dropped, mut collapsed) = (0, 0);
         for (primitive, corners) in indices.as_chunks::<3>().0.iter().enumerate() {
             let mut triangle = [[0.0_f32; 3]; 3];
             for (vertex, &index) in triangle.iter_mut().zip(corners) {
@@ -112,8 +116,14 @@ impl<'a> Oracle<'a> {
                     positions: positions.len(),
                 })?;
             }
+            let [a, b, c] = triangle;
             // Written so that NaN fails.
-            if triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT) {
+            if !triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT) {
+                dropped += 1;
+            } else if a == b || b == c || c == a {
+                // However a test rounds, equal vertices round equally: the area stays zero.
+                collapsed += 1;
+            } else {
                 triangles.push(triangle);
                 primitives.push(primitive as u32);
             }
@@ -123,10 +133,10 @@ impl<'a> Oracle<'a> {
             Search::Automatic => triangles.len() > BRUTE_FORCE_LIMIT,
         };
         let bvh = hierarchy.then(|| Bvh::build(&triangles));
-        Ok(Self { dropped: count - triangles.len(), triangles, primitives, bvh, accept })
+        Ok(Self { triangles, primitives, bvh, accept, dropped, collapsed })
     }
 
-    /// Triangles that can be hit or are degenerate.
+    /// Triangles that rays are tested against: those neither dropped nor collapsed.
     pub fn triangle_count(&self) -> usize {
         self.triangles.len()
     }
@@ -134,6 +144,11 @@ impl<'a> Oracle<'a> {
     /// Triangles left out because a coordinate is not finite or too large.
     pub fn dropped(&self) -> usize {
         self.dropped
+    }
+
+    /// Triangles left out because two of their vertices are the same.
+    pub fn collapsed(&self) -> usize {
+        self.collapsed
     }
 
     /// The nearest hit of a ray with `t_min < t < t_max`. Hits at equal t go to the lowest id.
@@ -200,18 +215,19 @@ impl<'a> Oracle<'a> {
         let nearest_t = hits().map(|(_, contact)| contact.t).fold(f64::INFINITY, f64::min);
         // Two planes that meet in the ray's own point give t with a relative error below 2^-38 each.
         let tie = nearest_t + nearest_t.abs() * 2.0_f64.powi(-36);
-        let outcome = match hits().find(|(_, contact)| contact.t <= tie) {
-            Some((slot, contact)) => Outcome::Hit {
-                primitive: self.primitives[*slot],
-                t: contact.t,
-                barycentrics: contact.barycentrics,
-            },
-            None => Outcome::Miss,
+        let (outcome, t_range) = match hits().find(|(_, contact)| contact.t <= tie) {
+            Some((slot, contact)) => {
+                let (t, barycentrics) = (contact.t, contact.barycentrics);
+                let primitive = self.primitives[*slot];
+                (Outcome::Hit { primitive, t, barycentrics }, [contact.t_low, contact.t_high])
+            }
+            None => (Outcome::Miss, NO_RANGE),
         };
         if let [(_, contact)] = contacts
             && contact.certain
         {
-            return Verdict { outcome, ambiguous: false, miss_allowed: false, candidates: Vec::new() };
+            let candidates = Vec::new();
+            return Verdict { outcome, t_range, ambiguous: false, miss_allowed: false, candidates };
         }
         let certain = contacts.iter().any(|(_, contact)| contact.certain);
         let candidates = contacts
@@ -225,7 +241,7 @@ impl<'a> Oracle<'a> {
             .collect();
         let miss_allowed = !certain
             && !coverage::covered(contacts.iter().map(|(slot, contact)| (&self.triangles[*slot], contact)));
-        Verdict { outcome, ambiguous: true, miss_allowed, candidates }
+        Verdict { outcome, t_range, ambiguous: true, miss_allowed, candidates }
     }
 }
 

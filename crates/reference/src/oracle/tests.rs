@@ -369,10 +369,10 @@ fn bad_input_is_refused_or_dropped() {
     assert_eq!(refused, Err(OracleError::IncompleteTriangle { indices: 2 }));
     let refused = Oracle::new(&positions, &[0, 1, 5], None).map(|_| ());
     assert_eq!(refused, Err(OracleError::IndexOutOfRange { primitive: 0, index: 5, positions: 5 }));
-    let oracle = Oracle::new(&positions, &[0, 1, 2, 0, 1, 4, 0, 1, 3], None).expect("well formed");
-    assert_eq!((oracle.dropped(), oracle.triangle_count()), (2, 1));
+    let oracle = Oracle::new(&positions, &[0, 1, 2, 0, 1, 4, 0, 1, 0, 0, 1, 3], None).expect("well formed");
+    assert_eq!((oracle.dropped(), oracle.collapsed(), oracle.triangle_count()), (2, 1, 1));
     let ray = Ray::new([0.25, 0.25, -1.0], [0.0, 0.0, 1.0]);
-    assert_eq!(oracle.closest(&ray).outcome.hit(), Some((2, 1.0)));
+    assert_eq!(oracle.closest(&ray).outcome.hit(), Some((3, 1.0)));
     for bad in [f32::NAN, f32::INFINITY] {
         let mut invalid = [ray; 3];
         invalid[0].origin[1] = bad;

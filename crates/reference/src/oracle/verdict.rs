@@ -42,20 +42,32 @@ pub struct Candidate {
 pub struct Verdict {
     /// In exact arithmetic.
     pub outcome: Outcome,
+    /// Interval of the t that a careful single-precision test may report for the triangle of the
+    /// outcome; empty (`[inf, -inf]`) for a miss.
+    pub t_range: [f64; 2],
     /// Single precision may give another answer: the ray passes within rounding of an edge that
     /// matters, two hits are within rounding of each other, or a hit is within rounding of the end
     /// of the range.
     pub ambiguous: bool,
-    /// Only for ambiguous rays: a miss is admissible too. False if some hit is certain, or if the
+    /// A miss is admissible. For ambiguous rays false if some hit is certain, or if the
     /// candidates meet in shared edges all around the ray, so that a watertight test finds one.
     pub miss_allowed: bool,
     /// Only for ambiguous rays: the admissible triangles by ascending id.
     pub candidates: Vec<Candidate>,
 }
 
+/// Holds no t.
+pub(super) const NO_RANGE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
 impl Verdict {
     pub(super) fn miss() -> Self {
-        Self { outcome: Outcome::Miss, ambiguous: false, miss_allowed: true, candidates: Vec::new() }
+        Self {
+            outcome: Outcome::Miss,
+            t_range: NO_RANGE,
+            ambiguous: false,
+            miss_allowed: true,
+            candidates: Vec::new(),
+        }
     }
 }
 
@@ -73,11 +85,12 @@ impl rasray_metrics::Truth for Verdict {
     }
 
     fn admits_hit(&self, primitive: Option<u32>, t: f64) -> bool {
-        self.candidates.iter().any(|candidate| {
-            primitive.is_none_or(|primitive| primitive == candidate.primitive)
-                && candidate.t_low <= t
-                && t <= candidate.t_high
-        })
+        let admits =
+            |id: u32, low: f64, high: f64| primitive.is_none_or(|p| p == id) && low <= t && t <= high;
+        if self.ambiguous {
+            return self.candidates.iter().any(|c| admits(c.primitive, c.t_low, c.t_high));
+        }
+        self.hit().is_some_and(|(primitive, _)| admits(primitive, self.t_range[0], self.t_range[1]))
     }
 }
 
