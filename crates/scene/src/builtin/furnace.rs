@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::cornell::{diffuse, place_each};
 use super::shape::{Icosphere, Shapes};
 use crate::default_view::camera_looking_at;
-use crate::{Material, Scene};
+use crate::{Material, Mesh, Scene};
 
 /// Parameters of [`furnace`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,7 @@ impl Default for Furnace {
 /// A closed Lambertian room around the camera, fronts inwards. With emission E and albedo a, a path
 /// of at most n scatterings sees E (1 - a^(n+1)) / (1 - a) in every direction.
 ///
+/// Normals are those of the triangles, so the law holds for the sphere's facets exactly.
 /// The camera stands away from the centre, so that no symmetry of the room sends its rays through
 /// vertices or edges.
 pub fn furnace(parameters: Furnace) -> Scene {
@@ -48,7 +49,8 @@ pub fn furnace(parameters: Furnace) -> Scene {
         // Corners swapped: what was outside is inside.
         FurnaceShape::Box => shapes.block(DVec3::ONE, DVec3::NEG_ONE, [true; 6], 0.5),
     }
-    let meshes = vec![shapes.finish()];
+    // Flat: an interpolated normal would send some light through the wall, and energy would be lost.
+    let meshes = vec![Mesh { normals: None, ..shapes.finish() }];
     let eye = DVec3::new(0.11, 0.07, 0.23);
     let camera = camera_looking_at("camera", eye, DVec3::new(-0.4, 0.19, -0.9), 1.0);
     Scene {
