@@ -1,4 +1,4 @@
-// Path tracing with light sampling, one step a closest hit.
+// What: path tracing with light sampling, one step a closest hit.
 // Reads: scene tables through scene/*.glsl. Writes: nothing but its state argument.
 // Source: docs/shading.md, "Paths"; Veach 1997 for the power heuristic.
 #ifndef INTEGRATORS_PATH_GLSL
@@ -37,9 +37,9 @@ void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked)
     vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_LIGHT_KIND));
     LightSample light = light_sample(s, random);
     if (light.flags == 0u) return;
-    vec3 value = bsdf_evaluate(s, o, light.direction) * abs(dot(s.normal, light.direction));
-    float weight = (light.flags & SAMPLE_DELTA) != 0u
-        ? 1.0 : path_power_heuristic(light.pdf, bsdf_pdf(s, o, light.direction));
+    BsdfValue towards = bsdf_towards(bsdf_terms(s, o), s, light.direction);
+    vec3 value = towards.value * abs(dot(s.normal, light.direction));
+    float weight = (light.flags & SAMPLE_DELTA) != 0u ? 1.0 : path_power_heuristic(light.pdf, towards.pdf);
     vec3 pending = state.throughput * value * light.radiance * (weight / light.pdf);
     if (!(largest_component(pending) > 0.0)) return;
     asked.pending = pending;

@@ -1,7 +1,7 @@
-// The scene tables: the only storage buffers of shading, and the functions that read them.
+// What: the scene tables: the only storage buffers of shading, and the functions that read them.
 // Reads: set SCENE_SET, bindings 0 to 11. Writes: nothing. Source: docs/shading.md, "Tables".
 // Indices come from tables that were validated when they were packed; ids that come from a
-// structure are clamped here, so that a corrupt hit cannot read out of bounds.
+// structure are checked here, so that a corrupt hit cannot read out of bounds.
 #ifndef SCENE_ACCESSORS_GLSL
 #define SCENE_ACCESSORS_GLSL
 
@@ -28,7 +28,7 @@ Frame scene_frame() { return scene_frame_table; }
 uint random_seed() { return scene_frame_table.seed; }
 
 uint scene_draw_of(uint primitive) {
-    return scene_triangle_draw_table[min(primitive, scene_frame_table.triangle_count - 1u)];
+    return primitive < scene_frame_table.triangle_count ? scene_triangle_draw_table[primitive] : 0u;
 }
 DrawShading scene_draw_shading(uint draw) { return scene_draw_table[draw]; }
 uint scene_draw_flags(uint draw) { return scene_draw_table[draw].flags; }

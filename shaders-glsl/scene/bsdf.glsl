@@ -1,4 +1,4 @@
-// How a surface scatters: value, density and sampling of its lobes.
+// What: how a surface scatters: value, density and sampling of its lobes.
 // Reads: materials (specular colour only). Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_GLSL
@@ -27,6 +27,11 @@ struct BsdfTerms {
     bool mirror;
     mat3 frame;          // world from local
     vec3 o;              // local
+};
+
+struct BsdfValue {
+    vec3 value;          // 1/sr, cosine not included
+    float pdf;           // 1/sr with which bsdf_sample answers this direction
 };
 
 BsdfTerms bsdf_terms(Surface s, vec3 o) {
@@ -137,33 +142,31 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
     pdf = distribution * ggx_visibility_one(o.z, terms.alpha) * 4.0 * cosine_o * jacobian;
 }
 
-// 1/sr, cosine not included; delta lobes are left out. o and i point away from the surface.
-vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) {
-    BsdfTerms terms = bsdf_terms(s, o);
+// Value and density towards i; o and i are unit and point away from the surface. Delta lobes are left out.
+BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
+    BsdfValue result = BsdfValue(vec3(0.0), 0.0);
     vec3 local = i * terms.frame;
     int side = bsdf_side(s, i, local);
-    if (side == 0 || terms.o.z <= 0.0) return vec3(0.0);
-    vec3 value = side > 0 ? bsdf_diffuse(terms, terms.o.z, local.z) : vec3(0.0);
-    if (terms.mirror) return value;
-    float cosine, facets, pdf;
-    bsdf_facets(terms, local, side, cosine, facets, pdf);
-    return value + facets * (side > 0 ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine));
-}
-
-// 1/sr with which bsdf_sample answers i; delta lobes are left out.
-float bsdf_pdf(Surface s, vec3 o, vec3 i) {
-    BsdfTerms terms = bsdf_terms(s, o);
-    vec3 local = i * terms.frame;
-    int side = bsdf_side(s, i, local);
-    if (side == 0 || terms.o.z <= 0.0) return 0.0;
+    if (side == 0 || terms.o.z <= 0.0) return result;
     float diffuse = bsdf_diffuse_probability(terms);
-    float density = side > 0 ? diffuse * local.z / MICROFACET_PI : 0.0;
-    if (terms.mirror) return density;
+    if (side > 0) {
+        result.value = bsdf_diffuse(terms, terms.o.z, local.z);
+        result.pdf = diffuse * local.z / MICROFACET_PI;
+    }
+    if (terms.mirror) return result;
     float cosine, facets, pdf;
     bsdf_facets(terms, local, side, cosine, facets, pdf);
     float reflect_share = bsdf_reflect_probability(terms, cosine);
-    return density + (1.0 - diffuse) * pdf * (side > 0 ? reflect_share : 1.0 - reflect_share);
+    result.value += facets * (side > 0 ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine));
+    result.pdf += (1.0 - diffuse) * pdf * (side > 0 ? reflect_share : 1.0 - reflect_share);
+    return result;
 }
+
+// 1/sr, cosine not included.
+vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).value; }
+
+// 1/sr with which bsdf_sample answers i.
+float bsdf_pdf(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).pdf; }
 
 // i refracted at the facet, or straight on through a thin wall. False beyond the critical angle.
 bool bsdf_refract(BsdfTerms terms, vec3 h, out vec3 i) {
@@ -214,11 +217,11 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
     vec3 world = normalize(terms.frame * local);
     // A facet can send light through the surface as a whole: single scattering loses it.
     if (bsdf_side(s, world, local) != expected) return chosen;
-    float pdf = bsdf_pdf(s, o, world);
-    if (!(pdf > 0.0) || pdf > 1.0e30) return chosen;
-    vec3 weight = bsdf_evaluate(s, o, world) * (abs(dot(world, s.normal)) / pdf);
+    BsdfValue towards = bsdf_towards(terms, s, world);
+    if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return chosen;
+    vec3 weight = towards.value * (abs(dot(world, s.normal)) / towards.pdf);
     if (!(largest_component(weight) > 0.0)) return chosen;
-    return BsdfSample(world, pdf, weight, flags);
+    return BsdfSample(world, towards.pdf, weight, flags);
 }
 
 #endif

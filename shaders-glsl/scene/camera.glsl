@@ -1,4 +1,4 @@
-// Rays of a pixel.
+// What: rays of a pixel.
 // Reads: frame. Writes: nothing. Source: docs/shading.md, "Functions".
 #ifndef SCENE_CAMERA_GLSL
 #define SCENE_CAMERA_GLSL

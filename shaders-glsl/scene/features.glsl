@@ -1,4 +1,4 @@
-// What of shading a module contains. An entry may set each macro, before it includes anything, to a
+// What: the parts of shading a module contains. An entry may set each macro, before it includes anything, to a
 // constant or to the name of a specialisation constant; unset means everything.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Functions".
 #ifndef SCENE_FEATURES_GLSL

@@ -1,4 +1,4 @@
-// Random numbers: one integer-exact function of pixel, sample, dimension and seed.
+// What: random numbers: one integer-exact function of pixel, sample, dimension and seed.
 // Reads: random_seed(). Writes: nothing. Source: docs/shading.md, "Random numbers"; pcg4d of
 // Jarzynski and Olano, "Hash functions for GPU rendering", JCGT 9(3), 2020.
 #ifndef SCENE_RANDOM_GLSL

@@ -1,4 +1,4 @@
-// Which random number is used for what. One sample of one pixel draws dimension d at most once.
+// What: which random number is used for what. One sample of one pixel draws dimension d at most once.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/shading.md, "Random numbers".
 #ifndef SCENE_RANDOM_DIMENSIONS_GLSL

@@ -1,4 +1,4 @@
-// Textures sampled from one buffer of texels: wrapping, nearest, bilinear and trilinear filtering.
+// What: textures sampled from one buffer of texels: wrapping, nearest, bilinear and trilinear filtering.
 // Reads: textures, texels. Writes: nothing. Source: docs/shading.md, "Textures".
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL

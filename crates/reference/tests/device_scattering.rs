@@ -1,0 +1,214 @@
+//! The scattering functions and random numbers of the device against those of this crate, call by call.
+
+use glam::Vec3;
+use rasray_gpu::{Access, BufferUsage, ComputePipelineDesc, Device, DeviceDesc};
+use rasray_reference::shading::{
+    BsdfSample, Surface, bsdf_evaluate, bsdf_pdf, bsdf_sample,
+    random::{RandomStream, random_dimension},
+};
+use rasray_shaders_glsl::constants::scene::{SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID};
+
+const SEED: u32 = 77;
+const CASES: u32 = 6000;
+/// Words of a case and of a result in the kernel.
+const CASE_WORDS: usize = 41;
+const RESULT_WORDS: usize = 16;
+/// Words of the frame and of a material, and where the fields lie that are read.
+const FRAME_WORDS: usize = 30;
+const FRAME_SEED: usize = 19;
+const MATERIAL_WORDS: usize = 64;
+const MATERIAL_SPECULAR_COLOR: usize = 16;
+const SPECULAR_COLOR: Vec3 = Vec3::new(0.2, 0.9, 1.0);
+
+struct Case {
+    surface: Surface,
+    o: Vec3,
+    i: Vec3,
+    random: RandomStream,
+    dimension: u32,
+}
+
+fn direction([_, _, u, v]: [f32; 4]) -> Vec3 {
+    let cosine = 1.0 - 2.0 * u;
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let azimuth = 2.0 * std::f32::consts::PI * v;
+    Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine)
+}
+
+fn cases() -> Vec<Case> {
+    let make = |pixel: u32| {
+        let random = RandomStream { seed: 5, pixel, sample: 0 };
+        let pick = |dimension: u32, choices: &[f32]| {
+            choices[(random.float(dimension) * choices.len() as f32) as usize]
+        };
+        let geometric_normal = direction(random.four(10));
+        let towards = |dimension: u32| {
+            let d = direction(random.four(dimension));
+            if d.dot(geometric_normal) < 0.0 { -d } else { d }
+        };
+        let o = towards(20);
+        let normal = if random.float(0) < 0.5 {
+            geometric_normal
+        } else {
+            (geometric_normal * 2.0 + towards(30)).normalize()
+        };
+        let normal = if normal.dot(o) < 0.01 { geometric_normal } else { normal };
+        let material = (random.float(1) < 0.5).then_some(0);
+        let surface = Surface {
+            geometric_normal,
+            normal,
+            base_color: Vec3::from_slice(&random.four(40)[..3]),
+            metallic: pick(2, &[0.0, 0.0, 0.4, 1.0]),
+            roughness: pick(3, &[0.0, 0.1, 0.35, 0.7, 1.0]),
+            transmission: pick(4, &[0.0, 0.5, 1.0]),
+            ior: pick(5, &[1.0, 1.33, 1.5, 2.4]),
+            thickness: pick(6, &[0.0, 0.3]),
+            specular: pick(7, &[0.0, 0.5, 1.0]),
+            specular_color: if material.is_some() { SPECULAR_COLOR } else { Vec3::ONE },
+            front: random.float(8) < 0.5,
+            material,
+            ..Surface::default()
+        };
+        let stream = RandomStream { seed: SEED, pixel: pixel * 977, sample: pixel % 61 };
+        let i = if pixel.is_multiple_of(2) { direction(random.four(50)) } else { towards(50) };
+        Case { surface, o, i, random: stream, dimension: random_dimension(pixel % 5, 4) }
+    };
+    (0..CASES).map(make).collect()
+}
+
+fn words(case: &Case) -> Vec<u32> {
+    let s = &case.surface;
+    let mut words = Vec::with_capacity(CASE_WORDS);
+    let bits = |values: &[f32]| values.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+    words.extend(bits(&[s.position.x, s.position.y, s.position.z, s.position_error]));
+    words.extend(bits(&s.geometric_normal.to_array()));
+    words.push(u32::MAX);
+    words.extend(bits(&s.normal.to_array()));
+    words.push(31);
+    words.extend(bits(&s.base_color.to_array()));
+    words.extend(bits(&[s.metallic]));
+    words.extend(bits(&s.emission.to_array()));
+    words.extend(bits(&[s.roughness, s.transmission, s.ior, s.opacity, s.thickness]));
+    words.extend(bits(&[1.0, 1.0, 1.0, f32::INFINITY, s.specular]));
+    words.push(u32::from(s.front));
+    words.extend(bits(&[s.t]));
+    words.push(s.material.map_or(u32::MAX, |material| material as u32));
+    words.extend(bits(&case.o.to_array()));
+    words.push(case.random.pixel);
+    words.extend(bits(&case.i.to_array()));
+    words.extend([case.random.sample, case.dimension]);
+    assert_eq!(words.len(), CASE_WORDS);
+    words
+}
+
+fn run(cases: &[Case]) -> Vec<u32> {
+    let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
+    let device = Device::create(&desc).expect("this test needs a Vulkan device and the validation layer");
+    let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
+    let input: Vec<u32> = cases.iter().flat_map(words).collect();
+    let input = device.create_buffer_with("cases", usage, &input).expect("buffer");
+    let output = vec![0_u32; cases.len() * RESULT_WORDS];
+    let output = device.create_buffer_with("results", usage, &output).expect("buffer");
+    let mut frame = vec![0_u32; FRAME_WORDS];
+    frame[FRAME_SEED] = SEED;
+    let frame = device.create_buffer_with("frame", usage, &frame).expect("buffer");
+    let mut material = vec![0_u32; MATERIAL_WORDS];
+    for (word, value) in material[MATERIAL_SPECULAR_COLOR..].iter_mut().zip(SPECULAR_COLOR.to_array()) {
+        *word = value.to_bits();
+    }
+    let material = device.create_buffer_with("materials", usage, &material).expect("buffer");
+    let empty = device.create_buffer_with("empty", usage, &[0_u32; 64]).expect("buffer");
+
+    let own_layout = device.create_set_layout("cases", 2).expect("layout");
+    let scene_layout = device.create_set_layout("scene", 12).expect("layout");
+    let own = device.create_binding_set(&own_layout, "cases", &[&input, &output]).expect("set");
+    let mut tables = [&empty; 12];
+    tables[0] = &frame;
+    tables[5] = &material;
+    let scene = device.create_binding_set(&scene_layout, "scene", &tables).expect("set");
+    let pipeline = device
+        .create_compute_pipeline(&ComputePipelineDesc {
+            name: "scene/test_scattering",
+            spirv: rasray_shaders_glsl::spirv("scene/test_scattering"),
+            sets: &[&own_layout, &scene_layout],
+            push_constant_bytes: 0,
+            constants: &[],
+        })
+        .expect("pipeline");
+    device
+        .submit(|recorder| {
+            recorder.bind_compute(&pipeline);
+            recorder.bind_sets(0, &[&own, &scene]);
+            recorder.dispatch([(cases.len() as u32).div_ceil(64), 1, 1]);
+            recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ);
+        })
+        .expect("dispatch");
+    let results = device.download_as::<u32>(&output, 0, cases.len() * RESULT_WORDS).expect("results");
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+    results
+}
+
+fn close(a: f32, b: f32, relative: f32) -> bool {
+    (a - b).abs() <= relative * a.abs().max(b.abs()) + 1.0e-5
+}
+
+fn flags(sample: &BsdfSample) -> u32 {
+    SAMPLE_VALID
+        | if sample.delta { SAMPLE_DELTA } else { 0 }
+        | if sample.transmitted { SAMPLE_TRANSMITTED } else { 0 }
+}
+
+/// Cases whose results are not those of the reference for `change`d surfaces; also how many were
+/// scattered at all, and how many of these through the surface.
+fn compare(cases: &[Case], results: &[u32], change: impl Fn(Surface) -> Surface) -> (Vec<usize>, u32, u32) {
+    let (mut differ, mut sampled, mut transmitted) = (Vec::new(), 0, 0);
+    for (index, (case, result)) in cases.iter().zip(results.chunks_exact(RESULT_WORDS)).enumerate() {
+        let float = |word: usize| f32::from_bits(result[word]);
+        let vec3 = |word: usize| Vec3::new(float(word), float(word + 1), float(word + 2));
+        let random = case.random.four(case.dimension);
+        assert_eq!(random.map(f32::to_bits), result[12..16], "random numbers are exact");
+
+        let surface = change(case.surface);
+        let value = bsdf_evaluate(&surface, case.o, case.i);
+        let same_value = (0..3).all(|channel| close(value[channel], vec3(8)[channel], 2.0e-3));
+        let same_pdf = close(bsdf_pdf(&surface, case.o, case.i), float(11), 2.0e-3);
+        let same_sample = match bsdf_sample(&surface, case.o, random) {
+            None => result[7] == 0,
+            Some(sample) => {
+                sampled += 1;
+                transmitted += u32::from(sample.transmitted);
+                flags(&sample) == result[7]
+                    && (sample.direction - vec3(0)).length() < 1.0e-3
+                    && close(sample.pdf, float(3), 2.0e-2)
+                    && (0..3).all(|channel| close(sample.weight[channel], vec3(4)[channel], 5.0e-3))
+            }
+        };
+        if !(same_value && same_pdf && same_sample) {
+            differ.push(index);
+        }
+    }
+    (differ, sampled, transmitted)
+}
+
+#[test]
+fn scattering_on_the_device_is_that_of_the_reference() {
+    let cases = cases();
+    let results = run(&cases);
+    let (differ, sampled, transmitted) = compare(&cases, &results, |surface| surface);
+    assert!(sampled > CASES / 2 && transmitted > CASES / 10, "{sampled} {transmitted}: too few to tell");
+    // A number next to a threshold, or a half vector near zero, may fall either way.
+    assert!(differ.len() < 12, "{} cases differ: {:?}", differ.len(), &differ[..differ.len().min(8)]);
+
+    // Surfaces that are one percent off are told apart.
+    type Change = fn(Surface) -> Surface;
+    let mutants: [Change; 4] = [
+        |surface| Surface { roughness: surface.roughness * 0.99, ..surface },
+        |surface| Surface { ior: surface.ior * 1.01, ..surface },
+        |surface| Surface { base_color: surface.base_color * 0.99, ..surface },
+        |surface| Surface { front: !surface.front, ..surface },
+    ];
+    for (number, mutant) in mutants.into_iter().enumerate() {
+        let (differ, ..) = compare(&cases, &results, mutant);
+        assert!(differ.len() > 200, "mutant {number}: only {} cases differ", differ.len());
+    }
+}

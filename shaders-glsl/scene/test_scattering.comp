@@ -1,0 +1,39 @@
+// What: scatters light at given surfaces and draws random numbers, for tests.
+// Reads: cases, the seed of the frame. Writes: results.
+// Source: docs/shading.md, "Reflection and transmission", "Random numbers".
+#version 460
+#include "contract/extensions.glsl"
+#include "scene/bsdf.glsl"
+#include "scene/random.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Case {
+    Surface surface;
+    vec3 o;
+    uint pixel;         // key of the random numbers, as are the next two
+    vec3 i;             // a direction to evaluate beside the sampled one
+    uint sample_index;
+    uint dimension;
+};
+
+struct Result {
+    BsdfSample chosen;
+    vec3 value;         // towards i
+    float pdf;
+    vec4 random;
+};
+
+layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { Case cases[]; };
+layout(set = 0, binding = 1, scalar) writeonly buffer ResultBuffer { Result results[]; };
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= cases.length()) {
+        return;
+    }
+    Case c = cases[index];
+    vec4 random = random_vec4(c.pixel, c.sample_index, c.dimension);
+    results[index] = Result(bsdf_sample(c.surface, c.o, random), bsdf_evaluate(c.surface, c.o, c.i),
+                            bsdf_pdf(c.surface, c.o, c.i), random);
+}
