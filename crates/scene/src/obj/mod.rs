@@ -9,8 +9,20 @@
 //! The v coordinate is turned over: OBJ counts from the bottom of the image, [`crate::Image`] from
 //! the top. Bytes that are not UTF-8 are tolerated in names.
 //!
-//! How materials are translated is told at [`mtl`](self::mtl)'s items; in short: `Kd` base colour,
-//! `Ks` dielectric specular reflection, `Ns` roughness, `Ke` emission, `d` opacity, `map_d` alpha mask.
+//! Materials become metallic-roughness ones. Colours are taken as linear and limited to [0, 1], emission to at least 0.
+//!
+//! | MTL | here |
+//! |---|---|
+//! | `Kd` (0.8) | base colour; black counts as white where a `map_Kd` is given |
+//! | `Ks` (black) | dielectric specular: strength is the largest channel, colour the ratio to it |
+//! | `Ns` (0) | perceptual roughness (2 / (Ns + 2))^(1/4): the Phong lobe whose width is that of a microfacet distribution with alpha^2 = 2 / (Ns + 2) |
+//! | `Ke`, `map_Ke` | emission; a map without `Ke` has factor 1 |
+//! | `d`, `Tr` | opacity below 1 blends |
+//! | `map_d` | alpha mask at one half, together with `map_Kd` in one image |
+//! | `Ni` | index of refraction, 1.5 unless it is in [1, 10] |
+//! | `illum` 4, 6, 7, 9 | transmits, coloured by `Tf` (white); 6 and 7 refract, the others are thin walls |
+//! | `illum` 3, 5, 8 with black `Kd` and a `Ks` | a mirror: metal of colour `Ks` |
+//! | `norm` | normal map |
 
 mod geometry;
 mod material;
