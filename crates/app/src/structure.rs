@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 /// A system the command can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
@@ -28,18 +29,8 @@ pub enum Preset {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Storage {
-    /// Linked list
-    Ll,
-    /// Doubly linked list
-    Dll,
-    /// Linked list per depth bucket
-    Llb,
     /// Doubly linked list per depth bucket
     Dllb,
-    /// Contiguous arrays, counted first
-    Sb,
-    /// Pages of fragments
-    Paged,
 }
 
 /// What a fragment carries.
@@ -50,8 +41,6 @@ pub enum Payload {
     Index,
     /// Surface attributes, quantised as published
     Attributes,
-    /// The plane of the primitive
-    Plane,
 }
 
 /// How a ray steps through cells.
@@ -60,12 +49,8 @@ pub enum Payload {
 pub enum March {
     /// A fixed number of samples along the ray
     Samples,
-    /// Every cell, by accumulated increments
-    Dda,
-    /// Every cell, by closed forms in t
+    /// Every cell that the ray crosses
     Exact,
-    /// Every cell that a pyramid of depth bounds cannot rule out
-    Pyramid,
 }
 
 /// When a fragment is a hit.
@@ -76,9 +61,7 @@ pub enum Accept {
     Interval,
     /// The same with a thickness behind the fragment
     Thickness,
-    /// Its depth range over the cell meets the ray's
-    Slope,
-    /// The ray meets the fragment's plane within the cell
+    /// The ray meets the plane of its triangle within the cell; needs the payload index
     Plane,
 }
 
@@ -90,8 +73,6 @@ pub enum Coverage {
     Exact,
     /// Whatever the rasterizer covers
     Hardware,
-    /// Any overlap of the cell
-    Conservative,
 }
 
 /// Which projections are drawn.
@@ -100,12 +81,6 @@ pub enum Coverage {
 pub enum Views {
     /// Six faces around the centre
     Cube,
-    /// Six faces and the camera's view
-    #[value(name = "cube+camera")]
-    #[serde(rename = "cube+camera")]
-    CubeAndCamera,
-    /// The camera's view alone
-    Camera,
 }
 
 /// How shaders reach a structure's memory.
@@ -134,11 +109,11 @@ pub enum Switch {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct StructureOptions {
     /// Cells along each side of a view
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
     /// Depth buckets per cell
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=32))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckets: Option<u32>,
     /// How fragments are kept per cell
@@ -153,11 +128,15 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub march: Option<March>,
+    /// With --march samples: most samples on a face
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65535))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub samples: Option<u32>,
     /// When a fragment is a hit
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accept: Option<Accept>,
-    /// Metres behind a fragment that count as its inside
+    /// With --accept thickness: metres behind a fragment that count as its inside
     #[arg(long, value_name = "METRES", value_parser = crate::arguments::values::not_negative)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f32>,
@@ -188,26 +167,24 @@ pub struct StructureOptions {
 }
 
 impl StructureOptions {
-    /// The options that were given, by name, as they appear in reports.
-    pub fn given(&self) -> serde_json::Map<String, serde_json::Value> {
-        match serde_json::to_value(self) {
-            Ok(serde_json::Value::Object(map)) => map,
-            // A struct of plain values always becomes an object.
-            _ => serde_json::Map::new(),
-        }
+    /// The options that were given, by name, as numbers and words.
+    pub fn given(&self) -> Map<String, Value> {
+        // By way of text, where a number keeps the digits that were typed: 0.1, not 0.10000000149.
+        let text = serde_json::to_string(self).expect("numbers and words");
+        serde_json::from_str(&text).expect("an object of what was given")
     }
 
     /// The options that were given and whose names `keep` accepts.
     pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
         let map = self.given().into_iter().filter(|(name, _)| keep(name)).collect();
-        serde_json::from_value(serde_json::Value::Object(map)).expect("options read back what they wrote")
+        serde_json::from_value(Value::Object(map)).expect("options read back what they wrote")
     }
 
     /// These options with those of `over` in place of their own where it has any.
     pub fn overlaid(&self, over: &Self) -> Self {
         let mut map = self.given();
         map.extend(over.given());
-        serde_json::from_value(serde_json::Value::Object(map)).expect("options read back what they wrote")
+        serde_json::from_value(Value::Object(map)).expect("options read back what they wrote")
     }
 }
 
@@ -245,5 +222,6 @@ mod tests {
         let kept = both.filtered(|name| name != "buckets");
         assert_eq!((kept.buckets, kept.sort, kept.thickness), (None, Some(Switch::On), Some(0.1)));
         assert_eq!(kept.given().len(), 2);
+        assert_eq!(kept.given()["thickness"].to_string(), "0.1");
     }
 }

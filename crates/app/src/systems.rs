@@ -1,51 +1,11 @@
-//! Which system has which presets and options, and how options given once reach several systems.
+//! From the words of the command line to rows of the registry: which system has which presets and
+//! options, and how options given once reach several systems.
 
 use crate::error::AppError;
 use crate::structure::{Preset, StructureOptions, SystemName};
 use clap::{Parser, ValueEnum};
-
-/// What the command line knows of a system.
-#[derive(Clone, Copy, Debug)]
-pub struct SystemEntry {
-    /// The system.
-    pub name: SystemName,
-    /// The structure that it traces, as reports name it.
-    pub structure: &'static str,
-    /// The presets that it has.
-    pub presets: &'static [Preset],
-    /// The options of [`StructureOptions`] that it has, by their names on the command line.
-    pub options: &'static [&'static str],
-}
-
-/// Every system the command can run.
-pub const SYSTEMS: [SystemEntry; 2] = [
-    SystemEntry {
-        name: SystemName::Mmrt,
-        structure: "abuffer",
-        presets: &[Preset::Robust, Preset::Published],
-        options: &[
-            "resolution",
-            "buckets",
-            "storage",
-            "payload",
-            "march",
-            "accept",
-            "thickness",
-            "coverage",
-            "sort",
-            "skip",
-            "views",
-            "addressing",
-            "capacity",
-        ],
-    },
-    SystemEntry {
-        name: SystemName::BruteForce,
-        structure: "brute-force",
-        presets: &[Preset::Robust],
-        options: &["addressing"],
-    },
-];
+use rasray_systems::{SYSTEMS, Spec, System};
+use serde_json::Value;
 
 /// A system with what was asked of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,9 +19,24 @@ pub struct SystemConfig {
 }
 
 impl SystemConfig {
-    /// The system's row in [`SYSTEMS`].
-    pub fn entry(&self) -> &'static SystemEntry {
+    /// The system's row in the registry.
+    pub fn entry(&self) -> &'static System {
         entry(self.name)
+    }
+
+    /// What the registry makes the structure from.
+    ///
+    /// # Errors
+    /// A usage error for values that do not go together; none for a config that [`single`] or
+    /// [`several`] made.
+    pub fn spec(&self) -> Result<Spec, AppError> {
+        let options = self.options.given().into_iter().map(|(name, value)| match value {
+            Value::String(word) => (name, word),
+            number => (name, number.to_string()),
+        });
+        Spec::new(self.entry().name, &word(&self.preset), options).map_err(|error| {
+            AppError::usage(error.to_string(), "change the option, or leave it to the preset")
+        })
     }
 }
 
@@ -70,9 +45,15 @@ pub fn word(value: &impl ValueEnum) -> String {
     value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
 
-/// The row of a system.
-pub fn entry(name: SystemName) -> &'static SystemEntry {
-    SYSTEMS.iter().find(|entry| entry.name == name).expect("every system has a row")
+/// The row of a system in the registry.
+pub fn entry(name: SystemName) -> &'static System {
+    let name = word(&name);
+    SYSTEMS.iter().find(|row| row.name == name).expect("a test looks every name up")
+}
+
+/// Whether a system has a preset.
+fn has_preset(system: &System, preset: Preset) -> bool {
+    system.presets.iter().any(|known| known.name() == word(&preset))
 }
 
 /// One system with its options, each of which it must have.
@@ -82,11 +63,14 @@ pub fn single(
     options: &StructureOptions,
 ) -> Result<SystemConfig, AppError> {
     let entry = entry(name);
-    if !entry.presets.contains(&preset) {
+    if !has_preset(entry, preset) {
         let system = word(&name);
         return Err(AppError::usage(
             format!("system {system} has no preset {}", word(&preset)),
-            format!("its presets: {}", words(entry.presets)),
+            format!(
+                "its presets: {}",
+                entry.presets.iter().map(|known| known.name()).collect::<Vec<_>>().join(", ")
+            ),
         ));
     }
     for option in options.given().keys() {
@@ -97,11 +81,13 @@ pub fn single(
             ));
         }
     }
-    Ok(SystemConfig { name, preset, options: options.clone() })
+    let config = SystemConfig { name, preset, options: options.clone() };
+    config.spec()?;
+    Ok(config)
 }
 
 /// Every named system with every named preset that it has. An option goes to the systems that have
-/// it; `assignments` (`mmrt.storage=sb`) address one system.
+/// it; `assignments` (`mmrt.samples=50`) address one system.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
@@ -120,7 +106,7 @@ pub fn several(
         }
     }
     for preset in presets {
-        if !names.iter().any(|name| entry(*name).presets.contains(preset)) {
+        if !names.iter().any(|name| has_preset(entry(*name), *preset)) {
             return Err(AppError::usage(
                 format!("none of the systems {} has the preset {}", words(names), word(preset)),
                 "leave it out of --presets or add a system that has it to --systems",
@@ -145,7 +131,7 @@ pub fn several(
             own = own.overlaid(over);
         }
         for (position, preset) in presets.iter().enumerate() {
-            if entry.presets.contains(preset) && !presets[..position].contains(preset) {
+            if has_preset(entry, *preset) && !presets[..position].contains(preset) {
                 configs.push(single(*name, *preset, &own)?);
             }
         }
@@ -153,7 +139,7 @@ pub fn several(
     Ok(configs)
 }
 
-/// Reads `mmrt.storage=sb` with the parser of the command line, so that both know the same values.
+/// Reads `mmrt.samples=50` with the parser of the command line, so that both know the same values.
 fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
     #[derive(Parser)]
     #[command(no_binary_name = true, disable_help_flag = true)]
@@ -164,7 +150,7 @@ fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
     let shape = || {
         AppError::usage(
             format!("'{text}' is not of the form SYSTEM.OPTION=VALUE"),
-            "write for example mmrt.storage=sb",
+            "write for example mmrt.samples=50",
         )
     };
     let (target, value) = text.split_once('=').ok_or_else(shape)?;
@@ -191,11 +177,8 @@ fn words<T: ValueEnum>(values: &[T]) -> String {
 }
 
 fn who_has(option: &str) -> String {
-    let having: Vec<_> = SYSTEMS
-        .iter()
-        .filter(|entry| entry.options.contains(&option))
-        .map(|entry| word(&entry.name))
-        .collect();
+    let having: Vec<_> =
+        SYSTEMS.iter().filter(|entry| entry.options.contains(&option)).map(|entry| entry.name).collect();
     if having.is_empty() {
         "no system has it".to_owned()
     } else {
@@ -206,10 +189,49 @@ fn who_has(option: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::structure::Storage;
+    use crate::structure::Accept;
 
     fn with_buckets() -> StructureOptions {
         StructureOptions { buckets: Some(4), ..Default::default() }
+    }
+
+    #[test]
+    fn the_command_line_knows_the_systems_of_the_registry() {
+        let typed: Vec<_> = SystemName::value_variants().iter().map(word).collect();
+        assert_eq!(typed, SYSTEMS.map(|row| row.name));
+        for name in SystemName::value_variants() {
+            let known = entry(*name).presets;
+            let typed =
+                Preset::value_variants().iter().filter(|preset| has_preset(entry(*name), **preset)).count();
+            assert_eq!(typed, known.len());
+        }
+    }
+
+    #[test]
+    fn every_value_of_the_command_line_is_one_of_the_registry() {
+        let command = <StructureOptions as clap::Args>::augment_args(clap::Command::new("options"));
+        let mut tried = 0;
+        for argument in command.get_arguments() {
+            for value in argument.get_possible_values() {
+                let option = argument.get_long().expect("every option has a name").to_owned();
+                // Attributes are not planes: only this pair of values excludes another.
+                let accept = ("accept".to_owned(), "interval".to_owned());
+                let options = [accept, (option, value.get_name().to_owned())];
+                Spec::new("mmrt", "robust", options).expect("a value that the command offers");
+                tried += 1;
+            }
+        }
+        assert!(tried > 10);
+    }
+
+    #[test]
+    fn values_that_do_not_go_together_are_refused_before_a_device_is_opened() {
+        let options = StructureOptions { accept: Some(Accept::Plane), ..Default::default() };
+        let error =
+            single(SystemName::Mmrt, Preset::Published, &options).expect_err("no plane in attributes");
+        assert_eq!(error.exit_code(), 2);
+        assert!(error.to_string().contains("payload"), "{error}");
+        assert!(single(SystemName::Mmrt, Preset::Robust, &options).is_ok());
     }
 
     #[test]
@@ -240,7 +262,7 @@ mod tests {
         let names = [SystemName::Mmrt, SystemName::BruteForce, SystemName::Mmrt];
         let presets = [Preset::Published, Preset::Robust];
         let configs =
-            several(&names, &presets, &with_buckets(), &["mmrt.storage=sb".to_owned()]).expect("valid");
+            several(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()]).expect("valid");
         let shape: Vec<_> = configs.iter().map(|c| (c.name, c.preset, c.options.buckets)).collect();
         assert_eq!(
             shape,
@@ -250,7 +272,7 @@ mod tests {
                 (SystemName::BruteForce, Preset::Robust, None),
             ]
         );
-        assert_eq!(configs[0].options.storage, Some(Storage::Sb));
+        assert_eq!(configs[0].options.samples, Some(50));
     }
 
     #[test]
@@ -259,9 +281,7 @@ mod tests {
         let plain = StructureOptions::default();
         assert!(several(&judge, &[Preset::Robust], &with_buckets(), &[]).is_err());
         assert!(several(&judge, &[Preset::Published], &plain, &[]).is_err());
-        for bad in
-            ["mmrt.storage=sb", "mmrt", "nobody.sort=on", "brute-force.sort=on", "brute-force.addressing=x"]
-        {
+        for bad in ["mmrt.samples=50", "mmrt", "nobody.sort=on", "brute-force.sort=on", "mmrt.sort=x"] {
             let error = several(&judge, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
             assert_eq!(error.exit_code(), 2);
         }

@@ -68,7 +68,7 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
 fn a_comparison_makes_a_run_per_system_preset_and_ray_set() {
     let folder = tempfile::tempdir().expect("a folder");
     let line = "compare cornell --systems mmrt,brute-force --presets robust,published --ray-set eye,eye,camera \
-                --buckets 8 mmrt.storage=sb --report r.json";
+                --buckets 8 mmrt.march=samples --report r.json";
     let output = rasray(folder.path(), line);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let runs = report(&folder.path().join("r.json")).runs;
@@ -87,7 +87,7 @@ fn a_comparison_makes_a_run_per_system_preset_and_ray_set() {
             "brute-force robust camera",
         ]
     );
-    assert_eq!((&runs[0].options["buckets"], &runs[0].options["storage"]), (&8.into(), &"sb".into()));
+    assert_eq!((&runs[0].options["buckets"], &runs[0].options["march"]), (&8.into(), &"samples".into()));
     assert!(runs[4].options.is_empty());
 }
 

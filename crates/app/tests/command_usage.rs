@@ -43,7 +43,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("render cornell -o a.png --eye 0,0,0 --target 0,0,0", "--eye", "--target"),
         ("render broken.glb --report broken.glb", "scene file", "report.json"),
         ("compare broken.glb --systems mmrt --report ./broken.glb", "scene file", "report.json"),
-        ("compare cornell --systems brute-force --storage sb", "--storage", "mmrt"),
+        ("compare cornell --systems brute-force --storage dllb", "--storage", "mmrt"),
         ("compare cornell --systems brute-force mmrt.sort=on", "mmrt", "--systems"),
         ("compare cornell --systems mmrt --report missing/r.json", "missing/r.json", "mkdir"),
         ("info cornel", "cornel", "cornell"),
@@ -72,7 +72,7 @@ fn help_and_version_go_to_stdout() {
     for (line, words) in [
         ("--help", &["render", "compare", "info", "Exit codes", "Examples"][..]),
         ("render --help", &["--system", "--output", "--ao-distance", "Examples", "sRGB", "SIGINT"]),
-        ("compare --help", &["--systems", "--ray-set", "mmrt.storage=sb"]),
+        ("compare --help", &["--systems", "--ray-set", "mmrt.march=samples"]),
         ("info --help", &["Examples"]),
         ("--version", &["rasray", env!("CARGO_PKG_VERSION")]),
     ] {

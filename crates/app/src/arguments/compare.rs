@@ -11,7 +11,7 @@ const AFTER_HELP: &str = "\
 Examples:
   rasray compare cornell --systems mmrt,brute-force
   rasray compare spheres:10k --systems mmrt --presets published,robust --ray-set incoherent,bounce
-  rasray compare scene.glb --systems mmrt,brute-force --buckets 8 mmrt.storage=sb --report r.json
+  rasray compare scene.glb --systems mmrt,brute-force --buckets 8 mmrt.march=samples --report r.json
   rasray compare cornell --systems mmrt --image --size 256x256 --spp 64 --report r.json
 
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
@@ -25,7 +25,7 @@ pub struct CompareArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// Options for one system, such as mmrt.storage=sb
+    /// Options for one system, such as mmrt.march=samples
     #[arg(value_name = "SYSTEM.OPTION=VALUE")]
     pub assignments: Vec<String>,
     /// What is compared

@@ -55,12 +55,12 @@ fn negative_coordinates_are_values() {
 #[test]
 fn a_comparison_takes_lists_and_addressed_options() {
     let line = "compare cornell --systems mmrt,brute-force --presets published,robust --ray-set eye,bounce \
-                mmrt.storage=sb --rays 10";
+                mmrt.march=samples --rays 10";
     match parse(arguments(line)) {
         Ok(Command::Compare(given)) => {
             assert_eq!(given.systems, [SystemName::Mmrt, SystemName::BruteForce]);
             assert_eq!(given.ray_set, [RaySet::Eye, RaySet::Bounce]);
-            assert_eq!(given.assignments, ["mmrt.storage=sb"]);
+            assert_eq!(given.assignments, ["mmrt.march=samples"]);
         }
         other => panic!("{other:?}"),
     }
