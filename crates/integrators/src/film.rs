@@ -34,6 +34,9 @@ pub struct FilmFaults {
 }
 
 /// The image that integrators add to. Cheap to clone; clones share the image.
+///
+/// Sums are f32: after n samples their relative error is about n * 2^-24 at most, less than the noise
+/// of any picture up to millions of samples.
 #[derive(Clone, Debug)]
 pub struct Film {
     width: u32,

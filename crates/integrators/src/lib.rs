@@ -9,6 +9,32 @@
 //! picture does not depend on how the image is cut.
 //!
 //! Shaders bind four sets: geometry, the integrator's own buffers, the queue, the scene.
+//!
+//! # Example
+//!
+//! ```no_run
+//! use rasray_ads::BruteForce;
+//! use rasray_gpu::{Device, DeviceDesc};
+//! use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+//! use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, waves};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let scene = rasray_scene::builtin::cornell();
+//! let device = Device::create(&DeviceDesc::default())?;
+//! let view = View { camera: scene.cameras[0].clone(), width: 64, height: 64, seed: 1 };
+//! let origin = SceneTables::default_frame_origin(&scene, view.eye());
+//! let tables = SceneTables::new(&scene, origin, &Parts::VISIBILITY)?;
+//! let gpu_scene = GpuScene::upload(&device, &tables, &view)?;
+//! let structure = BruteForce::new(&device, gpu_scene.geometry(), Some(gpu_scene.binding()), false)?;
+//! let film = Film::new(&device, view.width, view.height)?;
+//! let occlusion = AmbientOcclusion::new(&IntegratorDesc::new(&device, &gpu_scene, &film), 0.5)?;
+//! device.submit(|recorder| occlusion.record_reset(recorder))?;
+//! for wave in waves(film.pixel_count(), 16, occlusion.wave_capacity()) {
+//!     device.submit(|recorder| occlusion.record_wave(recorder, &structure, wave))?.value?;
+//! }
+//! let image = film.read(&device)?;
+//! # Ok(()) }
+//! ```
 
 mod ambient_occlusion;
 mod aov;

@@ -60,7 +60,7 @@ fn a_closed_emitting_box_gives_the_geometric_series() {
     let albedo = 0.5f64;
     let scene = scene(box_inside(1.0, 0), vec![lambert(albedo as f32, 1.0)], [0.0; 3]);
     let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.1, -0.2, 0.3)), 16, 16, 5);
-    for bounces in 0..=3 {
+    for bounces in [0, 1, 3] {
         let path = Path::new(&stage.desc(), bounces).expect("valid");
         assert_eq!(path.traces_per_wave(), 2 * bounces + 1);
         let image = stage.render(&path, 16);

@@ -20,7 +20,7 @@ fn image(
     workload: Workload,
     parts: &Parts,
 ) -> (u64, Vec<[f32; 3]>) {
-    let view = View { camera: camera.clone(), width: 20, height: 16, seed: 5 };
+    let view = View { camera: camera.clone(), width: 16, height: 12, seed: 5 };
     let stage = Stage::with(device, scene, view, parts);
     let desc = stage.desc();
     let integrator: Box<dyn Integrator> = match workload.integrator {
@@ -35,9 +35,7 @@ fn image(
 #[test]
 fn leaving_out_what_is_not_observed_changes_bytes_and_not_the_picture() {
     let device = device();
-    let (cornell, cornell_camera) = cornell();
     let cases = [
-        (cornell, cornell_camera),
         (textured_room(), forward_camera(DVec3::new(0.0, 0.2, 1.0))),
         (glass_room(), forward_camera(DVec3::new(0.0, 0.0, 0.9))),
     ];
@@ -45,7 +43,7 @@ fn leaving_out_what_is_not_observed_changes_bytes_and_not_the_picture() {
         (needs::Integrator::Raycast, 0),
         (needs::Integrator::AmbientOcclusion, 0),
         (needs::Integrator::Path, 0),
-        (needs::Integrator::Path, 3),
+        (needs::Integrator::Path, 2),
     ];
     for (scene, camera) in &cases {
         for (integrator, bounces) in workloads {

@@ -1,6 +1,7 @@
 //! Small scenes and one way to render them with the brute-force structure, validation on.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
+pub mod difference;
 pub mod scenes;
 
 use glam::{DAffine3, DMat3, DVec3};

@@ -1,0 +1,58 @@
+//! A device image held against the one of the CPU.
+
+use rasray_integrators::{AmbientOcclusion, Path};
+use rasray_reference::shading::{PosedScene, View};
+use rasray_scene::{Camera, Scene};
+
+use super::{Stage, assert_silent, device, mean};
+
+pub const WIDTH: u32 = 16;
+pub const HEIGHT: u32 = 12;
+const SEED: u32 = 11;
+
+/// What is rendered.
+pub enum Kind {
+    /// With this many bounces.
+    Path(u32),
+    /// Within this many metres.
+    Occlusion(f32),
+}
+
+/// How far an image is from its reference.
+#[derive(Debug)]
+pub struct Difference {
+    /// Share of the pixels that differ by more than 1e-3 of their value.
+    pub share: f64,
+    /// Difference of the means over the reference's.
+    pub mean: f64,
+}
+
+/// Renders `shown` on the device and `scene` on the CPU.
+pub fn difference(shown: &Scene, scene: &Scene, camera: &Camera, samples: u32, kind: &Kind) -> Difference {
+    let device = device();
+    let stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
+    let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED };
+    let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
+    let (image, reference) = match *kind {
+        Kind::Path(bounces) => (
+            stage.render(&Path::new(&stage.desc(), bounces).expect("valid"), samples),
+            posed.render_path(&view, bounces).expect("valid").pixels,
+        ),
+        Kind::Occlusion(range) => (
+            stage.render(&AmbientOcclusion::new(&stage.desc(), range).expect("valid"), samples),
+            posed.render_ambient_occlusion(&view, range).expect("valid").pixels,
+        ),
+    };
+    assert_eq!(stage.film.read_faults(&device).expect("readable").non_finite, 0);
+    let differs = |(a, b): (&[f32; 3], &[f32; 3])| {
+        (0..3).any(|channel| (a[channel] - b[channel]).abs() > 1e-3 * (b[channel].abs() + 1e-2))
+    };
+    let count = image.iter().zip(&reference).filter(|&pair| differs(pair)).count();
+    let (mean_image, mean_reference) = (mean(&image), mean(&reference));
+    assert!(mean_reference > 0.01, "{}: the reference is black", scene.name);
+    assert_silent(&device);
+    Difference {
+        share: count as f64 / image.len() as f64,
+        mean: (mean_image - mean_reference).abs() / mean_reference,
+    }
+}

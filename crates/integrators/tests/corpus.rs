@@ -1,0 +1,62 @@
+//! Scenes that nobody here made, device against CPU. They are found through the environment variable
+//! `RASRAY_SCENES`; without it nothing is tested, which the output says.
+
+mod common;
+
+use std::path::PathBuf;
+
+use common::difference::{Kind, difference};
+use rasray_scene::{Environment, LoadOptions, default_view::default_camera};
+
+/// Mirrored and instanced meshes, texture settings, lights, blending, glass.
+const FILES: [&str; 11] = [
+    "architecture/samplebuilding_instanced/subpass_scene_opaque.gltf",
+    "conformance/NegativeScaleTest/NegativeScaleTest.glb",
+    "conformance/NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+    "conformance/TextureSettingsTest/TextureSettingsTest.glb",
+    "conformance/TextureTransformTest/TextureTransformTest.gltf",
+    "conformance/VertexColorTest/VertexColorTest.glb",
+    "emissive/EmissiveStrengthTest/EmissiveStrengthTest.glb",
+    "emissive/khronos_lights/lights.gltf",
+    "instanced/SimpleInstancing/SimpleInstancing.glb",
+    "pbr/AlphaBlendModeTest/AlphaBlendModeTest.glb",
+    "transmissive/GlassBrokenWindow/GlassBrokenWindow.glb",
+];
+
+/// Rendered as well where `RASRAY_FULL` is set.
+const MORE_FILES: [&str; 11] = [
+    "animated/CesiumMilkTruck/CesiumMilkTruck.glb",
+    "animated/InterpolationTest/InterpolationTest.glb",
+    "conformance/MeshPrimitiveModes/MeshPrimitiveModes.gltf",
+    "conformance/OrientationTest/OrientationTest.glb",
+    "conformance/SimpleSparseAccessor/SimpleSparseAccessor.gltf",
+    "cornell/cornell_emissive_bevy/CornellBox.glb",
+    "cornell/cornell_nvpro/cornellBox.gltf",
+    "pbr/DamagedHelmet/DamagedHelmet.glb",
+    "transmissive/AttenuationTest/AttenuationTest.glb",
+    "transmissive/TransmissionTest/TransmissionTest.glb",
+    "transmissive/ior_test/17_ior.gltf",
+];
+
+#[test]
+fn real_scenes_look_the_same_on_device_and_cpu() {
+    let Some(folder) = std::env::var_os("RASRAY_SCENES").map(PathBuf::from) else {
+        eprintln!("skipped {} scenes: RASRAY_SCENES is not set", FILES.len());
+        return;
+    };
+    let mut failed = Vec::new();
+    let more = if std::env::var_os("RASRAY_FULL").is_some() { &MORE_FILES[..] } else { &[] };
+    for &file in FILES.iter().chain(more) {
+        let start = std::time::Instant::now();
+        let mut scene = rasray_scene::load(&folder.join(file), &LoadOptions::default()).expect(file);
+        // Whatever else shines: some emit too little to be compared.
+        scene.environment = Environment::Constant([0.6, 0.7, 0.8]);
+        let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
+        let found = difference(&scene, &scene, &camera, 1, &Kind::Path(2));
+        eprintln!("{file}: {found:?} {:?}", start.elapsed());
+        if found.share > 0.02 {
+            failed.push((file, found));
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
