@@ -21,6 +21,8 @@ mod views;
 mod views_center;
 
 #[cfg(test)]
+mod single_precision;
+#[cfg(test)]
 mod tests;
 
 pub use capacity::POISONED_DROPPED;
