@@ -149,9 +149,9 @@ impl Sizes<'_> {
                 let stride = self.strides.get(&id).copied().unwrap_or_else(|| self.of(*element));
                 stride * self.constants.get(length).copied().unwrap_or(0)
             }
-            Some(Type::Struct(members)) => members
-                .last()
-                .map_or(0, |last| self.offsets.get(&(id, members.len() as u32 - 1)).copied().unwrap_or(0) + self.of(*last)),
+            Some(Type::Struct(members)) => members.last().map_or(0, |last| {
+                self.offsets.get(&(id, members.len() as u32 - 1)).copied().unwrap_or(0) + self.of(*last)
+            }),
             _ => 0,
         }
     }

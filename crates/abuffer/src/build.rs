@@ -3,8 +3,8 @@
 use bytemuck::bytes_of;
 use rasray_ads::{AdsError, Geometry, SceneBinding};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline, RasterPipelineDesc,
-    Recorder, SetLayout,
+    Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline,
+    RasterPipelineDesc, Recorder, SetLayout,
 };
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
@@ -37,7 +37,8 @@ pub(crate) fn modules(config: &Config, scene: Option<&SceneBinding>) -> Result<M
     };
     let alpha = scene.is_some_and(|scene| scene.alpha_masked);
     let find = |name: &str| {
-        rasray_shaders_glsl::shader(&format!("abuffer/{name}{suffix}")).ok_or(AdsError::NoScene { structure: "mmrt" })
+        rasray_shaders_glsl::shader(&format!("abuffer/{name}{suffix}"))
+            .ok_or(AdsError::NoScene { structure: "mmrt" })
     };
     let attributes = config.payload == Payload::Attributes;
     if attributes && scene.is_none() {
@@ -148,10 +149,7 @@ impl Build {
         for pool in [target.bounds, target.lists, target.nodes] {
             recorder.fill(pool, 0, pool.size(), 0);
         }
-        recorder.barrier(
-            Access::TRANSFER_WRITE,
-            Access::COMPUTE | Access::VERTEX_READ | Access::FRAGMENT,
-        );
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::VERTEX_READ | Access::FRAGMENT);
         recorder.end_pass();
 
         recorder.begin_pass("abuffer/build_1_near");
@@ -203,7 +201,13 @@ impl Build {
     }
 
     /// One invocation per item; more groups than one dimension holds go to the second.
-    fn dispatch(&self, recorder: &mut Recorder<'_>, pipeline: &ComputePipeline, target: &Target<'_>, items: u64) {
+    fn dispatch(
+        &self,
+        recorder: &mut Recorder<'_>,
+        pipeline: &ComputePipeline,
+        target: &Target<'_>,
+        items: u64,
+    ) {
         let groups = items.div_ceil(u64::from(ABUFFER_GROUP_SIZE));
         if groups == 0 {
             return;

@@ -53,7 +53,8 @@ pub fn plan(config: &Config, fragments: u64, near_triangles: u64) -> Result<Size
         .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
         .collect();
     // Words of a pool are counted in 32 bits by the shaders, and one value is kept to mean "none".
-    if let Some(pool) = pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
+    if let Some(pool) =
+        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
     {
         return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: pool.name, elements: pool.elements });
     }

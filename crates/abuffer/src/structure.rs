@@ -2,12 +2,12 @@
 
 use bytemuck::{bytes_of, from_bytes, pod_read_unaligned};
 use rasray_ads::{
-    AdsError, BuildStatus, Check, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure, StructureKind,
-    StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    AdsError, BuildStatus, Check, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
 };
 use rasray_gpu::{
-    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder, Requirements,
-    SetLayout,
+    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
+    Requirements, SetLayout,
 };
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
@@ -45,7 +45,12 @@ struct Pools {
 }
 
 impl Pools {
-    fn new(device: &Device, layout: &SetLayout, addressing: Addressing, sizes: &Sizes) -> Result<Self, AdsError> {
+    fn new(
+        device: &Device,
+        layout: &SetLayout,
+        addressing: Addressing,
+        sizes: &Sizes,
+    ) -> Result<Self, AdsError> {
         let buffer = |name: &str, size: u64, location| {
             device.create_buffer(&BufferDesc {
                 name: &format!("abuffer {name}"),
@@ -55,7 +60,8 @@ impl Pools {
             })
         };
         let pool = |name: &'static str| {
-            let size = sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |p| p.elements * p.element_bytes);
+            let size =
+                sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |p| p.elements * p.element_bytes);
             buffer(name, size, MemoryLocation::Device)
         };
         let header_bytes = size_of::<Header>() as u64;
@@ -151,7 +157,12 @@ impl ABuffer {
         let (lower, upper) = (relative(lower), relative(upper));
         let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
         // The subtraction above rounds, and so does the one in the shaders.
-        let margin = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
+        let rounding = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
+        // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
+        let margin = match self.config.accept {
+            Accept::Plane => rounding + 2.0 / self.config.resolution as f32 * farthest,
+            Accept::Interval | Accept::Thickness => rounding,
+        };
         let address = |buffer: &Buffer| match self.config.addressing {
             Addressing::Descriptor => [0; 2],
             Addressing::Address => {
@@ -193,9 +204,11 @@ impl ABuffer {
     /// # Errors
     /// The device failed.
     pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        let header = *from_bytes::<Header>(&device.download(&self.pools.header, 0, size_of::<Header>() as u64)?);
+        let header =
+            *from_bytes::<Header>(&device.download(&self.pools.header, 0, size_of::<Header>() as u64)?);
         let words = |pool: &Buffer, name: &str| {
-            let size = self.sizes.pools.iter().find(|p| p.name == name).map_or(0, |p| p.elements * p.element_bytes);
+            let size =
+                self.sizes.pools.iter().find(|p| p.name == name).map_or(0, |p| p.elements * p.element_bytes);
             device.download_as::<u32>(pool, 0, (size / 4) as usize)
         };
         Ok(Contents {
@@ -264,7 +277,11 @@ impl Structure for ABuffer {
             complete: header.status & STATUS_COMPLETE != 0,
             pools: vec![
                 PoolStatus { name: "nodes", demand: header.demand.into(), capacity: header.capacity.into() },
-                PoolStatus { name: "near", demand: header.near_demand.into(), capacity: header.near_capacity.into() },
+                PoolStatus {
+                    name: "near",
+                    demand: header.near_demand.into(),
+                    capacity: header.near_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -298,7 +315,12 @@ impl Structure for ABuffer {
         self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
     }
 
-    fn record_surfaces(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, count: u32) -> Result<(), AdsError> {
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
         let set = self.pools.set.as_ref();
         if self.kernels.record_surfaces(recorder, &self.geometry, set, self.address(), queue, count) {
             Ok(())

@@ -20,7 +20,9 @@ pub enum AdsError {
         expected: &'static str,
     },
     /// A pool needs more elements than its indices can name.
-    #[error("{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can name; lower the resolution or split the scene")]
+    #[error(
+        "{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can name; lower the resolution or split the scene"
+    )]
     PoolTooLarge {
         /// Name of the structure.
         structure: &'static str,

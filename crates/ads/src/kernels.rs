@@ -1,9 +1,7 @@
 //! The queue kernels: one set of pipelines a structure, recorded the same way for all.
 
 use bytemuck::bytes_of;
-use rasray_gpu::{
-    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout,
-};
+use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 

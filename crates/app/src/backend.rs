@@ -243,6 +243,5 @@ pub type OpenBackend<'a> = dyn FnMut(&DeviceChoice) -> Result<Box<dyn Backend>, 
 /// # Errors
 /// [`AppError::Device`]: no such device, or it lacks something required.
 pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, AppError> {
-    let wanted = choice.device.as_deref().unwrap_or("the first device");
-    Err(AppError::device(format!("{wanted}: this build has no renderer"), "build the whole workspace"))
+    Ok(Box::new(crate::renderer::Renderer::open(choice)?))
 }

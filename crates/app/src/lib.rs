@@ -10,6 +10,7 @@ mod error;
 mod interrupt;
 pub mod output;
 mod progress;
+mod renderer;
 pub mod report;
 mod scene_source;
 pub mod structure;

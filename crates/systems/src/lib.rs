@@ -1,1 +1,9 @@
-//! rasray: systems.
+//! Systems as data: which structure, which presets, which options. The command, tests and benches loop
+//! over [`SYSTEMS`] and make structures through [`Spec`]; nothing else names a structure.
+
+mod error;
+mod mmrt;
+mod spec;
+
+pub use error::SystemsError;
+pub use spec::{Preset, SYSTEMS, Spec, System};

@@ -45,7 +45,11 @@ pub fn build_until_complete(
         match structure.check(&outcome.status) {
             Check::Complete if outcome.status.complete => return Ok(outcome),
             Check::Grow(sizes) if outcome.regrows < REBUILDS => {
-                tracing::debug!(structure = structure.name(), bytes = sizes.bytes(), "grows to its exact demand");
+                tracing::debug!(
+                    structure = structure.name(),
+                    bytes = sizes.bytes(),
+                    "grows to its exact demand"
+                );
                 structure.resize(device, &sizes)?;
                 outcome.regrows += 1;
             }

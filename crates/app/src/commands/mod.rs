@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The name of an integrator in reports and images.
-fn integrator_name(frame: &Frame) -> &'static str {
+pub(crate) fn integrator_name(frame: &Frame) -> &'static str {
     match frame.integrator {
         Integrator::Path { .. } => "path",
         Integrator::AmbientOcclusion { .. } => "ao",
@@ -28,7 +28,7 @@ fn integrator_name(frame: &Frame) -> &'static str {
 }
 
 /// Bounces, where the integrator has them.
-fn bounces(frame: &Frame) -> Option<u32> {
+pub(crate) fn bounces(frame: &Frame) -> Option<u32> {
     match frame.integrator {
         Integrator::Path { bounces } => Some(bounces),
         _ => None,

@@ -1,0 +1,297 @@
+//! Systems side by side: the same rays and images, alternated in one process, against the truth.
+
+use std::ops::ControlFlow;
+
+use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, QueueCounters, Ray, StructureKind, TraceMode};
+use rasray_gpu::Device;
+use rasray_metrics::{DeviceHit, HitConfusion};
+use rasray_reference::oracle::{Accept, Oracle, Verdict};
+use rasray_reference::shading::{PosedScene, View};
+use rasray_systems::Spec;
+use rasray_tracer::BatchTracer;
+
+use super::image_error::{image_error, reference_image};
+use super::passes::{Passes, median};
+use super::rays::{RaySource, oracle_ray};
+use super::render::render_pixels;
+use super::spec_of;
+use super::stage::{Built, Stage, device_error, tracer_error};
+use crate::backend::{CompareJob, OnProgress, Progress, RaySet};
+use crate::error::AppError;
+use crate::report::{Accuracy, Run, Times};
+use crate::systems::{SystemConfig, word};
+
+/// Timed repetitions of each ray set, after one that warms up and is judged.
+const REPETITIONS: usize = 3;
+
+/// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
+const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
+
+/// One system of the comparison.
+struct Contestant<'a> {
+    config: &'a SystemConfig,
+    spec: Spec,
+    built: Built,
+}
+
+/// Runs all systems on all ray sets, then on the image where that is wanted.
+pub(super) fn compare(
+    device: &Device,
+    job: &CompareJob<'_>,
+    progress: &mut OnProgress<'_>,
+) -> Result<Vec<Run>, AppError> {
+    let frame = job.frame;
+    let stage =
+        Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    let geometry = stage.scene.geometry().desc();
+    let positions = device
+        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
+        .map_err(device_error)?;
+    let indices = device
+        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
+        .map_err(device_error)?;
+    let origin = stage.scene.frame_origin();
+    let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
+        .map_err(|error| AppError::usage(error.to_string(), ""))?;
+    let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
+    let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
+    let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
+    let oracle = Oracle::new(&positions, &indices, accept).map_err(device_error)?;
+    let view = View {
+        camera: job.camera.clone(),
+        width: frame.width,
+        height: frame.height,
+        samples: frame.spp,
+        seed: frame.seed,
+    };
+    let center = views_center(&stage, geometry.bounds);
+    let source = RaySource {
+        view: &view,
+        frame_origin: origin,
+        bounds: geometry.bounds,
+        center,
+        oracle: &oracle,
+        positions: &positions,
+        indices: &indices,
+    };
+
+    let mut contestants = Vec::new();
+    for config in &job.systems {
+        let spec = spec_of(config)?.with_counters(true);
+        let built = Built::new(device, &spec, &stage.scene, center, device.best_timing())?;
+        contestants.push(Contestant { config, spec, built });
+    }
+    let total = (contestants.len() * (job.ray_sets.len() + usize::from(job.image))) as u64;
+    let mut runs = Vec::new();
+    for set in &job.ray_sets {
+        let rays = source.rays(*set, job.rays);
+        let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
+        runs.extend(trace_set(device, &contestants, *set, &rays, &verdicts, job)?);
+        let done = runs.len() as u64;
+        if progress(Progress { task: &word(set), done, total, unit: "runs" }) == ControlFlow::Break(()) {
+            return Ok(runs);
+        }
+    }
+    if job.image {
+        runs.extend(compare_images(device, job, &stage, &posed, &view, &contestants, progress)?);
+    }
+    Ok(runs)
+}
+
+/// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so
+/// that the camera's rays do not start where the views do.
+fn views_center(stage: &Stage, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
+    let eye = stage.scene.eye();
+    std::array::from_fn(|axis| {
+        let middle = 0.5 * (f64::from(lower[axis]) + f64::from(upper[axis]));
+        (f64::from(eye[axis]) + 0.1 * (middle - f64::from(eye[axis]))) as f32
+    })
+}
+
+/// Traces one set through all systems, alternating, and judges the hits.
+fn trace_set(
+    device: &Device,
+    contestants: &[Contestant<'_>],
+    set: RaySet,
+    rays: &[Ray],
+    verdicts: &[Verdict],
+    job: &CompareJob<'_>,
+) -> Result<Vec<Run>, AppError> {
+    let tracer =
+        BatchTracer::new(device, rays.len().clamp(1, 131_072) as u32).map_err(|e| tracer_error(&e))?;
+    let timing = device.best_timing();
+    let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
+    for repetition in 0..=REPETITIONS {
+        for (contestant, traced) in contestants.iter().zip(&mut traces) {
+            let outcome = tracer
+                .trace(contestant.built.structure.as_ref(), rays, TraceMode::Closest, timing)
+                .map_err(|e| tracer_error(&e))?;
+            if repetition == 0 {
+                traced.hits = outcome.hits;
+                traced.counters = outcome.counters;
+            } else {
+                traced.milliseconds.push(outcome.milliseconds());
+                traced.passes.add(&outcome.passes);
+            }
+        }
+    }
+    contestants
+        .iter()
+        .zip(traces)
+        .map(|(contestant, traced)| {
+            run_of_rays(device, contestant, set, rays.len() as u64, verdicts, traced, job)
+        })
+        .collect()
+}
+
+/// What one system answered to one set.
+#[derive(Default)]
+struct Traced {
+    hits: Vec<Hit>,
+    counters: QueueCounters,
+    milliseconds: Vec<f64>,
+    passes: Passes,
+}
+
+fn run_of_rays(
+    device: &Device,
+    contestant: &Contestant<'_>,
+    set: RaySet,
+    rays: u64,
+    verdicts: &[Verdict],
+    traced: Traced,
+    job: &CompareJob<'_>,
+) -> Result<Run, AppError> {
+    let trace_ms = median(&traced.milliseconds);
+    let mut counters = contestant.built.counters()?;
+    let per_ray = |sum: u64| (rays > 0).then(|| sum as f64 / rays as f64);
+    counters.nodes_per_ray = per_ray(traced.counters.entries);
+    counters.cells_per_ray = per_ray(traced.counters.cells);
+    counters.tests_per_ray = per_ray(traced.counters.tests);
+    counters.unfinished = Some(traced.counters.unfinished.into());
+    let mut run = base_run(device, contestant)?;
+    run.ray_set = Some(word(&set));
+    run.seed = Some(job.frame.seed);
+    run.times = Times {
+        timer: traced.passes.timer(),
+        build_ms: Some(contestant.built.build_milliseconds),
+        trace_ms: Some(trace_ms),
+        rays: Some(rays),
+        mrays_per_s: (trace_ms > 0.0).then(|| rays as f64 / trace_ms / 1.0e3),
+        ..Times::default()
+    };
+    run.passes.extend(traced.passes.report());
+    run.counters = Some(counters);
+    run.accuracy = Some(accuracy(contestant, verdicts, &traced.hits)?);
+    Ok(run)
+}
+
+/// Names, options, build passes and bytes of a system.
+fn base_run(device: &Device, contestant: &Contestant<'_>) -> Result<Run, AppError> {
+    let (options, paths) = contestant.built.resolved()?;
+    Ok(Run {
+        system: word(&contestant.config.name),
+        structure: contestant.spec.system().structure.to_owned(),
+        preset: word(&contestant.config.preset),
+        options,
+        paths,
+        passes: contestant.built.passes.report(),
+        memory: Some(contestant.built.memory(device)?),
+        ..Run::default()
+    })
+}
+
+fn accuracy(contestant: &Contestant<'_>, verdicts: &[Verdict], hits: &[Hit]) -> Result<Accuracy, AppError> {
+    let hits: Vec<Option<DeviceHit>> = hits
+        .iter()
+        .map(|hit| {
+            hit.is_hit().then(|| DeviceHit {
+                t: hit.t,
+                primitive: (hit.primitive != PRIMITIVE_UNKNOWN).then_some(hit.primitive),
+            })
+        })
+        .collect();
+    let tolerance = match contestant.built.structure.kind() {
+        StructureKind::Primitive => 0.0,
+        StructureKind::Fragment => FRAGMENT_TOLERANCE,
+    };
+    let confusion = HitConfusion::measure(verdicts, &hits, tolerance).map_err(device_error)?;
+    Ok(Accuracy {
+        rays: confusion.rays,
+        ambiguous: confusion.ambiguous,
+        ambiguous_lost: confusion.ambiguous_lost.count + confusion.ambiguous_wrong.count,
+        missed: confusion.missed.count,
+        false_hits: confusion.false_hits.count,
+        wrong_primitive: confusion.wrong_primitive.map(|rate| rate.count),
+        dt_rel_p50: confusion.dt_rel.map(|dt| dt.p50),
+        dt_rel_p99: confusion.dt_rel.map(|dt| dt.p99),
+        dt_rel_max: confusion.dt_rel.map(|dt| dt.max),
+        non_finite: confusion.non_finite.count,
+    })
+}
+
+/// Renders the frame through each system and compares it with the reference. A run named `reference`
+/// is the reference with another seed: what noise alone makes of the same numbers.
+fn compare_images(
+    device: &Device,
+    job: &CompareJob<'_>,
+    stage: &Stage,
+    posed: &PosedScene<'_>,
+    view: &View,
+    contestants: &[Contestant<'_>],
+    progress: &mut OnProgress<'_>,
+) -> Result<Vec<Run>, AppError> {
+    let frame = job.frame;
+    let Some(reference) = reference_image(posed, view, &frame)? else {
+        return Err(AppError::usage(
+            "--image compares with the reference, which has the integrators path and ao",
+            "choose --integrator path or ao, or leave --image out",
+        ));
+    };
+    let mut runs = Vec::new();
+    let image_of = |run: &mut Run, pixels: &[[f32; 3]]| -> Result<(), AppError> {
+        run.integrator = Some(crate::commands::integrator_name(&frame).to_owned());
+        run.width = Some(frame.width);
+        run.height = Some(frame.height);
+        run.spp = Some(frame.spp);
+        run.bounces = crate::commands::bounces(&frame);
+        run.image = Some(image_error(&frame, pixels, &reference)?);
+        Ok(())
+    };
+    for contestant in contestants {
+        // Images are taken as renders are: from a structure built around the camera.
+        let spec = spec_of(contestant.config)?;
+        let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), device.best_timing())?;
+        let task = format!("image {}", word(&contestant.config.name));
+        let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
+        if pixels.samples_done < frame.spp {
+            return Ok(runs);
+        }
+        let of_camera = Contestant { config: contestant.config, spec, built };
+        let mut run = base_run(device, &of_camera)?;
+        run.seed = Some(frame.seed);
+        run.times = Times {
+            timer: pixels.passes.timer(),
+            build_ms: Some(of_camera.built.build_milliseconds),
+            trace_ms: Some(pixels.passes.total(|label| label.contains("/trace_"))),
+            ..Times::default()
+        };
+        run.passes.extend(pixels.passes.report());
+        run.counters = Some(pixels.counters);
+        image_of(&mut run, &pixels.beauty)?;
+        runs.push(run);
+    }
+    let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
+    if let Some(noise) = reference_image(posed, &other, &frame)? {
+        let mut run = Run {
+            system: "reference".to_owned(),
+            structure: "oracle".to_owned(),
+            preset: "another-seed".to_owned(),
+            seed: Some(other.seed),
+            ..Run::default()
+        };
+        image_of(&mut run, &noise.pixels)?;
+        runs.push(run);
+    }
+    Ok(runs)
+}

@@ -1,0 +1,102 @@
+//! The back end on Vulkan: a device, the systems of the registry, and the two jobs it is given.
+
+mod compare;
+mod describe;
+mod image_error;
+mod passes;
+mod rays;
+mod render;
+mod stage;
+
+use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
+use rasray_systems::Spec;
+
+use crate::backend::{
+    Backend, CompareJob, DeviceChoice, DeviceDescription, OnProgress, RenderJob, RenderOutput,
+};
+use crate::error::AppError;
+use crate::report::{Device, Run};
+use crate::systems::{SystemConfig, word};
+
+/// A device and nothing else: everything made for a job goes with the job.
+pub(crate) struct Renderer {
+    device: GpuDevice,
+    validation: bool,
+}
+
+/// What any system may want of a device; each names what it cannot do without when it is made.
+fn requirements() -> Requirements {
+    let mut requirements = Requirements::floor();
+    requirements.optional.push((Feature::FragmentStoresAndAtomics, "structures built by the rasterizer"));
+    requirements
+        .optional
+        .push((Feature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));
+    requirements
+}
+
+impl Renderer {
+    /// Opens the wanted device.
+    pub(crate) fn open(choice: &DeviceChoice) -> Result<Self, AppError> {
+        let device = GpuDevice::create(&DeviceDesc {
+            requirements: requirements(),
+            preference: choice.device.clone(),
+            validation: choice.validation,
+            application: "rasray".to_owned(),
+        })
+        .map_err(|error| AppError::device(error, "`rasray info` lists the devices and what they lack"))?;
+        tracing::info!(device = device.name(), why = device.why_chosen(), "device");
+        Ok(Self { device, validation: choice.validation })
+    }
+
+    /// Messages of the validation layer are errors.
+    fn check_validation(&self) -> Result<(), AppError> {
+        match self.device.validation_messages().first() {
+            Some(message) if self.validation => Err(AppError::device(
+                format!("the validation layer says: {message}"),
+                "this is a defect; please report it with the command line",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The registry's entry for what the command line asked for.
+fn spec_of(config: &SystemConfig) -> Result<Spec, AppError> {
+    let text = |value: serde_json::Value| match value {
+        serde_json::Value::String(text) => text,
+        other => other.to_string(),
+    };
+    let options = config.options.given().into_iter().map(|(name, value)| (name, text(value)));
+    Spec::new(&word(&config.name), &word(&config.preset), options)
+        .map_err(|error| AppError::usage(error.to_string(), "see `rasray render --help`"))
+}
+
+impl Backend for Renderer {
+    fn device(&self) -> Device {
+        Device {
+            name: self.device.name().to_owned(),
+            driver: self.device.driver().to_owned(),
+            software: self.device.is_software(),
+        }
+    }
+
+    fn render(
+        &mut self,
+        job: &RenderJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<RenderOutput, AppError> {
+        let output = render::render(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(output)
+    }
+
+    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError> {
+        let runs = compare::compare(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(runs)
+    }
+
+    fn info(&mut self) -> Result<DeviceDescription, AppError> {
+        describe::describe(&self.device)
+    }
+}

@@ -1,0 +1,187 @@
+//! An image: scene to device, structure, waves of samples, readback.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use rasray_ads::{QueueHeader, RayQueue};
+use rasray_gpu::Device;
+use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves};
+use rasray_scene::needs::Needs;
+
+use super::passes::Passes;
+use super::spec_of;
+use super::stage::{Built, Stage, device_error};
+use crate::backend::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
+use crate::error::AppError;
+use crate::report::{Counters, Times};
+
+/// Makes the integrator of a frame.
+pub(super) fn integrator(
+    frame: &Frame,
+    desc: &IntegratorDesc<'_>,
+) -> Result<Box<dyn rasray_integrators::Integrator>, AppError> {
+    let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
+        Integrator::Path { bounces } => Path::new(desc, bounces).map(|i| Box::new(i) as _),
+        Integrator::AmbientOcclusion { distance } => {
+            AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
+        }
+        Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
+    };
+    made.map_err(|error| match error {
+        rasray_integrators::IntegratorError::Option { .. } => AppError::usage(error.to_string(), ""),
+        other => device_error(other),
+    })
+}
+
+/// Pixels and what they cost.
+pub(super) struct Pixels {
+    pub(super) beauty: Vec<[f32; 3]>,
+    pub(super) samples_done: u32,
+    pub(super) passes: Passes,
+    pub(super) counters: Counters,
+}
+
+/// Renders all samples of a frame through a built structure.
+pub(super) fn render_pixels(
+    device: &Device,
+    stage: &Stage,
+    built: &Built,
+    frame: &Frame,
+    needs: &Needs,
+    task: &str,
+    progress: &mut OnProgress<'_>,
+) -> Result<Pixels, AppError> {
+    let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
+    let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
+    if *needs == Needs::all() {
+        desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
+    }
+    let integrator = integrator(frame, &desc)?;
+    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
+    let timing = device.best_timing();
+    let pixels = film.pixel_count();
+    let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
+    let total = waves_a_sample * u64::from(frame.spp);
+    let mut passes = Passes::default();
+    let mut done = 0;
+    let mut samples_done = 0;
+    let mut stopping = false;
+    for wave in waves(pixels, frame.spp, integrator.wave_capacity()) {
+        // An early end is taken between samples, so that all pixels have the same number of them.
+        if stopping && wave.first_pixel == 0 {
+            break;
+        }
+        let submitted = device
+            .submit_passes(timing, |recorder| {
+                integrator.record_wave(recorder, built.structure.as_ref(), wave)
+            })
+            .map_err(device_error)?;
+        submitted.value.map_err(device_error)?;
+        passes.add(&submitted.passes);
+        done += 1;
+        if wave.first_pixel + wave.pixel_count == pixels {
+            samples_done += 1;
+        }
+        let now = Progress { task, done, total, unit: "waves" };
+        stopping |= progress(now) == ControlFlow::Break(());
+    }
+    let faults = film.read_faults(device).map_err(device_error)?;
+    if faults.non_finite > 0 {
+        tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
+    }
+    let mut counters = built.counters()?;
+    counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
+    Ok(Pixels { beauty: film.read(device).map_err(device_error)?, samples_done, passes, counters })
+}
+
+/// Rays without an answer in any queue; rays that met an unbuilt structure count as well.
+fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, AppError> {
+    let mut unfinished = 0;
+    for queue in queues {
+        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
+        let counters = header.first().map(RayQueue::counters).unwrap_or_default();
+        unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
+    }
+    Ok(unfinished)
+}
+
+/// Renders an image with everything that was asked for beside it.
+pub(super) fn render(
+    device: &Device,
+    job: &RenderJob<'_>,
+    progress: &mut OnProgress<'_>,
+) -> Result<RenderOutput, AppError> {
+    let started = Instant::now();
+    let frame = job.frame;
+    let spec = spec_of(&job.system)?;
+    let stage =
+        Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    let timing = device.best_timing();
+    let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), timing)?;
+    let pixels = render_pixels(device, &stage, &built, &frame, &job.needs, "render", progress)?;
+    let (options, paths) = built.resolved()?;
+    let mut memory = built.memory(device)?;
+    for (name, bytes) in stage.scene.bytes_by_part() {
+        memory.by_part.insert(format!("scene {name}"), *bytes);
+    }
+    let mut passes = built.passes.report();
+    passes.extend(pixels.passes.report());
+    let is_trace = |label: &str| label.contains("/trace_");
+    let mut output = RenderOutput {
+        width: frame.width,
+        height: frame.height,
+        beauty: pixels.beauty,
+        depth: None,
+        normal: None,
+        primitive: None,
+        samples_done: pixels.samples_done,
+        options,
+        paths,
+        passes,
+        times: Times {
+            timer: pixels.passes.timer(),
+            build_ms: Some(built.build_milliseconds),
+            trace_ms: Some(pixels.passes.total(is_trace)),
+            ..Times::default()
+        },
+        memory: Some(memory),
+        counters: Some(pixels.counters),
+    };
+    if job.aovs != AovSelection::default() {
+        add_aovs(device, &stage, &built, job, &mut output)?;
+    }
+    output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
+    Ok(output)
+}
+
+/// Traces the rays through pixel centres and adds the images that are wanted.
+fn add_aovs(
+    device: &Device,
+    stage: &Stage,
+    built: &Built,
+    job: &RenderJob<'_>,
+    output: &mut RenderOutput,
+) -> Result<(), AppError> {
+    let pixels = job.frame.width * job.frame.height;
+    let capacity = rasray_integrators::WAVE_CAPACITY.min(pixels);
+    let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
+    device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
+    for wave in waves(pixels, 1, capacity) {
+        let wave = Wave { sample: 0, ..wave };
+        let submitted = device
+            .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref(), wave))
+            .map_err(device_error)?;
+        submitted.value.map_err(device_error)?;
+    }
+    if count_unfinished(device, &[aov.queue()])? > 0 {
+        return Err(AppError::refused(
+            "rays through pixel centres did not finish",
+            "its results are not kept; please report it with the command line",
+        ));
+    }
+    let found = aov.read(device).map_err(device_error)?;
+    output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());
+    output.normal = job.aovs.normal.then(|| found.iter().map(|pixel| pixel.normal).collect());
+    output.primitive = job.aovs.primitive.then(|| found.iter().map(|pixel| pixel.primitive).collect());
+    Ok(())
+}

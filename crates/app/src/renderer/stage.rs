@@ -1,0 +1,161 @@
+//! A scene on the device, and a structure built for it.
+
+use std::collections::BTreeMap;
+
+use rasray_ads::Structure;
+use rasray_gpu::{Device, Timing};
+use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+use rasray_scene::needs::Needs;
+use rasray_scene::{Camera, Scene};
+use rasray_systems::Spec;
+use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
+use serde_json::Value;
+
+use super::passes::{Passes, median};
+use crate::error::AppError;
+use crate::report::{Counters, Memory};
+
+/// Builds after the first complete one, for medians.
+const REPEATED_BUILDS: usize = 3;
+
+/// What a device error is about.
+pub(super) fn device_error(error: impl std::fmt::Display) -> AppError {
+    AppError::device(error, "try a smaller --resolution or --size, or another --device")
+}
+
+/// A failed build or trace: lost rays are refused, everything else is the device's.
+pub(super) fn tracer_error(error: &TracerError) -> AppError {
+    match error {
+        TracerError::Unfinished { .. } | TracerError::NotReady { .. } | TracerError::Unstable { .. } => {
+            AppError::refused(
+                error.to_string(),
+                "its results are not kept; please report it with the command line",
+            )
+        }
+        _ => device_error(error),
+    }
+}
+
+/// A scene on the device.
+pub(super) struct Stage {
+    pub(super) scene: GpuScene,
+    pub(super) dropped_triangles: u64,
+}
+
+impl Stage {
+    pub(super) fn new(
+        device: &Device,
+        scene: &Scene,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<Self, AppError> {
+        let eye = camera.world_from_camera.translation;
+        let origin = SceneTables::default_frame_origin(scene, eye);
+        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(device_error)?;
+        let view = View { camera: camera.clone(), width, height, seed };
+        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(device_error)?;
+        let dropped_triangles = tables.posed.dropped_triangles;
+        if dropped_triangles > 0 {
+            tracing::warn!(
+                "{dropped_triangles} triangles have coordinates that are not finite or beyond 1.8e18 m and are left out"
+            );
+        }
+        Ok(Self { scene: gpu_scene, dropped_triangles })
+    }
+}
+
+/// A structure, built, with what the building cost.
+pub(super) struct Built {
+    pub(super) structure: Box<dyn Structure>,
+    pub(super) outcome: BuildOutcome,
+    pub(super) passes: Passes,
+    /// Median over repeated builds as the host saw them, milliseconds.
+    pub(super) build_milliseconds: f64,
+}
+
+impl Built {
+    /// Makes the structure of a spec and builds it as seen from `eye` until complete, then again for
+    /// medians.
+    pub(super) fn new(
+        device: &Device,
+        spec: &Spec,
+        scene: &GpuScene,
+        eye: [f32; 3],
+        timing: Timing,
+    ) -> Result<Self, AppError> {
+        let requirements = spec.requirements().map_err(|e| AppError::usage(e.to_string(), ""))?;
+        if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
+            return Err(AppError::device(
+                format!(
+                    "system {} needs the feature {missing}, which {} lacks",
+                    spec.system().name,
+                    device.name()
+                ),
+                "choose another --device or --system",
+            ));
+        }
+        let mut structure =
+            spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
+                rasray_systems::SystemsError::Ads(error) => device_error(error),
+                other => AppError::usage(other.to_string(), "see `rasray render --help`"),
+            })?;
+        let mut outcome =
+            build_until_complete(device, structure.as_mut(), eye, timing).map_err(|e| tracer_error(&e))?;
+        let regrows = outcome.regrows;
+        let mut passes = Passes::default();
+        let mut host = Vec::new();
+        for _ in 0..REPEATED_BUILDS {
+            outcome = build_until_complete(device, structure.as_mut(), eye, timing)
+                .map_err(|e| tracer_error(&e))?;
+            passes.add(&outcome.passes);
+            host.push(outcome.host_milliseconds);
+        }
+        outcome.regrows = regrows;
+        Ok(Self { structure, outcome, passes, build_milliseconds: median(&host) })
+    }
+
+    /// Options and paths as the structure resolved them.
+    pub(super) fn resolved(&self) -> Result<(BTreeMap<String, Value>, BTreeMap<String, String>), AppError> {
+        let report = self.structure.report().map_err(device_error)?;
+        let options = report.options.into_iter().map(|(name, value)| {
+            // Numbers stay numbers in the report.
+            let value = value.parse::<f64>().map_or(Value::String(value.clone()), |number| {
+                value.parse::<u64>().map_or_else(|_| Value::from(number), Value::from)
+            });
+            (name.to_owned(), value)
+        });
+        let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
+        Ok((options.collect(), paths.collect()))
+    }
+
+    /// Bytes of the structure, by part, with its formula.
+    pub(super) fn memory(&self, device: &Device) -> Result<Memory, AppError> {
+        let report = self.structure.report().map_err(device_error)?;
+        let slack =
+            report.bytes_by_part.iter().find(|(name, _)| *name == "slack").map_or(0, |(_, bytes)| *bytes);
+        Ok(Memory {
+            structure_bytes: Some(report.bytes() - slack),
+            formula_bytes: Some(report.formula_bytes),
+            capacity_bytes: Some(report.bytes()),
+            diagnostic_bytes: None,
+            device_peak_bytes: Some(device.peak_bytes()),
+            by_part: report.bytes_by_part.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
+        })
+    }
+
+    /// Counts of the build.
+    pub(super) fn counters(&self) -> Result<Counters, AppError> {
+        let report = self.structure.report().map_err(device_error)?;
+        let pool = self.outcome.status.pools.first();
+        Ok(Counters {
+            fragments: report.stored,
+            demand: pool.map(|pool| pool.demand),
+            capacity: pool.map(|pool| pool.capacity),
+            overflow: pool.map(|pool| pool.demand.saturating_sub(pool.capacity)),
+            regrows: Some(self.outcome.regrows.into()),
+            ..Counters::default()
+        })
+    }
+}

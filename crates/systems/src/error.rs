@@ -1,0 +1,48 @@
+//! Errors of the registry.
+
+use rasray_ads::AdsError;
+
+/// Why a system cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemsError {
+    /// No system of that name.
+    #[error("there is no system `{name}`; the systems are {known}")]
+    UnknownSystem {
+        /// What was asked for.
+        name: String,
+        /// Names of all systems.
+        known: String,
+    },
+    /// The system lacks that preset.
+    #[error("system {system} has no preset `{preset}`")]
+    UnknownPreset {
+        /// The system.
+        system: &'static str,
+        /// What was asked for.
+        preset: String,
+    },
+    /// The system lacks that option.
+    #[error("system {system} has no option `{option}`")]
+    UnknownOption {
+        /// The system.
+        system: &'static str,
+        /// What was asked for.
+        option: String,
+    },
+    /// The option has no such value.
+    #[error("{system}: --{option} {value} is not possible; {expected}")]
+    Value {
+        /// The system.
+        system: &'static str,
+        /// The option.
+        option: String,
+        /// What was asked for.
+        value: String,
+        /// What is possible.
+        expected: &'static str,
+    },
+    /// The structure refused.
+    #[error(transparent)]
+    Ads(#[from] AdsError),
+}

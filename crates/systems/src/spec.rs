@@ -1,0 +1,180 @@
+//! The registry, and a system with everything that was chosen for it.
+
+use std::collections::BTreeMap;
+
+use rasray_ads::{BruteForce, Geometry, SceneBinding, Structure};
+use rasray_gpu::{Device, Requirements};
+
+use crate::{SystemsError, mmrt};
+
+/// How closely a system follows its paper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Preset {
+    /// The same structure with its errors repaired.
+    Robust,
+    /// The paper's approximations included.
+    Published,
+}
+
+impl Preset {
+    /// The word of the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Robust => "robust",
+            Self::Published => "published",
+        }
+    }
+}
+
+/// A row of the registry.
+#[derive(Clone, Copy, Debug)]
+pub struct System {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// The structure it traces, as crates and shaders name it.
+    pub structure: &'static str,
+    /// Presets it has.
+    pub presets: &'static [Preset],
+    /// Options it has, by their names on the command line.
+    pub options: &'static [&'static str],
+}
+
+/// Every system.
+pub static SYSTEMS: [System; 2] = [
+    System {
+        name: "mmrt",
+        structure: "abuffer",
+        presets: &[Preset::Robust, Preset::Published],
+        options: &mmrt::OPTIONS,
+    },
+    System { name: "brute-force", structure: "brute-force", presets: &[Preset::Robust], options: &[] },
+];
+
+/// A system, a preset and the options given over it.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    system: &'static System,
+    preset: Preset,
+    options: BTreeMap<String, String>,
+    counters: bool,
+}
+
+impl Spec {
+    /// Looks a system and preset up by name and checks options and their values.
+    ///
+    /// # Errors
+    /// Whatever the registry does not have, by name.
+    pub fn new(
+        system: &str,
+        preset: &str,
+        options: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<Self, SystemsError> {
+        let row =
+            SYSTEMS.iter().find(|row| row.name == system).ok_or_else(|| SystemsError::UnknownSystem {
+                name: system.to_owned(),
+                known: SYSTEMS.map(|row| row.name).join(", "),
+            })?;
+        let preset = row
+            .presets
+            .iter()
+            .copied()
+            .find(|known| known.name() == preset)
+            .ok_or_else(|| SystemsError::UnknownPreset { system: row.name, preset: preset.to_owned() })?;
+        let options: BTreeMap<_, _> = options.into_iter().collect();
+        if let Some(option) = options.keys().find(|option| !row.options.contains(&option.as_str())) {
+            return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
+        }
+        let spec = Self { system: row, preset, options, counters: false };
+        if row.name == "mmrt" {
+            mmrt::config(&spec)?;
+        }
+        Ok(spec)
+    }
+
+    /// The same with rays that count cells, entries and tests.
+    #[must_use]
+    pub fn with_counters(self, counters: bool) -> Self {
+        Self { counters, ..self }
+    }
+
+    /// The registry's row.
+    pub fn system(&self) -> &'static System {
+        self.system
+    }
+
+    /// The preset.
+    pub fn preset(&self) -> Preset {
+        self.preset
+    }
+
+    /// Options over the preset.
+    pub fn options(&self) -> &BTreeMap<String, String> {
+        &self.options
+    }
+
+    /// Whether rays count their work.
+    pub fn counters(&self) -> bool {
+        self.counters
+    }
+
+    /// What a device must and may offer.
+    ///
+    /// # Errors
+    /// An option has an impossible value.
+    pub fn requirements(&self) -> Result<Requirements, SystemsError> {
+        Ok(match self.system.name {
+            "mmrt" => rasray_abuffer::ABuffer::requirements_of(&mmrt::config(self)?),
+            _ => Requirements::floor(),
+        })
+    }
+
+    /// Makes the structure.
+    ///
+    /// # Errors
+    /// An option has an impossible value, or the device refuses.
+    pub fn create(
+        &self,
+        device: &Device,
+        geometry: &Geometry,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Box<dyn Structure>, SystemsError> {
+        Ok(match self.system.name {
+            "mmrt" => Box::new(rasray_abuffer::ABuffer::new(device, mmrt::config(self)?, geometry, scene)?),
+            _ => Box::new(BruteForce::new(device, geometry, scene, self.counters)?),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spec(system: &str, preset: &str, options: &[(&str, &str)]) -> Result<Spec, SystemsError> {
+        Spec::new(
+            system,
+            preset,
+            options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())),
+        )
+    }
+
+    #[test]
+    fn every_preset_of_every_system_resolves() {
+        for system in &SYSTEMS {
+            for preset in system.presets {
+                let spec = spec(system.name, preset.name(), &[]).expect("a registered preset");
+                assert!(!spec.requirements().expect("valid").required.is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_registered_is_refused_by_name() {
+        let message = |result: Result<Spec, SystemsError>| result.expect_err("refused").to_string();
+        assert!(message(spec("nobody", "robust", &[])).contains("mmrt, brute-force"));
+        assert!(message(spec("brute-force", "published", &[])).contains("no preset"));
+        assert!(message(spec("mmrt", "robust", &[("colour", "red")])).contains("colour"));
+        assert!(message(spec("mmrt", "robust", &[("storage", "sb")])).contains("dllb"));
+        assert!(message(spec("mmrt", "robust", &[("buckets", "many")])).contains("buckets"));
+        assert!(message(spec("mmrt", "published", &[("accept", "plane")])).contains("payload"));
+    }
+}
