@@ -175,6 +175,47 @@ fn copies_are_placed_through_their_node() {
     assert!(places.iter().zip(expected).all(|(a, b)| (*a - b).length() < 1e-12), "{places:?}");
 }
 
+/// Copies with all three attributes; integer rotations are shares of their largest value.
+#[test]
+fn copies_turn_and_scale() {
+    let mut bytes = triangle_bytes();
+    bytes.extend(floats(&[1.0, 2.0, 3.0, 2.0, 3.0, 4.0]));
+    bytes.extend([0, 0, 127, 127, 0, 0, 0, 127]);
+    let instancing = |attributes: &str| {
+        triangle_gltf(
+            &format!(
+                r#"[{{"mesh":0,"extensions":{{"EXT_mesh_gpu_instancing":{{"attributes":{attributes}}}}}}}]"#
+            ),
+            "",
+            "",
+        )
+        .replace(&data_uri(&triangle_bytes()), &data_uri(&bytes))
+        .replace(r#""byteLength":44"#, r#""byteLength":76"#)
+        .replace(
+            r#"{"buffer":0,"byteOffset":36,"byteLength":6}"#,
+            r#"{"buffer":0,"byteOffset":36,"byteLength":6},{"buffer":0,"byteOffset":44,"byteLength":24},
+            {"buffer":0,"byteOffset":68,"byteLength":8}"#,
+        )
+        .replace(
+            r#""type":"SCALAR"}"#,
+            r#""type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"},
+            {"bufferView":3,"componentType":5120,"normalized":true,"count":2,"type":"VEC4"}"#,
+        )
+    };
+    let scene = load_text(&instancing(r#"{"TRANSLATION":2,"SCALE":2,"ROTATION":3,"_CUSTOM":3}"#));
+    let corner = |i: usize| scene.instances[i].world_from_mesh.transform_point3(DVec3::X);
+    // x scaled by 1, turned to y, moved by (1, 2, 3); then x scaled by 2 and moved by (2, 3, 4).
+    assert!((corner(0) - DVec3::new(1.0, 3.0, 3.0)).length() < 1e-12, "{}", corner(0));
+    assert!((corner(1) - DVec3::new(4.0, 3.0, 4.0)).length() < 1e-12, "{}", corner(1));
+    let refused = |attributes: &str| {
+        load_bytes(instancing(attributes).as_bytes()).map(drop).expect_err("refused").to_string()
+    };
+    assert!(refused(r#"{"TRANSLATION":2,"SCALE":0}"#).contains("differ in length"));
+    assert!(refused(r#"{"TRANSLATION":9}"#).contains("refers to no accessor"));
+    assert!(refused(r#"{"ROTATION":2}"#).contains("has 3 components"));
+    assert!(refused("{}").contains("has no attributes"));
+}
+
 /// The joint lifts the quad by 1, the morph target by half of its displacements before that.
 #[test]
 fn deformed_meshes_are_posed_at_rest() {

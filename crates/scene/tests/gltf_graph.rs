@@ -43,6 +43,16 @@ fn long_chains_are_multiplied_in_f64() {
     let world = scene.instances[0].world_from_mesh;
     assert!(world.translation.length() < 1e-10, "{}", world.translation);
     assert!((world.matrix3.x_axis - DVec3::X).length() < 1e-12, "{}", world.matrix3);
+    // The same as matrices.
+    let (sin, cos) = (2.0 * half).sin_cos();
+    let transform =
+        format!(r#""matrix":[{cos:.17},{sin:.17},0,0,{:.17},{cos:.17},0,0,0,0,1,0,1,0,0,1]"#, -sin);
+    let file = triangle_gltf(&chain(1000, &transform), "", "");
+    let scene =
+        gltf::from_slice(Path::new("chain.gltf"), file.as_bytes(), &with_depth(1000)).expect("a good file");
+    let world = scene.instances[0].world_from_mesh;
+    assert!(world.translation.length() < 1e-10, "{}", world.translation);
+    assert!((world.matrix3.x_axis - DVec3::X).length() < 1e-12, "{}", world.matrix3);
     // Half turns with a mirror: exactly the identity after an even number.
     let mirrored = r#""matrix":[-1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"name":"mirror""#;
     let file = triangle_gltf(&chain(999, mirrored), "", "");

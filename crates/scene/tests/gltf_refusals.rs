@@ -56,6 +56,29 @@ fn contradictions_are_named() {
         ),
         (
             positions,
+            r#""bufferView":0,"byteOffset":1,"componentType":5126,"count":3,"type":"VEC3""#,
+            "accessors[0]: needs 37 bytes, but bufferViews[0] has only 36",
+        ),
+        (
+            positions,
+            r#""bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,
+            "indices":{"bufferView":1,"byteOffset":0,"componentType":5123},"values":{"bufferView":0,"byteOffset":28}}"#,
+            "accessors[0]: needs 40 bytes",
+        ),
+        (
+            positions,
+            r#""bufferView":0,"componentType":5126,"count":2,"type":"VEC3","sparse":{"count":3,
+            "indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}"#,
+            "accessors[0]: 3 sparse elements of 2",
+        ),
+        (
+            positions,
+            r#""bufferView":0,"componentType":5126,"count":2,"type":"VEC3","sparse":{"count":1,
+            "indices":{"bufferView":1,"byteOffset":4,"componentType":5123},"values":{"bufferView":0}}"#,
+            "accessors[0]: sparse index 2, but there are only 2 elements",
+        ),
+        (
+            positions,
             r#""bufferView":0,"componentType":5126,"count":4611686018427387904,"type":"VEC3""#,
             "accessors[0] is 4611686018427387904",
         ),
@@ -125,6 +148,31 @@ fn vertex_indices_must_exist() {
     }
     let two = altered(r#""componentType":5123,"count":3"#, r#""componentType":5123,"count":2"#);
     assert!(message(&two).contains("2 vertices do not make whole triangles"));
+}
+
+/// A joint with a share must exist; one without may be anything.
+#[test]
+fn joints_must_exist() {
+    let mut binary = floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    binary.extend([0, 1, 9, 9].repeat(3));
+    binary.extend(floats(&[0.5, 0.5, 0.0, 0.0].repeat(3)));
+    let file = |joints: &str| {
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":96,"uri":"{}"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":12}},
+                {{"buffer":0,"byteOffset":48,"byteLength":48}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}},
+                {{"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"}},
+                {{"bufferView":2,"componentType":5126,"count":3,"type":"VEC4"}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}}}]}}],
+            "skins":[{{"joints":{joints}}}],"nodes":[{{"mesh":0,"skin":0}},{{}},{{}}]}}"#,
+            data_uri(&binary)
+        )
+    };
+    load_bytes(file("[1,2]").as_bytes()).expect("both joints exist");
+    assert!(message(&file("[1]")).contains("joint 1, but skins[0] has only 1"));
+    assert!(message(&file("[]")).contains("skins[0]"));
+    assert!(message(&file("[1,3]")).contains("skins[0].joints: refers to element 3"));
 }
 
 #[test]

@@ -12,39 +12,39 @@ use super::transforms;
 use crate::animation::NodeTransform;
 use crate::{SceneError, Warning};
 
-/// Members that hold an index, a count of components or an enumeration of the format.
-const INDEX_MEMBERS: [&str; 27] = [
-    "scene",
-    "nodes",
-    "children",
-    "camera",
-    "mesh",
-    "skin",
-    "light",
-    "indices",
-    "material",
+/// Members that hold an index, a stride or an enumeration of the format.
+const INDEX_MEMBERS: [&str; 30] = [
     "attributes",
-    "targets",
-    "mode",
-    "bufferView",
     "buffer",
-    "componentType",
+    "bufferView",
     "byteStride",
-    "source",
-    "sampler",
+    "camera",
+    "children",
+    "componentType",
     "index",
-    "texCoord",
-    "node",
+    "indices",
     "input",
-    "output",
     "inverseBindMatrices",
-    "skeleton",
     "joints",
+    "light",
     "magFilter",
+    "material",
+    "mesh",
+    "minFilter",
+    "mode",
+    "node",
+    "nodes",
+    "output",
+    "sampler",
+    "scene",
+    "skeleton",
+    "skin",
+    "source",
+    "targets",
+    "texCoord",
+    "wrapS",
+    "wrapT",
 ];
-
-/// Objects whose members belong to somebody else.
-const FOREIGN_MEMBERS: [&str; 2] = ["extras", "others"];
 
 /// A parsed file: the typed tree, and the transform of every node in f64.
 pub(super) struct Parsed {
@@ -130,7 +130,8 @@ fn check_integers(path: &Path, place: &str, value: &Value, index: bool) -> Resul
             .try_for_each(|(i, item)| check_integers(path, &format!("{place}[{i}]"), item, index)),
         Value::Object(members) => members
             .iter()
-            .filter(|(name, _)| !FOREIGN_MEMBERS.contains(&name.as_str()))
+            // The application's own, whatever its members are called.
+            .filter(|(name, _)| *name != "extras")
             .filter(|(_, member)| index || member.is_object() || member.is_array() || member.is_u64())
             .try_for_each(|(name, member)| {
                 let inside = if place.is_empty() { name.clone() } else { format!("{place}.{name}") };
