@@ -108,6 +108,24 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
 }
 
 #[test]
+fn a_blended_emitter_shines_with_its_opacity() {
+    let device = device();
+    let mut veil = lambert(0.0, 1.0);
+    veil.base_color[3] = 0.5;
+    veil.alpha_mode = rasray_scene::AlphaMode::Blend;
+    let mut meshes = box_inside(1.0, 0);
+    meshes.push(square(DVec3::new(0.0, 0.0, -0.5), DVec3::X * 0.5, DVec3::Y * 0.5, 1));
+    let scene = scene(meshes, vec![veil, lambert(0.5, 0.0)], [0.0; 3]);
+    let eye = camera(DVec3::ZERO, DVec3::X, DVec3::Y, Projection::Orthographic { half_height: 0.1 });
+    let stage = Stage::new(&device, &scene, eye, 16, 16, 8);
+    let found = mean(&stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 16));
+    // Every direction shows half of the emission; each sample is 0 or the albedo.
+    let deviation = 0.25 / 4096.0f64.sqrt();
+    assert!((found - 0.25).abs() < 5.0 * deviation, "{found}");
+    assert_silent(&device);
+}
+
+#[test]
 fn ray_casting_lights_from_the_eye() {
     let device = device();
     let wall = square(DVec3::new(0.0, 0.0, -2.0), DVec3::X * 9.0, DVec3::Y * 9.0, 0);
