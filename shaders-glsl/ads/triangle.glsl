@@ -2,7 +2,7 @@
 // Reads, writes: nothing.
 // Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no
 // contraction can change and which two triangles sharing an edge evaluate with the roles swapped, so
-// that one of them always accepts. Error bound of t after pbrt-v4, section 6.8.
+// that one of them always accepts. Error bound of t after pbrt-v4, section 6.8, with the shear's own share.
 #ifndef ADS_TRIANGLE_GLSL
 #define ADS_TRIANGLE_GLSL
 
@@ -63,19 +63,28 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     t = scaled * inverse;
     barycentrics = vec2(v * inverse, w * inverse);
     // Rounding keeps t within the corners' own range, which the exact value never leaves.
-    t = clamp(t, min(az, min(bz, cz)), max(az, max(bz, cz)));
-    float max_x = max(abs(ax), max(abs(bx), abs(cx)));
-    float max_y = max(abs(ay), max(abs(by), abs(cy)));
+    float nearest = min(az, min(bz, cz));
+    float farthest = max(az, max(bz, cz));
+    t = clamp(t, nearest, farthest);
     float max_z = max(abs(az), max(abs(bz), abs(cz)));
-    float max_e = max(abs(u), max(abs(v), abs(w)));
     const float gamma2 = 1.1920930e-7;
     const float gamma3 = 1.7881396e-7;
-    const float gamma5 = 2.9802331e-7;
-    float delta_z = gamma3 * max_z;
-    float delta_x = gamma5 * (max_x + max_z * abs(d.z));
-    float delta_y = gamma5 * (max_y + max_z * abs(d.z));
-    float delta_e = 2.0 * (gamma2 * max_x * max_y + delta_y * max_x + delta_x * max_y);
-    t_error = 3.0 * (gamma3 * max_e * max_z + delta_e * max_z + delta_z * max_e) * abs(inverse);
+    const float gamma8 = 4.7683738e-7;
+    const float gamma9 = 5.3644210e-7;
+    const float gamma12 = 7.1525625e-7;
+    vec3 x = abs(vec3(ax, bx, cx));
+    vec3 y = abs(vec3(ay, by, cy));
+    // The shear adds rounding only as far as it moves a corner: a ray almost along the major axis moves none.
+    vec3 shifted = gamma8 * abs(vec3(pa.z, pb.z, pc.z));
+    vec3 dx = gamma3 * x + abs(sx) * shifted;
+    vec3 dy = gamma3 * y + abs(sy) * shifted;
+    float delta_u = gamma2 * (abs(u0) + abs(u1)) + x.z * dy.y + y.y * dx.z + y.z * dx.y + x.y * dy.z;
+    float delta_v = gamma2 * (abs(v0) + abs(v1)) + x.x * dy.z + y.z * dx.x + y.x * dx.z + x.z * dy.x;
+    float delta_w = gamma2 * (abs(w0) + abs(w1)) + x.y * dy.x + y.x * dx.y + y.y * dx.x + x.x * dy.y;
+    t_error = (delta_u * abs(az) + delta_v * abs(bz) + delta_w * abs(cz)
+        + gamma9 * (abs(u * az) + abs(v * bz) + abs(w * cz))) * abs(inverse);
+    // Both values lie within the corners' range, whose ends have six roundings each.
+    t_error = min(t_error, farthest - nearest + gamma12 * max_z);
     return true;
 }
 
