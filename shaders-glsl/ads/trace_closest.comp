@@ -19,7 +19,7 @@ void main() {
         state = queue_states[slot];
     }
     uint result = TRACE_MISS;
-    if (ray.t_max >= 0.0) {
+    if (ray_is_valid(ray)) {
         result = trace_closest(trace_structure, ray, state, hit);
     }
     trace_file(slot, result, state, hit);

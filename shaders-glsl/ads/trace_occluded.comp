@@ -19,7 +19,7 @@ void main() {
         state = queue_states[slot];
     }
     uint result = TRACE_MISS;
-    if (ray.t_max >= 0.0) {
+    if (ray_is_valid(ray)) {
         result = trace_occluded(trace_structure, ray, state);
     }
     Hit hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);

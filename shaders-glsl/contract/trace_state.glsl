@@ -23,6 +23,17 @@ TraceState trace_state_begin(Ray ray) {
     return state;
 }
 
+// Whether a ray asks anything that has an answer: origin and direction finite, the direction not zero,
+// no end of the range NaN, t_max not negative. Decided on bits: comparisons with NaN are not dependable.
+bool ray_is_valid(Ray ray) {
+    const uint infinite = 0x7F800000u;
+    bool finite = all(lessThan(floatBitsToUint(ray.origin) & 0x7FFFFFFFu, uvec3(infinite)))
+        && all(lessThan(floatBitsToUint(ray.direction) & 0x7FFFFFFFu, uvec3(infinite)));
+    bool ends = (floatBitsToUint(ray.t_min) & 0x7FFFFFFFu) <= infinite && (floatBitsToUint(ray.t_max) & 0x7FFFFFFFu) <= infinite
+        && ray.t_max >= 0.0;
+    return finite && ends && any(notEqual(ray.direction, vec3(0.0)));
+}
+
 // Whether a candidate at (t, primitive) replaces the best hit: nearer, or as near with a lower id,
 // so that the answer does not depend on the order in which candidates are met.
 bool hit_is_better(Hit best, float t, uint primitive) {
