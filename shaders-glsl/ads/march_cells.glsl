@@ -26,6 +26,7 @@ struct CellMarch {
     bool step_x;          // which boundary t_out belongs to; both false: the segment ends in this cell
     bool step_y;
     uint neighbours;      // bits of 3x3 cells around `cell` that are still to be visited as well
+    uint touched;         // those of them beside the way out: the ray may be in their twins from t_out on
 };
 
 // t at which the ray meets x/z = boundary, and a bound of its error. Infinite where it does not.
@@ -41,27 +42,27 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     return t;
 }
 
-// -1 where the point at t is within rounding of the cell's lower boundary, 1 of its upper one, else 0.
-int march_touching(float lower, float upper, float x, float z, float guard) {
-    if (abs(x - upper * z) <= guard) {
-        return 1;
-    }
-    return abs(x - lower * z) <= guard ? -1 : 0;
+// Bits of the cells around a cell along one axis that a point touches within rounding: 1 the lower
+// neighbour, 2 the cell itself, 4 the upper one. Where a cell is no wider than the rounding, all three.
+uint march_touching(float lower, float upper, float x, float z, float guard) {
+    return 2u | (abs(x - lower * z) <= guard ? 1u : 0u) | (abs(x - upper * z) <= guard ? 4u : 0u);
 }
 
 // Bits of the cells that touch the ray within rounding at t: beside `cell` along x, y, and both.
 uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
-    vec3 p = m.origin + t * m.direction;
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
+    vec3 p = m.origin + t * m.direction;
     float guard = 9.6e-7 * (size + abs(t) * speed) + 2.0 * t_error * speed;
-    int dx = !along_x ? 0 : march_touching(cell_boundary(m.cell.x, m.resolution), cell_boundary(m.cell.x + 1, m.resolution), p.x, p.z, guard);
-    int dy = !along_y ? 0 : march_touching(cell_boundary(m.cell.y, m.resolution), cell_boundary(m.cell.y + 1, m.resolution), p.y, p.z, guard);
-    uint bits = 0u;
-    bits |= dx != 0 ? 1u << uint(4 + dx) : 0u;
-    bits |= dy != 0 ? 1u << uint(4 + 3 * dy) : 0u;
-    bits |= dx != 0 && dy != 0 ? 1u << uint(4 + dx + 3 * dy) : 0u;
-    return bits;
+    if (!(abs(t) * speed < 1.0e30)) {
+        // At infinity only the direction counts.
+        p = m.direction;
+        guard = 9.6e-7 * speed;
+    }
+    uint columns = !along_x ? 2u : march_touching(cell_boundary(m.cell.x, m.resolution), cell_boundary(m.cell.x + 1, m.resolution), p.x, p.z, guard);
+    uint rows = !along_y ? 2u : march_touching(cell_boundary(m.cell.y, m.resolution), cell_boundary(m.cell.y + 1, m.resolution), p.y, p.z, guard);
+    uint bits = ((rows & 1u) != 0u ? columns : 0u) | columns << 3 | ((rows & 4u) != 0u ? columns << 6 : 0u);
+    return bits & ~(1u << 4);
 }
 
 // Finds where the ray leaves the current cell, and which neighbours it touches on the way out.
@@ -83,20 +84,14 @@ void march_find_exit(inout CellMarch m) {
     float t = m.step_x ? tx : (m.step_y ? ty : m.t_end);
     m.t_out = max(t, m.t_in);
     m.error_out = m.step_x ? error_x : (m.step_y ? error_y : 6.0e-8 * 16.0 * abs(m.t_end));
-    if (!(m.t_out < MARCH_INFINITY)) {
-        return;
-    }
     uint touched = march_touched(m, m.t_out, m.error_out, !m.step_x, !m.step_y);
     m.neighbours |= touched;
+    m.touched = touched;
     // A touched side cell has a twin beyond the boundary that is stepped over.
     if (m.step_x) {
-        int d = m.step_direction.x;
-        m.neighbours |= (touched & (1u << 1)) != 0u ? 1u << uint(1 + d) : 0u;
-        m.neighbours |= (touched & (1u << 7)) != 0u ? 1u << uint(7 + d) : 0u;
+        m.neighbours |= m.step_direction.x > 0 ? touched << 1 : touched >> 1;
     } else if (m.step_y) {
-        int d = 3 * m.step_direction.y;
-        m.neighbours |= (touched & (1u << 3)) != 0u ? 1u << uint(3 + d) : 0u;
-        m.neighbours |= (touched & (1u << 5)) != 0u ? 1u << uint(5 + d) : 0u;
+        m.neighbours |= m.step_direction.y > 0 ? touched << 3 : touched >> 3;
     }
 }
 
@@ -122,7 +117,7 @@ CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begi
     m.error_in = t_error;
     m.t_out = t_begin;
     m.error_out = t_error;
-    m.neighbours = 0u;
+    m.touched = 0u;
     m.step_x = false;
     m.step_y = false;
     m.neighbours = march_touched(m, t_begin, t_error, true, true);
@@ -138,7 +133,8 @@ bool march_next(inout CellMarch m) {
     m.cell += ivec2(m.step_x ? m.step_direction.x : 0, m.step_y ? m.step_direction.y : 0);
     m.t_in = m.t_out;
     m.error_in = m.error_out;
-    m.neighbours = 0u;
+    // What was touched on the way out of the last cell is touched on the way into this one.
+    m.neighbours = m.touched;
     march_find_exit(m);
     return true;
 }
