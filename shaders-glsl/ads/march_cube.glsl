@@ -65,12 +65,16 @@ Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near)
     next = near.x <= near.y && near.x > t ? min(next, near.x) : next;
     next = near.x <= near.y && near.y > t ? min(next, near.y) : next;
     segment.t_end = min(next, t_max);
-    float middle = segment.t_end < uintBitsToFloat(0x7F800000u) ? 0.5 * (t + segment.t_end) : t + 1.0 + abs(t);
-    bool in_near = near.x <= middle && middle <= near.y;
-    segment.face = in_near ? SEGMENT_NEAR : face_of(origin + middle * direction);
     float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
     float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-    segment.t_error = 9.6e-7 * (abs(t) + size / speed);
+    // Any t inside tells the face. Far out rounding hides how far a ray almost along a seam is from it,
+    // so the point is taken no farther away than the ray has come so far.
+    float middle = segment.t_end < uintBitsToFloat(0x7F800000u) ? 0.5 * (t + segment.t_end) : t + 1.0 + abs(t);
+    float reach = size / speed;
+    middle = reach > 0.0 ? min(middle, t + abs(t) + reach) : middle;
+    bool in_near = near.x <= middle && middle <= near.y;
+    segment.face = in_near ? SEGMENT_NEAR : face_of(origin + middle * direction);
+    segment.t_error = 9.6e-7 * (abs(t) + reach);
     return segment;
 }
 
