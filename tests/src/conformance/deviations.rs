@@ -1,0 +1,133 @@
+use super::{Deviation, Law};
+
+const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
+const EDGE_ON: &str = "its plane holds the eye or nearly so, so that few cells' centres are covered or none";
+const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of what falls towards them";
+const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
+const SHELL: &str = "both sides of the shell lie within one step";
+const LEAVING: &str = "a ray that leaves a surface meets the samples beside its own";
+const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
+
+/// Cases whose errors fall with the size of a cell as others do, from a higher start.
+pub(super) const ROBUST_LAWS: &[Law] = &[
+    Law {
+        case: "G11",
+        reason: "part of it is seen at grazing angles, where its border is wide",
+        per_cell: 18.0,
+    },
+    Law { case: "E2-far", reason: COARSE, per_cell: 5.0 },
+    Law { case: "E2-400-far", reason: COARSE, per_cell: 36.0 },
+    Law { case: "V3", reason: "an open wall, whose border is a cell wide", per_cell: 1.0 },
+    Law {
+        case: "V15-near",
+        reason: "the eye touches the surface, whose cells are seen at grazing angles",
+        per_cell: 13.0,
+    },
+    Law { case: "V15-vertex", reason: "as V15-near", per_cell: 13.0 },
+    Law {
+        case: "V8",
+        reason: "silhouettes: a plane stands for what is behind it in its cell",
+        per_cell: 2.5,
+    },
+    Law { case: "Z2-6", reason: COARSE, per_cell: 17.0 },
+    Law { case: "C2", reason: "an open triangle, whose border is a cell wide", per_cell: 2.0 },
+    Law { case: "C4", reason: BORDER, per_cell: 16.0 },
+    Law { case: "C5", reason: BORDER, per_cell: 90.0 },
+    Law {
+        case: "P5",
+        reason: "a neighbour's plane may stand before the point that a ray leaves from",
+        per_cell: 2.5,
+    },
+    Law { case: "E2-400", reason: "poles, whose triangles are far narrower than cells", per_cell: 1.5 },
+];
+
+/// Planes in 16 x 16 cells a face.
+pub(super) const ROBUST_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
+
+/// Planes in 64 x 64 cells a face.
+pub(super) const ROBUST_64: &[Deviation] = &[
+    deviation("G1", THIN, 0.699, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.49, 0.767),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-1", EDGE_ON, 0.103, 0.162),
+    deviation("V2-2", EDGE_ON, 0.403, 0.631),
+    deviation("V2-3", EDGE_ON, 0.99, 1.0),
+    deviation("V2-4", EDGE_ON, 0.99, 1.0),
+    deviation("V2-5", EDGE_ON, 0.99, 1.0),
+    deviation("V2-6", EDGE_ON, 0.99, 1.0),
+    deviation("V16", THIN, 0.99, 1.0),
+];
+
+/// Planes in 128 x 128 cells a face.
+pub(super) const ROBUST_128: &[Deviation] = &[
+    deviation("G1", THIN, 0.699, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.49, 0.767),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-1", EDGE_ON, 0.098, 0.155),
+    deviation("V2-2", EDGE_ON, 0.423, 0.662),
+    deviation("V2-3", EDGE_ON, 0.99, 1.0),
+    deviation("V2-4", EDGE_ON, 0.99, 1.0),
+    deviation("V2-5", EDGE_ON, 0.99, 1.0),
+    deviation("V2-6", EDGE_ON, 0.99, 1.0),
+    deviation("V16", THIN, 0.99, 1.0),
+];
+
+/// Samples in 16 x 16 cells a face.
+pub(super) const PUBLISHED_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
+
+/// Samples in 128 x 128 cells a face.
+pub(super) const PUBLISHED_128: &[Deviation] = &[
+    deviation("G1", THIN, 0.699, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.49, 0.767),
+    deviation("G10", HALF_OPEN, 0.253, 0.397),
+    deviation("G11", HALF_OPEN, 0.63, 0.985),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("E2", HALF_OPEN, 0.064, 0.101),
+    deviation("E2-far", HALF_OPEN, 0.044, 0.071),
+    deviation("E2-400", HALF_OPEN, 0.026, 0.041),
+    deviation("E2-400-far", HALF_OPEN, 0.061, 0.096),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-0", HALF_OPEN, 0.503, 0.787),
+    deviation("V2-1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-2", EDGE_ON, 0.99, 1.0),
+    deviation("V2-3", EDGE_ON, 0.99, 1.0),
+    deviation("V2-4", EDGE_ON, 0.99, 1.0),
+    deviation("V2-5", EDGE_ON, 0.99, 1.0),
+    deviation("V2-6", EDGE_ON, 0.99, 1.0),
+    deviation("V3", HALF_OPEN, 0.99, 1.0),
+    deviation("V4", HALF_OPEN, 0.628, 0.982),
+    deviation("V12", HALF_OPEN, 0.369, 0.577),
+    deviation("V15", HALF_OPEN, 0.054, 0.085),
+    deviation("V15-near", HALF_OPEN, 0.084, 0.132),
+    deviation("V15-vertex", HALF_OPEN, 0.094, 0.147),
+    deviation("V15-surface", HALF_OPEN, 0.096, 0.151),
+    deviation("V16", THIN, 0.99, 1.0),
+    deviation("V5", HALF_OPEN, 0.024, 0.039),
+    deviation("V6", HALF_OPEN, 0.016, 0.027),
+    deviation("V7", HALF_OPEN, 0.036, 0.057),
+    deviation("V8", HALF_OPEN, 0.057, 0.091),
+    deviation("Z2-4", HALF_OPEN, 0.023, 0.037),
+    deviation("Z2-5", HALF_OPEN, 0.024, 0.039),
+    deviation("Z2-6", HALF_OPEN, 0.029, 0.047),
+    deviation("Z11-5", SHELL, 0.175, 0.275),
+    deviation("Z11-6", SHELL, 0.399, 0.624),
+    deviation("C2", HALF_OPEN, 0.026, 0.042),
+    deviation("C4", BORDER, 0.085, 0.134),
+    deviation("C5", BORDER, 0.395, 0.619),
+    deviation("P3", HALF_OPEN, 0.4, 0.626),
+    deviation("P5", LEAVING, 0.213, 0.334),
+];
+
+const fn deviation(
+    case: &'static str,
+    reason: &'static str,
+    at_least_rate: f64,
+    at_most_rate: f64,
+) -> Deviation {
+    Deviation { case, reason, at_least_rate, at_most_rate }
+}

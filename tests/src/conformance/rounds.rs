@@ -1,0 +1,28 @@
+use rasray_ads::{Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure, TraceMode};
+
+use crate::harness::Bench;
+
+/// Traces in at most `rounds` dispatches, however many the structure thinks are enough, and returns what
+/// the queue holds afterwards, also where rays were given up or met a structure that was not ready.
+///
+/// # Panics
+/// If the device fails.
+pub fn trace_in_rounds(
+    bench: &Bench,
+    structure: &dyn Structure,
+    rays: &[Ray],
+    mode: TraceMode,
+    rounds: u32,
+) -> (Vec<Hit>, QueueCounters) {
+    let device = bench.device();
+    let count = rays.len() as u32;
+    let queue = RayQueue::new(device, "rounds", count, false).expect("a queue fits");
+    device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
+    device.upload_slice(queue.rays(), 0, rays).expect("the device works");
+    device
+        .submit(|recorder| structure.record_trace(recorder, &queue, count, mode, rounds))
+        .expect("the device works");
+    let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
+    let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).expect("the device works");
+    (hits, RayQueue::counters(&header[0]))
+}

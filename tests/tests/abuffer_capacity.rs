@@ -1,0 +1,242 @@
+//! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well
+//! formed; and the check of lists notices every fault.
+
+use rasray_abuffer::{
+    ABuffer, Accept, Addressing, Config, Contents, Fault, formula_bytes, plan, well_formed,
+};
+use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box};
+
+const EYE: [f32; 3] = [0.0; 3];
+const NEAR_TRIANGLES: u64 = 5;
+
+/// Layers, a room, and triangles around the eye for the near list.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    for k in 0..NEAR_TRIANGLES {
+        let z = 1.0e-5 * (k as f32 - 2.0) + 1.0e-6;
+        triangles.push([[-0.02, -0.02, z], [0.02, -0.02, z], [0.0, 0.03, z]]);
+    }
+    triangles
+}
+
+fn rays() -> Vec<Ray> {
+    let mut random = Random::new(3);
+    (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
+}
+
+fn config(addressing: Addressing) -> Config {
+    Config { addressing, ..Config::robust(16) }
+}
+
+/// Builds once, with the pools as they are.
+fn build(bench: &Bench, structure: &mut ABuffer) -> BuildStatus {
+    bench
+        .device()
+        .submit(|recorder| structure.record_build(recorder, EYE))
+        .expect("the device works")
+        .value
+        .expect("the header is written");
+    structure.status().expect("the header is readable")
+}
+
+fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {
+    let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
+    assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
+    hits
+}
+
+fn demand(status: &BuildStatus, name: &str) -> u64 {
+    status.pools.iter().find(|pool| pool.name == name).expect("the pool is counted").demand
+}
+
+fn check_well_formed(bench: &Bench, structure: &ABuffer) -> Contents {
+    let contents = structure.download(bench.device()).expect("the device works");
+    well_formed(&contents).expect("lists are well formed");
+    contents
+}
+
+fn every_edge_capacity(addressing: Addressing) {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let geometry = bench.geometry(&triangles);
+    let config = config(addressing);
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+
+    // Ample room: what the demand and the hits are.
+    structure.resize(bench.device(), &plan(&config, 1 << 20, 1 << 10).expect("in range")).expect("it fits");
+    let status = build(&bench, &mut structure);
+    assert!(status.complete);
+    let (nodes, near) = (demand(&status, "nodes"), demand(&status, "near"));
+    assert!(nodes > 1000 && near == NEAR_TRIANGLES, "{status:?}");
+    check_well_formed(&bench, &structure);
+    let expected = trace(&bench, &structure, &rays);
+
+    let full = [0, 1, nodes - 1, nodes].map(|capacity| (capacity, near));
+    let near_full = [0, 1, near - 1].map(|capacity| (nodes, capacity));
+    for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
+        let sizes = plan(&config, room, near_room).expect("in range");
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let status = build(&bench, &mut structure);
+        let fits = room >= nodes && near_room >= near;
+        assert_eq!(status.complete, fits, "room for {room} and {near_room}");
+        assert_eq!((demand(&status, "nodes"), demand(&status, "near")), (nodes, near), "room for {room}");
+        check_well_formed(&bench, &structure);
+        if fits {
+            assert_eq!(structure.check(&status), Check::Complete);
+            assert_eq!(trace(&bench, &structure, &rays), expected);
+            continue;
+        }
+        for mode in [TraceMode::Closest, TraceMode::Occluded] {
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
+            assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {near_room}, {mode:?}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+        }
+        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {room} does not grow") };
+        assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (nodes, near));
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let status = build(&bench, &mut structure);
+        assert!(status.complete, "once grown to its exact demand a build completes");
+        check_well_formed(&bench, &structure);
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {near_room}");
+    }
+}
+
+#[test]
+fn every_edge_capacity_with_descriptors() {
+    every_edge_capacity(Addressing::Descriptor);
+}
+
+#[test]
+fn every_edge_capacity_with_addresses() {
+    every_edge_capacity(Addressing::Address);
+}
+
+#[test]
+fn a_structure_that_was_never_built_is_not_ready() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    let config = config(Addressing::Descriptor);
+    let structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    let rays = rays();
+    let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
+    assert_eq!(counters.not_ready as usize, rays.len());
+    assert!(hits.iter().all(|hit| !hit.is_hit()));
+}
+
+#[test]
+fn formula_equals_allocations_without_slack() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    for (accept, buckets, resolution) in
+        [(Accept::Plane, 4, 16), (Accept::Interval, 1, 9), (Accept::Plane, 32, 5)]
+    {
+        let config = Config { accept, buckets, ..Config::robust(resolution) };
+        let before = bench.device().allocated_bytes();
+        let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
+        let plan = |fragments| plan(&config, fragments, 7).expect("in range");
+        structure.resize(bench.device(), &plan(50_000)).expect("it fits");
+        let status = build(&bench, &mut structure);
+        assert!(status.complete);
+        let report = structure.report().expect("the header is readable");
+        let part = |name| report.bytes_by_part.iter().find(|part| part.0 == name).expect("the part exists").1;
+        assert_eq!(report.formula_bytes, report.bytes() - part("slack"));
+        assert!(part("slack") > 0);
+        assert_eq!(report.stored, Some(demand(&status, "nodes")));
+        assert_eq!(
+            report.formula_bytes,
+            formula_bytes(&config, demand(&status, "nodes"), demand(&status, "near")).total()
+        );
+        // What is reported is what was allocated: downloads have that size, and so has device memory.
+        assert_eq!(report.bytes(), structure.sizes().bytes());
+        let contents = check_well_formed(&bench, &structure);
+        let words = [&contents.bounds, &contents.lists, &contents.nodes, &contents.data, &contents.near]
+            .iter()
+            .map(|pool| pool.len())
+            .sum::<usize>();
+        assert_eq!(words as u64 * 4 + size_of::<rasray_abuffer::Header>() as u64, report.bytes());
+        let allocated = bench.device().allocated_bytes() - before;
+        assert!(allocated >= report.bytes(), "{allocated} bytes allocated, {} reported", report.bytes());
+        // Two host copies of the header, and every buffer rounded up.
+        assert!(allocated <= report.bytes() + 8 * 4096, "{allocated} allocated, {} reported", report.bytes());
+    }
+}
+
+/// The links of a list with at least three nodes, and where its head is stored.
+fn long_list(contents: &Contents) -> (usize, Vec<usize>) {
+    for list in (0..contents.lists.len()).step_by(2) {
+        let mut links = Vec::new();
+        let mut link = contents.lists[list] as usize;
+        while link != 0 {
+            links.push(link);
+            link = contents.nodes[3 * (link - 1) + 1] as usize;
+        }
+        if links.len() >= 3 && contents.nodes[3 * (links[0] - 1)] != contents.nodes[3 * (links[2] - 1)] {
+            return (list, links);
+        }
+    }
+    panic!("the scene has no list of three nodes");
+}
+
+#[test]
+fn every_fault_of_a_list_is_noticed() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    let config = Config { buckets: 2, ..Config::robust(16) };
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    structure.resize(bench.device(), &plan(&config, 50_000, 64).expect("in range")).expect("it fits");
+    assert!(build(&bench, &mut structure).complete);
+    let good = check_well_formed(&bench, &structure);
+    let (list, links) = long_list(&good);
+    let [next, prev] = [|link: usize| 3 * (link - 1) + 1, |link: usize| 3 * (link - 1) + 2];
+    let depth = |link: usize| 3 * (link - 1);
+    type Spoil<'a> = Box<dyn Fn(&mut Contents) + 'a>;
+    type Is = fn(&Fault) -> bool;
+    let faults: Vec<(&str, Spoil<'_>, Is)> = vec![
+        ("a link past the pool", Box::new(|c| c.nodes[next(links[0])] = 49_999), |f| {
+            matches!(f, Fault::Dangling { .. })
+        }),
+        ("a head past the pool", Box::new(|c| c.lists[list] = u32::MAX), |f| {
+            matches!(f, Fault::Dangling { .. })
+        }),
+        ("a node that was lost", Box::new(|c| c.header.demand += 1), |f| matches!(f, Fault::Count { .. })),
+        ("a list that was lost", Box::new(|c| (c.lists[list], c.lists[list + 1]) = (0, 0)), |f| {
+            matches!(f, Fault::Count { .. })
+        }),
+        ("a wrong backward link", Box::new(|c| c.nodes[prev(links[1])] = 0), |f| {
+            matches!(f, Fault::Backward { .. })
+        }),
+        ("a wrong tail", Box::new(|c| c.lists[list + 1] = links[0] as u32), |f| {
+            matches!(f, Fault::Tail { .. })
+        }),
+        ("two depths exchanged", Box::new(|c| c.nodes.swap(depth(links[0]), depth(links[2]))), |f| {
+            matches!(f, Fault::Order { .. })
+        }),
+        ("no depth", Box::new(|c| c.nodes[depth(links[1])] = f32::NAN.to_bits()), |f| {
+            matches!(f, Fault::Depth { .. })
+        }),
+        ("a depth behind the eye", Box::new(|c| c.nodes[depth(links[0])] = (-1.0_f32).to_bits()), |f| {
+            matches!(f, Fault::Depth { .. })
+        }),
+        ("a depth out of bounds", Box::new(|c| c.nodes[depth(links[2])] = 1.0e9_f32.to_bits()), |f| {
+            matches!(f, Fault::Depth { .. })
+        }),
+        // A list that runs in a circle ends all the same.
+        ("a circle", Box::new(|c| c.nodes[next(links[2])] = links[0] as u32), |f| {
+            matches!(f, Fault::Backward { .. } | Fault::Order { .. } | Fault::Dangling { .. })
+        }),
+    ];
+    for (name, spoil, is_expected) in faults {
+        let mut contents = good.clone();
+        spoil(&mut contents);
+        match well_formed(&contents) {
+            Ok(()) => panic!("{name} goes unnoticed"),
+            Err(fault) => assert!(is_expected(&fault), "{name}: {fault}"),
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! Options that may not change a hit of the A-buffer: every one is switched alone, and hits are compared
+//! bit for bit.
+
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March};
+use rasray_ads::{Hit, Ray, Structure, TraceMode};
+use rasray_gpu::Timing;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+/// Enough for the smallest budget below: a ray has at most a few thousand work units here.
+const ROUNDS: u32 = 700;
+const RESOLUTION: u32 = 24;
+const EYE: [f32; 3] = [0.1, -0.2, 0.3];
+
+/// Everything the rasterizer sees: scattered layers, a sphere, and a room around them.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 6));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    triangles
+}
+
+/// The same with triangles that coincide.
+fn scene_with_twins() -> Vec<Triangle> {
+    let mut triangles = scene();
+    triangles.extend(triangles.clone().into_iter().step_by(3));
+    triangles
+}
+
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(11);
+    (0..count)
+        .map(|index| {
+            let origin = random.point(-6.0, 6.0);
+            match index % 8 {
+                // Along an axis, in the image planes, and with a limited range.
+                0 => {
+                    let mut direction = [0.0; 3];
+                    direction[index / 8 % 3] = if index / 24 % 2 == 0 { 1.0 } else { -1.0 };
+                    Ray::new(origin, direction)
+                }
+                1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
+                2 => Ray::new(EYE, random.direction()),
+                _ => Ray::new(origin, random.direction()),
+            }
+        })
+        .collect()
+}
+
+/// The repaired structure.
+fn robust() -> Config {
+    Config { fragments: Some(40_000), ..Config::robust(RESOLUTION) }
+}
+
+/// The published march and acceptance.
+fn sampled() -> Config {
+    Config { march: March::Samples, accept: Accept::Interval, coverage: Coverage::Hardware, ..robust() }
+}
+
+type Change = fn(Config) -> Config;
+
+/// One change a row.
+const CHANGES: &[(&str, Change)] = &[
+    ("repeated", |config| config),
+    ("repeated again", |config| config),
+    ("sort off", |config| Config { sort: false, ..config }),
+    ("skip off", |config| Config { skip: false, ..config }),
+    ("sort and skip off", |config| Config { sort: false, skip: false, ..config }),
+    ("1 bucket", |config| Config { buckets: 1, ..config }),
+    ("2 buckets", |config| Config { buckets: 2, ..config }),
+    ("8 buckets", |config| Config { buckets: 8, ..config }),
+    ("32 buckets", |config| Config { buckets: 32, ..config }),
+    ("1 bucket, sort off", |config| Config { buckets: 1, sort: false, ..config }),
+    ("32 buckets, skip off", |config| Config { buckets: 32, skip: false, ..config }),
+    ("address", |config| Config { addressing: Addressing::Address, ..config }),
+    ("address, 7 units a dispatch", |config| Config {
+        addressing: Addressing::Address,
+        work_budget: Some(7),
+        ..config
+    }),
+    ("2 units a dispatch", |config| Config { work_budget: Some(2), ..config }),
+    ("7 units a dispatch", |config| Config { work_budget: Some(7), ..config }),
+    ("64 units a dispatch", |config| Config { work_budget: Some(64), ..config }),
+    ("64 units a dispatch, sort off", |config| Config { work_budget: Some(64), sort: false, ..config }),
+    ("room for nothing at first", |config| Config { fragments: Some(0), ..config }),
+    ("room for one fragment at first", |config| Config { fragments: Some(1), ..config }),
+    ("ample room", |config| Config { fragments: Some(300_000), ..config }),
+    ("counters", |config| Config { counters: true, ..config }),
+];
+
+/// What of a hit may not change. With interval acceptance a and b name the fragment's place in the pool,
+/// which is the order in which threads came.
+fn key(config: &Config, hit: &Hit) -> [u32; 4] {
+    let [a, b] = if config.accept == Accept::Plane { [hit.a.to_bits(), hit.b.to_bits()] } else { [0; 2] };
+    [hit.t.to_bits(), hit.primitive, a, b]
+}
+
+struct Answers {
+    closest: Vec<[u32; 4]>,
+    occluded: Vec<bool>,
+}
+
+fn answers(bench: &Bench, config: Config, triangles: &[Triangle], rays: &[Ray]) -> Answers {
+    let geometry = bench.geometry(triangles);
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    let (hits, counters) = trace_in_rounds(bench, &structure, rays, TraceMode::Closest, rounds(&config));
+    assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
+    assert_eq!(counters.cells > 0, config.counters);
+    let (occluders, counters) =
+        trace_in_rounds(bench, &structure, rays, TraceMode::Occluded, rounds(&config));
+    assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
+    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+    Answers {
+        closest: hits.iter().map(|hit| key(&config, hit)).collect(),
+        occluded: occluders.iter().map(Hit::is_hit).collect(),
+    }
+}
+
+fn rounds(config: &Config) -> u32 {
+    config.work_budget.map_or(2, |budget| if budget < 64 { ROUNDS } else { 64 })
+}
+
+/// The first ray whose answer differs.
+fn first_difference<T: PartialEq>(left: &[T], right: &[T]) -> Option<usize> {
+    assert_eq!(left.len(), right.len());
+    left.iter().zip(right).position(|(left, right)| left != right)
+}
+
+fn no_change_changes_a_hit(base: Config) {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene_with_twins(), rays(600));
+    let expected = answers(&bench, base, &triangles, &rays);
+    let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
+    assert!(hit > 150 && hit < 600, "{hit} of 600 rays hit: too few or too many to tell anything");
+    for (index, (closest, occluded)) in expected.closest.iter().zip(&expected.occluded).enumerate() {
+        assert_eq!(
+            closest[1] != rasray_ads::PRIMITIVE_NONE,
+            *occluded,
+            "ray {index}: closest against occluded"
+        );
+    }
+    for (name, change) in CHANGES {
+        let config = change(base);
+        let found = answers(&bench, config, &triangles, &rays);
+        if let Some(ray) = first_difference(&expected.closest, &found.closest) {
+            panic!(
+                "{name}: ray {ray} ({:?}) hits {:x?}, and {:x?} without the change",
+                rays[ray], found.closest[ray], expected.closest[ray]
+            );
+        }
+        assert_eq!(first_difference(&expected.occluded, &found.occluded), None, "{name}: occluded");
+    }
+}
+
+#[test]
+fn robust_hits_do_not_depend_on_speed_options() {
+    no_change_changes_a_hit(robust());
+}
+
+#[test]
+fn sampled_hits_do_not_depend_on_speed_options() {
+    no_change_changes_a_hit(sampled());
+}
+
+fn order_of_triangles_does_not_matter(base: Config) {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(600));
+    let expected = answers(&bench, base, &triangles, &rays);
+    let mut random = Random::new(5);
+    for _ in 0..2 {
+        // Place k of the new list holds triangle order[k] of the old one.
+        let mut order: Vec<usize> = (0..triangles.len()).collect();
+        for last in (1..order.len()).rev() {
+            order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
+        }
+        let shuffled: Vec<Triangle> = order.iter().map(|&index| triangles[index]).collect();
+        let mut found = answers(&bench, base, &shuffled, &rays);
+        for answer in &mut found.closest {
+            answer[1] = order.get(answer[1] as usize).map_or(answer[1], |&index| index as u32);
+        }
+        if let Some(ray) = first_difference(&expected.closest, &found.closest) {
+            panic!(
+                "ray {ray} ({:?}) hits {:x?}, and {:x?} in the order given",
+                rays[ray], found.closest[ray], expected.closest[ray]
+            );
+        }
+        assert_eq!(first_difference(&expected.occluded, &found.occluded), None);
+    }
+}
+
+#[test]
+fn robust_hits_do_not_depend_on_the_order_of_triangles() {
+    order_of_triangles_does_not_matter(robust());
+}
+
+#[test]
+fn sampled_hits_do_not_depend_on_the_order_of_triangles() {
+    order_of_triangles_does_not_matter(sampled());
+}
+
+/// Shows that the comparison would notice: these options do change hits.
+#[test]
+fn options_that_may_change_hits_do() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(600));
+    let expected = answers(&bench, robust(), &triangles, &rays);
+    let changes: [(&str, Change); 3] = [
+        ("resolution", |config| Config { resolution: 12, ..config }),
+        ("acceptance", |config| Config { accept: Accept::Interval, ..config }),
+        ("march", |config| Config { march: March::Samples, samples: 5, ..config }),
+    ];
+    for (name, change) in changes {
+        let found = answers(&bench, change(robust()), &triangles, &rays);
+        assert!(first_difference(&expected.closest, &found.closest).is_some(), "{name} changes nothing");
+    }
+}
+
+#[test]
+fn a_budget_without_progress_is_refused() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    for budget in [0, 1] {
+        let config = Config { work_budget: Some(budget), ..robust() };
+        let error = ABuffer::new(bench.device(), config, &geometry, None).map(drop).expect_err("no progress");
+        assert!(error.to_string().contains("work budget"), "{error}");
+    }
+}
