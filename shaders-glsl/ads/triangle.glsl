@@ -55,6 +55,15 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     if (det == 0.0) {
         return false;
     }
+    // Rounding gives a triangle without area some. The cross product of its edges tells: it is compared
+    // product by product, so that contraction cannot make a difference where there is none.
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 along = ab.yzx * ac.zxy;
+    precise vec3 against = ab.zxy * ac.yzx;
+    if (all(equal(along, against))) {
+        return false;
+    }
     precise float inverse = 1.0 / det;
     precise float az = pa.z / d.z;
     precise float bz = pb.z / d.z;
