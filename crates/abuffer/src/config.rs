@@ -132,6 +132,9 @@ impl Config {
         range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
         range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
         range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
+        // A dispatch that resumes a search counts its cell before it reads an entry.
+        let budget = self.work_budget.unwrap_or(u32::MAX);
+        range("work budget", budget, 2, u32::MAX, "2 units or more a dispatch, or rays make no progress")?;
         if !(self.thickness >= 0.0 && self.thickness.is_finite()) {
             return Err(AdsError::Option {
                 option: "thickness",
