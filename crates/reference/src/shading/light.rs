@@ -1,7 +1,7 @@
 //! Directions chosen by the lights, and the density with which they would choose a given one.
 
 use glam::{DVec3, Vec2, Vec3};
-use rasray_scene::Light;
+use rasray_scene::{AlphaMode, Light};
 
 use super::{
     Ray, Surface,
@@ -55,7 +55,8 @@ impl LightTable {
             let texture = material.emission_texture.as_ref();
             let bound = Vec3::from(material.emission) * posed.textures.bound(texture, Use::Color);
             let bound = f64::from(luminance(bound)) * if material.double_sided { 2.0 } else { 1.0 };
-            if material.unlit || !(bound > 0.0) {
+            // Scattered rays alone meet what blends, as often as its opacity says.
+            if material.unlit || material.alpha_mode == AlphaMode::Blend || !(bound > 0.0) {
                 first_of_draw.push(None);
                 continue;
             }

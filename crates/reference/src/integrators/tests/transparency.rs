@@ -1,8 +1,8 @@
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use rasray_scene::{AlphaMode, Environment, Material};
 
 use crate::{
-    shading::PosedScene,
+    shading::{PosedScene, Ray},
     testing::{assert_mean, cube, diffuse, quad, scene, view},
 };
 
@@ -74,6 +74,39 @@ fn light_through_a_blended_sheet_is_counted_once() {
     let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
     let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 16, 96), 1).expect("rendered");
     assert_mean(&image, 0.7 * 0.7, 0.002, 0.04);
+}
+
+/// Light samples choose no blended emitter: a scattered ray meets it with its opacity, and counts fully.
+#[test]
+fn blended_emitters_are_met_by_scattered_rays_alone() {
+    let emitter = Material { base_color: [0.0, 0.0, 0.0, 0.5], emission: [1.0; 3], ..diffuse(0.0) };
+    let floor = quad(Vec3::new(-0.5, -0.5, -0.5), Vec3::X, Vec3::Y, 1);
+    let mut scene = scene(vec![emitter, diffuse(0.5)], vec![cube(1.0, true, 0), floor]);
+    let down = Ray {
+        origin: Vec3::ZERO,
+        direction: Vec3::NEG_Z,
+        t_max: f32::INFINITY,
+        exclude_primitive: None,
+        cone_width: 0.0,
+        cone_spread: 0.0,
+    };
+    for (alpha_mode, sampled) in [(AlphaMode::Opaque, true), (AlphaMode::Blend, false)] {
+        scene.materials[0].alpha_mode = alpha_mode;
+        let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+        let surface = posed.surface(&down, 0.5, 12, Vec2::new(0.25, 0.5));
+        // Face x = 1 of the box: triangles 0 and 1, the floor's are 12 and 13.
+        let pdf = posed.light_pdf_emitter(0, surface.position, Vec3::new(1.0, 0.25, 0.0));
+        let chosen = (0..64).any(|i| {
+            let u = (i as f32 + 0.5) / 64.0;
+            posed.light_sample(&surface, [0.5, u, 0.3, 0.7]).is_some()
+        });
+        assert_eq!((chosen, pdf > 0.0), (sampled, sampled));
+    }
+    // Every direction shows half of the emission, and the floor reflects half of that.
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let straight = crate::testing::parallel_view([0.0; 3], [0.0, 0.0, -0.5], 0.3, 32, 16);
+    let image = posed.render_path(&straight, 1).expect("rendered");
+    assert_mean(&image, 0.25, 0.0, 0.04);
 }
 
 #[test]
