@@ -5,7 +5,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use rasray_ads::Ray;
-use rasray_gpu::{BufferUsage, ComputePipelineDesc, Device};
+use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Device, MemoryLocation};
 use rasray_shaders_glsl::Shader;
 
 /// The face of visits to the near box, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
@@ -286,14 +286,19 @@ pub fn run_kernel<T: Pod>(
     threads: usize,
     constants: &[u8],
 ) -> (Vec<T>, Vec<u32>) {
-    let zeros = |name, bytes: usize| {
-        device
-            .create_buffer_with(name, BufferUsage::ALL, &vec![0_u8; bytes.max(4)])
-            .expect("test buffers fit")
-    };
     let input = device.create_buffer_with("inputs", BufferUsage::ALL, inputs).expect("test buffers fit");
-    let output = zeros("outputs", outputs * size_of::<T>());
-    let counter = counts.map(|count| zeros("counts", 4 * count));
+    let output = device
+        .create_buffer(&BufferDesc {
+            name: "outputs",
+            size: (outputs * size_of::<T>()).max(4) as u64,
+            usage: BufferUsage::ALL,
+            location: MemoryLocation::Device,
+        })
+        .expect("test buffers fit");
+    let counter = counts.map(|count| {
+        let zeros = vec![0_u32; count.max(1)];
+        device.create_buffer_with("counts", BufferUsage::ALL, &zeros).expect("test buffers fit")
+    });
     let mut buffers = vec![&input, &output];
     buffers.extend(counter.as_ref());
     let layout = device.create_set_layout(shader.name, buffers.len() as u32).expect("a set layout");
@@ -322,17 +327,11 @@ pub fn run_kernel<T: Pod>(
     (found, counted.unwrap_or_default())
 }
 
-/// Cuts what threads wrote into runs of `limit`, one a ray.
-///
-/// # Panics
-/// If a ray visits more cells than `limit`.
-pub fn runs<T: Clone>(rays: &[Ray], found: &[T], counts: &[u32], limit: usize) -> Vec<Vec<T>> {
-    counts
-        .iter()
-        .enumerate()
-        .map(|(ray, &count)| {
-            assert!(count as usize <= limit, "{:?} visits {count} cells, more than {limit}", rays[ray]);
-            found[ray * limit..][..count as usize].to_vec()
-        })
+/// Cuts what threads wrote into runs of `limit`; `None` where a thread had more to write.
+pub fn runs<T: Clone>(found: &[T], counts: &[u32], limit: usize) -> Vec<Option<Vec<T>>> {
+    found
+        .chunks(limit)
+        .zip(counts)
+        .map(|(run, &count)| run.get(..count as usize).map(<[T]>::to_vec))
         .collect()
 }

@@ -29,7 +29,9 @@ fn walk(bench: &Bench, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
             chunk.len(),
             bytemuck::cast_slice(&[chunk.len() as u32, size, limit as u32]),
         );
-        all.extend(runs(chunk, &found, &counts, limit));
+        for (ray, visits) in chunk.iter().zip(runs(&found, &counts, limit)) {
+            all.push(visits.unwrap_or_else(|| panic!("{ray:?} visits more than {limit} cells")));
+        }
     }
     all
 }

@@ -19,10 +19,15 @@ fn visit_limit(resolution: u32) -> usize {
     9 * 4 * (resolution as usize + 2) + 64
 }
 
-fn walk(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visit>> {
-    let limit = visit_limit(resolution);
+fn walk_within(
+    bench: &Bench,
+    rays: &[Ray],
+    resolution: u32,
+    near: f32,
+    limit: usize,
+) -> Vec<Option<Vec<Visit>>> {
     let mut all = Vec::with_capacity(rays.len());
-    for chunk in rays.chunks((64 << 20) / (size_of::<Visit>() * limit)) {
+    for chunk in rays.chunks(((32 << 20) / (size_of::<Visit>() * limit)).max(1)) {
         let constants = [chunk.len() as u32, resolution, limit as u32, near.to_bits()];
         let (found, counts) = run_kernel::<Visit>(
             bench.device(),
@@ -33,9 +38,23 @@ fn walk(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visi
             chunk.len(),
             bytemuck::cast_slice(&constants),
         );
-        all.extend(runs(chunk, &found, &counts, limit));
+        all.extend(runs(&found, &counts, limit));
     }
     all
+}
+
+/// The visits of each ray. Few rays need room for more than they would without rounding; those walk again.
+fn walk(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visit>> {
+    let first = walk_within(bench, rays, resolution, near, 4 * (resolution as usize + 2) + 64);
+    let long: Vec<Ray> =
+        rays.iter().zip(&first).filter(|(_, visits)| visits.is_none()).map(|(ray, _)| *ray).collect();
+    let mut again =
+        walk_within(bench, &long, resolution, near, visit_limit(resolution)).into_iter().zip(&long);
+    let mut rewalked = || {
+        let (visits, ray) = again.next()?;
+        Some(visits.unwrap_or_else(|| panic!("{ray:?} visits more than {} cells", visit_limit(resolution))))
+    };
+    first.into_iter().map(|visits| visits.or_else(&mut rewalked).unwrap_or_default()).collect()
 }
 
 /// What is wrong with the visits of a ray; `None` if nothing is.
