@@ -170,8 +170,7 @@ pub fn exact_face_chords(ray: &Ray, resolution: u32, near_size: f32) -> Vec<Chor
                 }
             }
             let [begin, end] = range;
-            // Written so that NaN fails.
-            if !(begin < end) {
+            if begin >= end {
                 continue;
             }
             let boundary = |cell: i32| f64::from(cell_boundary(cell, resolution));
@@ -222,8 +221,7 @@ pub fn exact_grid_chords(ray: &Ray, size: u32) -> Vec<Chord<[i32; 3]>> {
         range = clip(range, f64::from(size) - o[axis], -d[axis]);
     }
     let [begin, end] = range;
-    // Written so that NaN fails.
-    if !(begin < end) || largest(d) == 0.0 {
+    if begin >= end || largest(d) == 0.0 {
         return Vec::new();
     }
     let mut crossings = vec![begin, end];

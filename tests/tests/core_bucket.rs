@@ -21,7 +21,7 @@ struct Case {
 /// The same arithmetic as `ads/bucket.glsl`.
 fn expected(case: &Case) -> u32 {
     let range = case.z_max - case.z_min;
-    let scale = if range > case.z_max * 9.536_743_2e-7 { case.buckets as f32 / range } else { 0.0 };
+    let scale = if range > case.z_max * 9.536_743e-7 { case.buckets as f32 / range } else { 0.0 };
     ((case.z - case.z_min) * scale).clamp(0.0, case.buckets as f32 - 1.0) as u32
 }
 

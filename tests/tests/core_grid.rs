@@ -100,7 +100,7 @@ fn variants(ray: Ray, size: f32) -> Vec<Ray> {
     (0..48)
         .map(|variant| {
             let order = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]][variant / 8];
-            let mirror = |axis: usize| variant % 8 >> axis & 1 == 1;
+            let mirror = |axis: usize| (variant % 8) >> axis & 1 == 1;
             let origin = std::array::from_fn(|axis| {
                 let x = ray.origin[order[axis]];
                 if mirror(axis) { size - x } else { x }
