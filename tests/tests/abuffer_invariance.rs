@@ -75,7 +75,6 @@ const CHANGES: &[(&str, Change)] = &[
     ("8 buckets", |config| Config { buckets: 8, ..config }),
     ("32 buckets", |config| Config { buckets: 32, ..config }),
     ("1 bucket, sort off", |config| Config { buckets: 1, sort: false, ..config }),
-    ("32 buckets, skip off", |config| Config { buckets: 32, skip: false, ..config }),
     ("address", |config| Config { addressing: Addressing::Address, ..config }),
     ("address, 7 units a dispatch", |config| Config {
         addressing: Addressing::Address,
@@ -85,10 +84,8 @@ const CHANGES: &[(&str, Change)] = &[
     ("2 units a dispatch", |config| Config { work_budget: Some(2), ..config }),
     ("7 units a dispatch", |config| Config { work_budget: Some(7), ..config }),
     ("64 units a dispatch", |config| Config { work_budget: Some(64), ..config }),
-    ("64 units a dispatch, sort off", |config| Config { work_budget: Some(64), sort: false, ..config }),
     ("room for nothing at first", |config| Config { fragments: Some(0), ..config }),
     ("room for one fragment at first", |config| Config { fragments: Some(1), ..config }),
-    ("ample room", |config| Config { fragments: Some(300_000), ..config }),
     ("counters", |config| Config { counters: true, ..config }),
 ];
 
