@@ -1,6 +1,6 @@
 // What: the published payload of a fragment: 16 bytes of quantised attributes.
 // Reads: the scene when packing. Writes: nothing.
-// Source: MMRT section 3.1: albedo 8:8:8:8, normal 16:16, specular 8:8:8:8, refraction and opacity.
+// Source: MMRT section 3.3: albedo 8:8:8:8, normal 16:16, specular 8:8:8:8, refraction and opacity.
 // Word 0: base colour and opacity. Word 1: octahedral shading normal. Word 2: metallic, roughness,
 // transmission, specular. Word 3: index of refraction over 4 and thickness over 1 m, 16 bits each.
 #ifndef ABUFFER_ATTRIBUTES_GLSL

@@ -1,6 +1,6 @@
 // What: depth bounds of each cell.
 // Reads: geometry, header. Writes: bounds.
-// Source: MMRT section 3.1, first geometry pass.
+// Source: MMRT section 3.3, first geometry pass.
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/accessors.glsl"

@@ -1,6 +1,6 @@
 // What: sorts each list by depth, ties by payload, and renews the backward links.
 // Reads: lists, nodes, data. Writes: lists, nodes, header.unsorted.
-// Source: MMRT section 3.1, reorder pass. A merge sort of the list in place replaces the paper's
+// Source: MMRT section 3.3, reorder pass. A merge sort of the list in place replaces the paper's
 // private array, whose length cut longer lists short.
 #version 460
 #include "contract/extensions.glsl"

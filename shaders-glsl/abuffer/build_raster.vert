@@ -1,6 +1,6 @@
 // What: proposes, for each triangle and face, the cells whose centres the triangle may cover.
 // Reads: geometry, header. Writes: nothing.
-// Source: MMRT section 3.1; instances replace the paper's geometry-shader amplification.
+// Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
 #version 460
 #include "contract/extensions.glsl"
 #define ABUFFER_READ_ONLY

@@ -1,6 +1,6 @@
 // What: searches the lists of one cell for the nearest fragment that a ray hits within it.
 // Reads: bounds, lists, nodes, data, geometry (plane acceptance). Writes: nothing.
-// Source: MMRT section 3.3. The bucket range, the order and the early ends only skip fragments that
+// Source: MMRT section 3.4. The bucket range, the order and the early ends only skip fragments that
 // the acceptance would refuse, so hits do not depend on them.
 #ifndef ABUFFER_SEARCH_GLSL
 #define ABUFFER_SEARCH_GLSL
@@ -131,11 +131,19 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
                     primitive = abuffer_data(s, current, 0u);
                     better = hit_is_better(state.best, t, primitive);
-                } else if (t == state.best.t && state.best.primitive != PRIMITIVE_NONE) {
+                } else if (t == state.best.t && state.best.primitive == PRIMITIVE_UNKNOWN) {
                     better = abuffer_data(s, current, 0u) < abuffer_data(s, floatBitsToUint(state.best.a), 0u);
                 }
                 if (t > ray.t_min && t < ray.t_max && primitive != ray.exclude_primitive && better) {
-                    state.best = Hit(t, primitive, uintBitsToFloat(current), 0.0);
+                    vec2 found = vec2(uintBitsToFloat(current), 0.0);
+                    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+                        vec3 a;
+                        vec3 b;
+                        vec3 c;
+                        geometry_vertices(primitive, a, b, c);
+                        found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+                    }
+                    state.best = Hit(t, primitive, found.x, found.y);
                 }
             }
         }

@@ -17,7 +17,8 @@ float abuffer_footprint(AbufferRef s, vec3 position) {
 }
 
 Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
-    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+    // Triangles of the near box are known whatever fragments carry.
+    if (hit.primitive != PRIMITIVE_UNKNOWN) {
         vec2 inside = max(vec2(hit.a, hit.b), vec2(0.0));
         inside /= max(inside.x + inside.y, 1.0);
         Surface surface = scene_surface(ray, hit.t, hit.primitive, inside);

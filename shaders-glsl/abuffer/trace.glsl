@@ -1,12 +1,13 @@
 // What: follows a ray through the faces' cells and searches each cell's lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: MMRT section 3.3; the exact march replaces its fixed steps unless asked for.
+// Source: MMRT section 3.4; the exact march replaces its fixed steps unless asked for.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 link, 7 position
 // within what is being searched.
 #ifndef ABUFFER_TRACE_GLSL
 #define ABUFFER_TRACE_GLSL
 
 #include "contract/trace_state.glsl"
+#include "contract/alpha.glsl"
 #include "ads/march_cells.glsl"
 #include "ads/march_cube.glsl"
 #include "ads/march_samples.glsl"
@@ -94,10 +95,11 @@ bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout Tra
         float t;
         vec2 barycentrics;
         float t_error;
-        if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX && primitive != ray.exclude_primitive
+        if (primitive != ray.exclude_primitive
             && triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)
             && t > max(ray.t_min, t_error) && t < ray.t_max && t >= walk.segment.t_begin - walk.segment.t_error
-            && t <= walk.segment.t_end + walk.segment.t_error && hit_is_better(state.best, t, primitive)) {
+            && t <= walk.segment.t_end + walk.segment.t_error && hit_is_better(state.best, t, primitive)
+            && alpha_accepts(primitive, barycentrics)) {
             state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
         }
     }

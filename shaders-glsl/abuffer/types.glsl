@@ -1,6 +1,6 @@
 // What: the A-buffer's records and options.
 // Reads, writes: nothing.
-// Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.1 and 3.2, table 2: DLLB, decoupled.
+// Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.2 and 3.3, table 2: DLLB, decoupled.
 #ifndef ABUFFER_TYPES_GLSL
 #define ABUFFER_TYPES_GLSL
 

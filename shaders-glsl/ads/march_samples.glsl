@@ -1,6 +1,6 @@
 // What: marches a segment in steps of equal length on the screen, as the MMRT paper does.
 // Reads, writes: nothing.
-// Source: MMRT section 3.3; McGuire and Mara 2014. Each sample tests one cell against the depths of
+// Source: MMRT section 3.4; McGuire and Mara 2014. Each sample tests one cell against the depths of
 // its step; cells between samples are not visited, which is the published approximation.
 // Steps are taken between fixed end points, 1/z being linear on the screen; nothing is accumulated.
 #ifndef ADS_MARCH_SAMPLES_GLSL

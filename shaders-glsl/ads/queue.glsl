@@ -21,7 +21,7 @@ struct QueueHeader {
     uint paused;          // rays that paused in this round
     uint unfinished;      // rays that were still paused after their last round, summed over traces
     uint not_ready;       // rays that met a structure that was not complete, summed over traces
-    uint corrupted;       // rays that met an index outside its pool, summed over traces
+    uint spare;           // zero
     uint cells_low;       // 64-bit sums of work, kept where counters are enabled
     uint cells_high;
     uint entries_low;

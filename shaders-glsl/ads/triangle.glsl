@@ -97,12 +97,21 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     return true;
 }
 
-// Where a ray meets the plane of a triangle: t, and the barycentrics of b and c there, which may lie
-// outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
-bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
+// Barycentrics of b and c of the point of the triangle's plane below `p`; they may lie outside [0, 1].
+// Zero where the triangle has no area.
+vec2 triangle_barycentrics(vec3 p, vec3 a, vec3 b, vec3 c) {
     vec3 ab = b - a;
     vec3 ac = c - a;
     vec3 normal = cross(ab, ac);
+    float squared = dot(normal, normal);
+    vec2 weights = vec2(dot(cross(p - a, ac), normal), dot(cross(ab, p - a), normal));
+    return squared > 0.0 ? weights / squared : vec2(0.0);
+}
+
+// Where a ray meets the plane of a triangle: t, and the barycentrics of b and c there, which may lie
+// outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
+bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
+    vec3 normal = cross(b - a, c - a);
     float facing = dot(normal, direction);
     t = 0.0;
     barycentrics = vec2(0.0);
@@ -110,10 +119,8 @@ bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out flo
         return false;
     }
     t = dot(normal, a - origin) / facing;
-    vec3 p = origin + t * direction - a;
-    float area = dot(normal, normal);
-    barycentrics = vec2(dot(cross(p, ac), normal), dot(cross(ab, p), normal)) / area;
-    return area > 0.0;
+    barycentrics = triangle_barycentrics(origin + t * direction, a, b, c);
+    return dot(normal, normal) > 0.0;
 }
 
 #endif

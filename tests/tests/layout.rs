@@ -176,7 +176,7 @@ fn records_of_the_contract() {
 fn records_of_queues_and_geometry() {
     let queues = [&shaders::ADS_QUEUE_NEXT_ROUND, TRACES[0], TRACES[1], TRACES[2], TRACES[3], TRACES[4]];
     check_layout!(queues, QueueHeader as "QueueHeader" {
-        groups_x, groups_y, groups_z, capacity, round, listed, paused, unfinished, not_ready, corrupted,
+        groups_x, groups_y, groups_z, capacity, round, listed, paused, unfinished, not_ready, spare,
         cells_low, cells_high, entries_low, entries_high, tests_low, tests_high,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {

@@ -62,8 +62,8 @@ pub(crate) fn modules(config: &Config, scene: Option<&SceneBinding>) -> Result<M
         })?,
         reorder: find("build_5_reorder")?,
         status: find("build_6_status")?,
-        closest: find("trace_closest")?,
-        occluded: find("trace_occluded")?,
+        closest: find(if alpha { "trace_closest.alpha" } else { "trace_closest" })?,
+        occluded: find(if alpha { "trace_occluded.alpha" } else { "trace_occluded" })?,
         surfaces: find("surfaces").ok(),
     })
 }

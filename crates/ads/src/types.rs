@@ -176,8 +176,8 @@ pub struct QueueHeader {
     pub unfinished: u32,
     /// Rays that met an incomplete structure, over all traces since the reset.
     pub not_ready: u32,
-    /// Unused by queues; kept zero.
-    pub corrupted: u32,
+    /// Zero.
+    pub spare: u32,
     /// Cells stepped, low word.
     pub cells_low: u32,
     /// Cells stepped, high word.

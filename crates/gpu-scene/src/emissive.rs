@@ -53,8 +53,8 @@ pub fn pack_emissive(
 }
 
 /// Luminance of the brightest emission that the material can show, times the number of sides that
-/// emit. 0 for unlit materials, which are not lights, and for blended ones: a scattered ray meets
-/// those by chance only, with their opacity, which a light sample would not know of.
+/// emit. 0 for unlit materials, which are not lights, and for blended ones, which scattered rays meet
+/// as often as their opacity says.
 fn power_bound(scene: &Scene, material: &rasray_scene::Material) -> f64 {
     if material.unlit || material.alpha_mode == AlphaMode::Blend {
         return 0.0;
