@@ -2,9 +2,15 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::{Camera, Environment, Material, Projection, Scene, Warning};
+use crate::{Camera, Material, Projection, Scene};
 
-/// Full vertical angle of the default camera, radians.
+mod light;
+mod room;
+mod sight;
+
+pub use light::{default_light, emits, ensure_lit, is_lit};
+
+/// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;
 
 /// A perspective camera at `eye` (metres) that looks at `target`, upright; `fov_y` is the full
@@ -51,9 +57,21 @@ fn used_positions(mesh: &crate::Mesh) -> Vec<DVec3> {
     kept.map(|(position, _)| DVec3::from_array(position.map(f64::from))).collect()
 }
 
-/// A camera that sees the whole scene from the front, somewhat to the right and above, in a picture
-/// that is at least as wide as high. Around the origin if the scene has no triangles.
+/// A camera for a scene that has none, upright with +y; the same for the same scene.
+///
+/// If the scene is a room, the camera stands in it: clear of the walls, looking along the longest free
+/// way, almost level, with a vertical angle of 60 to 70 degrees. A scene is a room if most of what is
+/// seen from its middle turns its front (counter-clockwise) side there and nothing is close; a solid
+/// turns its back to its own inside. Into a room with one open side the camera looks from before that
+/// side. Scenes of more than 2^23 triangles are not examined.
+///
+/// Otherwise the camera sees the whole scene from the front, somewhat to the right and above, in a
+/// picture that is at least as wide as high. Around the origin if the scene has no triangles.
 pub fn default_camera(scene: &Scene) -> Camera {
+    room::camera_inside(scene).unwrap_or_else(|| camera_outside(scene))
+}
+
+fn camera_outside(scene: &Scene) -> Camera {
     let (low, high) = bounds(scene).unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
     let centre = low * 0.5 + high * 0.5;
     // A point or a speck still gets a picture with a scale.
@@ -61,47 +79,6 @@ pub fn default_camera(scene: &Scene) -> Camera {
     let distance = radius / (FOV_Y * 0.5).sin() * 1.05;
     let direction = DVec3::new(0.45, 0.35, 1.0).normalize();
     camera_looking_at("default", centre + direction * distance, centre, FOV_Y as f32)
-}
-
-/// Whether anything in the scene sends out light: a light, an environment that is not black, or a
-/// material that emits (unlit ones do) and is used by a placed mesh with triangles.
-pub fn is_lit(scene: &Scene) -> bool {
-    let environment = match &scene.environment {
-        Environment::Constant(radiance) => radiance.iter().any(|channel| *channel > 0.0),
-        Environment::LatLong { radiance, .. } => radiance.iter().flatten().any(|channel| *channel > 0.0),
-    };
-    environment
-        || !scene.lights.is_empty()
-        || scene.instances.iter().any(|instance| {
-            let Some(mesh) = scene.meshes.get(instance.mesh) else { return false };
-            let Some(material) = scene.materials.get(mesh.material) else { return false };
-            !mesh.indices.is_empty() && emits(material)
-        })
-}
-
-/// Whether surfaces of this material send out light by themselves.
-pub fn emits(material: &Material) -> bool {
-    let shown = |color: &[f32]| color.iter().any(|channel| *channel > 0.0);
-    shown(&material.emission) || (material.unlit && shown(&material.base_color[..3]))
-}
-
-/// The light of a scene that brings none: white from everywhere, radiance 1 W/(sr m^2).
-pub fn default_light() -> Environment {
-    Environment::Constant([1.0; 3])
-}
-
-/// Gives a scene in which nothing emits the [`default_light`], with a warning `default-light`.
-/// Returns whether it did.
-pub fn ensure_lit(scene: &mut Scene) -> bool {
-    if is_lit(scene) {
-        return false;
-    }
-    scene.environment = default_light();
-    scene.warnings.push(Warning {
-        kind: "default-light",
-        message: "nothing in the scene emits light; a white environment of radiance 1 was added".to_owned(),
-    });
-    true
 }
 
 /// The material of triangles whose file names none: light grey, rough, no metal.

@@ -1,0 +1,211 @@
+//! Scenes that are rooms, and where to stand in one.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+
+use glam::DVec3;
+
+use super::sight::Sight;
+use super::{bounds, camera_looking_at};
+use crate::{Camera, Scene};
+
+/// Where a room is looked for, in the middle of the bounds, and where the eye may be: shares of the
+/// height of the bounds, preferred ones first.
+const HEIGHTS: [f64; 5] = [0.35, 0.25, 0.5, 0.15, 0.7];
+/// Directions, over the whole sphere, in which one looks around.
+const DIRECTIONS: usize = 96;
+/// Shares of the directions that end on the front of a surface, of all and of those downwards. A
+/// hollow thing with walls of its own, such as a helmet, lacks the floor.
+const FRONTS: f64 = 0.6;
+const FRONTS_BELOW: f64 = 0.9;
+/// An open side, as a box for show has one, takes at least this share of the directions, and the
+/// mean of all that end nowhere is at least this long (1: all the same).
+const OPEN_SIDE: f64 = 0.08;
+const OPEN_SIDE_MEAN: f64 = 0.7;
+/// Cosine between that mean and the axis that the side lies across.
+const OPEN_SIDE_AXIS: f64 = 0.95;
+/// Full vertical angle through an open side, degrees, and how much more than the side is in view.
+const OPEN_SIDE_FOV_Y: f64 = 40.0;
+const OPEN_SIDE_MARGIN: f64 = 1.05;
+/// Nothing may be closer to the eye, in diagonals of the bounds.
+const CLEARANCE: f64 = 0.02;
+/// Level directions among which the view is chosen.
+const HEADINGS: usize = 64;
+/// Turns from a heading, radians. The way ahead is as long as the shortest of them, so that a gap
+/// between two columns is no view.
+const FAN: [f64; 5] = [0.0, -0.035, 0.035, -0.07, 0.07];
+/// Places tried for each heading, from the middle back to the bounds.
+const PLACES: usize = 13;
+/// A view is better if it is longer by this factor; among views almost as long the first stays.
+const LONGER: f64 = 1.03;
+/// The way ahead, in longest level edges of the bounds, without which the room is only a nook.
+const LEAST_WAY: f64 = 0.3;
+/// The view's fall over its length: about three degrees.
+const FALL: f64 = 0.05;
+/// Full vertical angles, degrees, for ways as long as they are broad, and for at least three times that.
+const FOV_Y: (f64, f64) = (70.0, 60.0);
+
+/// A camera in the room that the scene is, if it is one.
+pub(super) fn camera_inside(scene: &Scene) -> Option<Camera> {
+    let (low, high) = bounds(scene)?;
+    let extent = high - low;
+    let clearance = extent.length() * CLEARANCE;
+    // Keeps out what is too flat to stand in, and bounds too far apart for arithmetic.
+    if !(clearance > 0.0 && clearance.is_finite() && extent.min_element() >= 2.0 * clearance) {
+        return None;
+    }
+    let room = Room { sight: Sight::new(scene, low, high)?, clearance };
+    let middles = HEIGHTS.map(|share| (low + extent * DVec3::new(0.5, share, 0.5)).min(high));
+    let &middle = middles.iter().find(|&&middle| room.is_around(middle))?;
+    if let Some(camera) = room.camera_at_open_side(middle) {
+        return Some(camera);
+    }
+    let mut best: Option<View> = None;
+    for middle in middles {
+        room.look_from(middle, &mut best);
+    }
+    let view = best.filter(|view| view.way >= LEAST_WAY * extent.x.max(extent.z))?;
+    Some(room.camera(&view))
+}
+
+/// A place and a level direction.
+struct View {
+    eye: DVec3,
+    forward: DVec3,
+    /// Metres to the first surface ahead.
+    way: f64,
+}
+
+/// What is seen from a point.
+struct Surroundings {
+    /// Metres; infinite if nothing is seen.
+    nearest: f64,
+    /// Share of all directions that end on a front.
+    fronts: f64,
+    /// The same of the directions within 45 degrees of straight down.
+    fronts_below: f64,
+}
+
+struct Room<'a> {
+    sight: Sight<'a>,
+    /// Metres.
+    clearance: f64,
+}
+
+impl Room<'_> {
+    fn is_around(&self, point: DVec3) -> bool {
+        let seen = self.surroundings(point);
+        seen.nearest >= self.clearance && seen.fronts >= FRONTS && seen.fronts_below >= FRONTS_BELOW
+    }
+
+    fn surroundings(&self, point: DVec3) -> Surroundings {
+        let mut nearest = f64::INFINITY;
+        let (mut fronts, mut below, mut fronts_below) = (0_u32, 0_u32, 0_u32);
+        for direction in sphere() {
+            let hit = self.sight.first(point, direction);
+            nearest = nearest.min(hit.map_or(f64::INFINITY, |hit| hit.t));
+            let front = u32::from(hit.is_some_and(|hit| hit.front));
+            fronts += front;
+            if direction.y < -FRAC_1_SQRT_2 {
+                below += 1;
+                fronts_below += front;
+            }
+        }
+        // Walls lie across the axes more often than not, and between the directions of the sphere.
+        for axis in DVec3::AXES {
+            for direction in [axis, -axis] {
+                nearest = self.sight.first(point, direction).map_or(nearest, |hit| hit.t.min(nearest));
+            }
+        }
+        let share = |part: u32, whole: u32| f64::from(part) / f64::from(whole);
+        Surroundings {
+            nearest,
+            fronts: share(fronts, DIRECTIONS as u32),
+            fronts_below: share(fronts_below, below),
+        }
+    }
+
+    /// Replaces the best view by better ones whose way passes through the middle or near it. What
+    /// stands in the middle may hide the rest, so places behind it count too.
+    fn look_from(&self, middle: DVec3, best: &mut Option<View>) {
+        for heading in 0..HEADINGS {
+            let angle = TAU * heading as f64 / HEADINGS as f64;
+            let forward = level(angle);
+            // A little more than clear, so that rounding does not decide.
+            let room_behind = self.exit(middle, -forward) - self.clearance * 1.01;
+            for place in 0..PLACES {
+                let eye = middle - forward * (room_behind * place as f64 / (PLACES - 1) as f64);
+                let Some(way) = self.way_to_front(eye, angle) else { continue };
+                let longer = best.as_ref().is_none_or(|best| way > best.way * LONGER);
+                if longer && self.is_around(eye) {
+                    *best = Some(View { eye, forward, way });
+                }
+            }
+        }
+    }
+
+    /// A camera before the one open side of the room, looking straight in; `None` if there is no such
+    /// side, or it is the top.
+    fn camera_at_open_side(&self, middle: DVec3) -> Option<Camera> {
+        let open: Vec<DVec3> =
+            sphere().filter(|&direction| self.sight.first(middle, direction).is_none()).collect();
+        if (open.len() as f64) < OPEN_SIDE * DIRECTIONS as f64 {
+            return None;
+        }
+        let mean = open.iter().sum::<DVec3>() / open.len() as f64;
+        let sides = [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::NEG_X];
+        let axis = sides.into_iter().find(|axis| axis.dot(mean) >= OPEN_SIDE_AXIS * mean.length())?;
+        if mean.length() < OPEN_SIDE_MEAN {
+            return None;
+        }
+        let (centre, half) =
+            ((self.sight.low + self.sight.high) * 0.5, (self.sight.high - self.sight.low) * 0.5);
+        let across = half.y.max(axis.cross(DVec3::Y).abs().dot(half));
+        let angle = OPEN_SIDE_FOV_Y.to_radians();
+        let distance = axis.abs().dot(half) + OPEN_SIDE_MARGIN * across / (angle * 0.5).tan();
+        Some(camera_looking_at("default", centre + axis * distance, centre, angle as f32))
+    }
+
+    fn camera(&self, view: &View) -> Camera {
+        let side = view.forward.cross(DVec3::Y);
+        let breadth = self.reach(view.eye, side) + self.reach(view.eye, -side);
+        let slender = ((view.way / breadth - 1.0) / 2.0).clamp(0.0, 1.0);
+        let fov_y = (FOV_Y.0 + (FOV_Y.1 - FOV_Y.0) * slender).to_radians();
+        let target = view.eye + (view.forward - DVec3::Y * FALL) * view.way;
+        camera_looking_at("default", view.eye, target, fov_y as f32)
+    }
+
+    /// The free way in the fan around a heading, metres; `None` if any ray of it leaves the scene or
+    /// ends on the back of a surface: a view is of something.
+    fn way_to_front(&self, from: DVec3, angle: f64) -> Option<f64> {
+        let ray = |turn: &f64| self.sight.first(from, level(angle + turn)).filter(|hit| hit.front);
+        FAN.iter().try_fold(f64::INFINITY, |way, turn| Some(way.min(ray(turn)?.t)))
+    }
+
+    /// Metres to the first surface, or to the bounds if there is none.
+    fn reach(&self, from: DVec3, direction: DVec3) -> f64 {
+        self.sight.first(from, direction).map_or_else(|| self.exit(from, direction), |hit| hit.t)
+    }
+
+    /// Metres to the bounds from inside.
+    fn exit(&self, from: DVec3, direction: DVec3) -> f64 {
+        let border = DVec3::select(direction.cmpgt(DVec3::ZERO), self.sight.high, self.sight.low);
+        let crossed = (0..3).filter(|&axis| direction[axis] != 0.0);
+        crossed.map(|axis| (border[axis] - from[axis]) / direction[axis]).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// The level direction at an angle from -z towards -x, radians.
+fn level(angle: f64) -> DVec3 {
+    DVec3::new(-angle.sin(), 0.0, -angle.cos())
+}
+
+/// Directions evenly over the sphere: a spiral that turns by the golden angle.
+fn sphere() -> impl Iterator<Item = DVec3> {
+    let golden = PI * (3.0 - 5.0_f64.sqrt());
+    (0..DIRECTIONS).map(move |step| {
+        let height = 1.0 - (2.0 * step as f64 + 1.0) / DIRECTIONS as f64;
+        let radius = (1.0 - height * height).sqrt();
+        let (sine, cosine) = (golden * step as f64).sin_cos();
+        DVec3::new(radius * cosine, height, radius * sine)
+    })
+}
