@@ -9,7 +9,8 @@ use rasray_scene::{Camera, Scene};
 /// Full vertical angle of view with `--eye`, degrees, unless told.
 const DEFAULT_FOV: f64 = 45.0;
 
-/// The camera that was asked for; else the scene's first; else one that frames the scene.
+/// The camera that was asked for; else the scene's first; else one that
+/// stands in the room that the scene is, or outside and sees all of it.
 ///
 /// # Errors
 /// A camera that the scene lacks, and an eye at its own target.

@@ -58,7 +58,9 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
     Err(AppError::input(path, "there is neither such a file nor such a built-in scene", kinds))
 }
 
-/// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
+/// Loads a scene as the command line asks: with its environment, its alpha masks, and light. An
+/// environment that was asked for stays as it is, a black one too; else a scene that nothing lights
+/// gets white from everywhere, with a warning.
 ///
 /// # Errors
 /// Those of [`load`] and of the environment.
@@ -114,6 +116,24 @@ mod tests {
     fn a_built_in_scene_has_no_digest_and_counts_its_triangles() {
         let loaded = load(OsStr::new("cornell")).expect("built in");
         assert!(loaded.triangles > 0 && loaded.sha256.is_none());
+    }
+
+    #[test]
+    fn an_environment_that_was_asked_for_stays() {
+        let mut file = tempfile::Builder::new().suffix(".obj").tempfile().expect("a file");
+        std::io::Write::write_all(&mut file, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("bytes");
+        for (asked, expected) in [(None, 1.0), (Some("0,0,0"), 0.0), (Some("2,2,2"), 2.0)] {
+            let reading = SceneArguments {
+                environment: asked.map(str::to_owned),
+                alpha: Switch::On,
+                needs: crate::arguments::NeedsName::Observed,
+            };
+            let scene = prepare(file.path().as_os_str(), &reading).expect("a triangle").scene;
+            let rasray_scene::Environment::Constant(radiance) = scene.environment else { panic!("constant") };
+            assert_eq!(radiance, [expected; 3], "{asked:?}");
+            let warned = scene.warnings.iter().any(|warning| warning.kind == "default-light");
+            assert_eq!(warned, asked.is_none());
+        }
     }
 
     #[test]

@@ -89,7 +89,7 @@ impl FrameArguments {
 
 /// From where the scene is seen.
 #[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Camera (default: the scene's first, or one that frames the scene)")]
+#[command(next_help_heading = "Camera (default: the scene's first, or one in the room or before the scene)")]
 pub struct ViewArguments {
     /// A camera of the scene, by name or by position from 0
     #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]
@@ -118,7 +118,8 @@ pub enum NeedsName {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
-    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour
+    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour [default: the scene's, or
+    /// white where nothing lights the scene; glow that only a texture draws does not]
     #[arg(long, value_name = "FILE.hdr|R,G,B")]
     pub environment: Option<String>,
     /// Let alpha cut holes and blend; off makes every surface opaque
