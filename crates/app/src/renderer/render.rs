@@ -63,10 +63,9 @@ pub(super) fn render_pixels(
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
     let total = waves_a_sample * u64::from(frame.spp);
     let mut passes = Passes::default();
-    let mut done = 0;
     let mut samples_done = 0;
     let mut stopping = false;
-    for wave in waves(pixels, frame.spp, integrator.wave_capacity()) {
+    for (done, wave) in (1..).zip(waves(pixels, frame.spp, integrator.wave_capacity())) {
         // An early end is taken between samples, so that all pixels have the same number of them.
         if stopping && wave.first_pixel == 0 {
             break;
@@ -78,7 +77,6 @@ pub(super) fn render_pixels(
             .map_err(device_error)?;
         submitted.value.map_err(device_error)?;
         passes.add(&submitted.passes);
-        done += 1;
         if wave.first_pixel + wave.pixel_count == pixels {
             samples_done += 1;
         }

@@ -66,6 +66,9 @@ impl Stage {
     }
 }
 
+/// Options and paths by name.
+type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
+
 /// A structure, built, with what the building cost.
 pub(super) struct Built {
     pub(super) structure: Box<dyn Structure>,
@@ -117,7 +120,7 @@ impl Built {
     }
 
     /// Options and paths as the structure resolved them.
-    pub(super) fn resolved(&self) -> Result<(BTreeMap<String, Value>, BTreeMap<String, String>), AppError> {
+    pub(super) fn resolved(&self) -> Result<Resolved, AppError> {
         let report = self.structure.report().map_err(device_error)?;
         let options = report.options.into_iter().map(|(name, value)| {
             // Numbers stay numbers in the report.
