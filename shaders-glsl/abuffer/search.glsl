@@ -41,12 +41,19 @@ bool abuffer_accept_plane(AbufferSearch search, vec3 eye, float cell_size, Ray r
     if (!(t > ray.t_min && t >= search.t_low && t <= search.t_high)) {
         return false;
     }
-    // Outside of the triangle its plane stands for what else is in the cell. A ray that starts closer
-    // to the plane than a cell is wide may have left that very surface.
-    vec3 normal = normalize(cross(b - a, c - a));
     vec3 from_eye = abs(ray.origin + t * ray.direction - eye);
-    float footprint = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
-    return abs(dot(normal, ray.origin - a)) > footprint;
+    float width = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
+    // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
+    // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
+    vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
+    vec3 normal = cross(b - a, c - a);
+    float twice_area = length(normal);
+    vec3 outside = -vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) * twice_area / lengths;
+    if (max(outside.x, max(outside.y, outside.z)) > ABUFFER_PLANE_REACH * width) {
+        return false;
+    }
+    // A ray that starts closer to the plane than a cell is wide may have left that very surface.
+    return abs(dot(normal, ray.origin - a)) > width * twice_area;
 }
 
 // Returns true if the work budget ended before the search did.
