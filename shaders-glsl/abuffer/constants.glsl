@@ -24,7 +24,7 @@
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell at that depth. More closes
 // gaps between triangles smaller than a cell, less keeps planes seen edge-on out of the way.
-#define ABUFFER_PLANE_REACH 1.0
+#define ABUFFER_PLANE_REACH 2.0
 
 // Threads in a workgroup of the build's compute passes.
 #define ABUFFER_GROUP_SIZE 64u

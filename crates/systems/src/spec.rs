@@ -97,6 +97,15 @@ impl Spec {
         Self { counters, ..self }
     }
 
+    /// The same with one more option over the preset.
+    ///
+    /// # Errors
+    /// The system has no such option or value.
+    pub fn with_option(&self, option: &str, value: &str) -> Result<Self, SystemsError> {
+        let given = self.options.clone().into_iter().chain([(option.to_owned(), value.to_owned())]);
+        Ok(Self::new(self.system.name, self.preset.name(), given)?.with_counters(self.counters))
+    }
+
     /// The registry's row.
     pub fn system(&self) -> &'static System {
         self.system

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::Structure;
-use rasray_gpu::{Device, Timing};
+use rasray_ads::{AdsError, Structure};
+use rasray_gpu::{Device, Feature, GpuError, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
-use rasray_systems::Spec;
+use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
 use serde_json::Value;
 
@@ -66,6 +66,71 @@ impl Stage {
     }
 }
 
+/// Why a first build failed.
+enum FirstBuild {
+    /// A pool is larger than one binding.
+    ExceedsBinding(AppError),
+    /// Anything else.
+    Other(AppError),
+}
+
+impl From<FirstBuild> for AppError {
+    fn from(error: FirstBuild) -> Self {
+        match error {
+            FirstBuild::ExceedsBinding(error) | FirstBuild::Other(error) => error,
+        }
+    }
+}
+
+/// Whether addressing was left open, and the device has addresses.
+fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
+    let has_option = spec.system().options.contains(&"addressing");
+    has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
+}
+
+/// Makes a structure and builds it until complete.
+fn first_build(
+    device: &Device,
+    spec: &Spec,
+    scene: &GpuScene,
+    eye: [f32; 3],
+    timing: Timing,
+) -> Result<(Box<dyn Structure>, BuildOutcome), FirstBuild> {
+    let refuse = |error: AppError| FirstBuild::Other(error);
+    let requirements = spec.requirements().map_err(|e| refuse(AppError::usage(e.to_string(), "")))?;
+    if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
+        return Err(refuse(AppError::device(
+            format!(
+                "system {} needs the feature {missing}, which {} lacks",
+                spec.system().name,
+                device.name()
+            ),
+            "choose another --device or --system",
+        )));
+    }
+    let mut structure =
+        spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
+            SystemsError::Ads(error) => ads_error(error),
+            other => refuse(AppError::usage(other.to_string(), "see `rasray render --help`")),
+        })?;
+    let outcome =
+        build_until_complete(device, structure.as_mut(), eye, timing).map_err(|error| match error {
+            TracerError::Ads(error) => ads_error(error),
+            other => refuse(tracer_error(&other)),
+        })?;
+    Ok((structure, outcome))
+}
+
+fn ads_error(error: AdsError) -> FirstBuild {
+    match error {
+        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(AppError::device(
+            error,
+            "try --addressing address, or a smaller --resolution",
+        )),
+        other => FirstBuild::Other(device_error(other)),
+    }
+}
+
 /// Options and paths by name.
 type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
 
@@ -80,7 +145,8 @@ pub(super) struct Built {
 
 impl Built {
     /// Makes the structure of a spec and builds it as seen from `eye` until complete, then again for
-    /// medians.
+    /// medians. Where a pool exceeds what one binding can hold and nothing was said of addressing, the
+    /// pools are reached by device address instead.
     pub(super) fn new(
         device: &Device,
         spec: &Spec,
@@ -88,24 +154,19 @@ impl Built {
         eye: [f32; 3],
         timing: Timing,
     ) -> Result<Self, AppError> {
-        let requirements = spec.requirements().map_err(|e| AppError::usage(e.to_string(), ""))?;
-        if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
-            return Err(AppError::device(
-                format!(
-                    "system {} needs the feature {missing}, which {} lacks",
-                    spec.system().name,
-                    device.name()
-                ),
-                "choose another --device or --system",
-            ));
-        }
-        let mut structure =
-            spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
-                rasray_systems::SystemsError::Ads(error) => device_error(error),
-                other => AppError::usage(other.to_string(), "see `rasray render --help`"),
-            })?;
-        let mut outcome =
-            build_until_complete(device, structure.as_mut(), eye, timing).map_err(|e| tracer_error(&e))?;
+        let (mut structure, mut outcome) = match first_build(device, spec, scene, eye, timing) {
+            Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
+                tracing::info!(
+                    system = spec.system().name,
+                    "a pool exceeds one binding: reached by device address"
+                );
+                let spec = spec
+                    .with_option("addressing", "address")
+                    .map_err(|error| AppError::usage(error.to_string(), ""))?;
+                first_build(device, &spec, scene, eye, timing).map_err(AppError::from)?
+            }
+            other => other.map_err(AppError::from)?,
+        };
         let regrows = outcome.regrows;
         let mut passes = Passes::default();
         let mut host = Vec::new();
