@@ -141,7 +141,9 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 } else if (t == state.best.t && state.best.primitive == PRIMITIVE_UNKNOWN) {
                     better = abuffer_data(s, current, 0u) < abuffer_data(s, floatBitsToUint(state.best.a), 0u);
                 }
-                if (t > ray.t_min && t < ray.t_max && primitive != ray.exclude_primitive && better) {
+                // A fragment without an id cannot be the triangle that is excluded.
+                bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
+                if (t > ray.t_min && t < ray.t_max && !excluded && better) {
                     vec2 found = vec2(uintBitsToFloat(current), 0.0);
                     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
                         vec3 a;
