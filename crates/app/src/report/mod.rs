@@ -1,5 +1,6 @@
 //! What was measured: the JSON that machines read and the table that people read.
 
+pub mod figures;
 mod schema;
 mod table;
 
