@@ -1,8 +1,9 @@
 //! What the tests of rasray share: a device, triangles, random numbers, hard cases.
 
 pub mod conformance;
-pub mod hard_cases;
 pub mod harness;
 pub mod random;
 pub mod shapes;
 pub mod visits;
+
+pub use rasray_hard_cases as hard_cases;

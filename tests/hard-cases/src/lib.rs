@@ -1,4 +1,4 @@
-//! Scenes and rays that break ray tracers, as data.
+//! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth.
 //!
 //! Every case has a short id (G triangle shape, E edges and vertices, V views, Z depth, C capacity and
 //! bad input, P light transport; variants append a parameter). Coordinates are single precision and the camera
