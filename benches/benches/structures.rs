@@ -20,7 +20,7 @@ fn main() -> Result<(), BenchError> {
     let rays = stage.incoherent_rays(rays);
     let tracer = BatchTracer::new(device, rays.len().clamp(1, 131_072) as u32)?;
     let mut rows = Vec::new();
-    for system in &SYSTEMS {
+    for system in SYSTEMS {
         for preset in system.presets {
             let spec = Spec::new(system.name, preset.name(), [])?;
             let mut structure = spec.create(device, stage.scene.geometry(), Some(stage.scene.binding()))?;

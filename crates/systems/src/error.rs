@@ -40,7 +40,7 @@ pub enum SystemsError {
         /// What was asked for.
         value: String,
         /// What is possible.
-        expected: &'static str,
+        expected: String,
     },
     /// The structure refused.
     #[error(transparent)]

@@ -1,8 +1,10 @@
 //! Systems as data: which structure, which presets, which options. The command, tests and benches loop
 //! over [`SYSTEMS`] and make structures through [`Spec`]; nothing else names a structure.
 
+mod brute_force;
 mod error;
 mod mmrt;
+mod option;
 mod spec;
 
 pub use error::SystemsError;

@@ -1,11 +1,24 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{Accept, Addressing, Config, Coverage, March, Payload};
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload};
 
-use crate::{Preset, Spec, SystemsError};
+use crate::option::Given;
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "mmrt",
+    structure: "abuffer",
+    presets: &[Preset::Robust, Preset::Published],
+    options: &OPTIONS,
+    requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(ABuffer::new(device, config(spec)?, geometry, scene)?))
+    },
+};
 
 /// Options by their names on the command line.
-pub(crate) static OPTIONS: [&str; 14] = [
+const OPTIONS: [&str; 14] = [
     "resolution",
     "buckets",
     "storage",
@@ -26,81 +39,47 @@ pub(crate) static OPTIONS: [&str; 14] = [
 const RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for.
-pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
         Preset::Published => Config::published(RESOLUTION),
     };
     config.counters = spec.counters();
-    for (option, value) in spec.options() {
-        let refuse = |expected| SystemsError::Value {
-            system: spec.system().name,
-            option: option.clone(),
-            value: value.clone(),
-            expected,
-        };
-        let number = || value.parse::<u32>().map_err(|_| refuse("a whole number is expected"));
-        let switch = || match value.as_str() {
-            "on" => Ok(true),
-            "off" => Ok(false),
-            _ => Err(refuse("on or off")),
-        };
-        match option.as_str() {
-            "resolution" => config.resolution = number()?,
-            "buckets" => config.buckets = number()?,
-            "samples" => config.samples = number()?,
-            "capacity" => config.fragments = Some(number()?.into()),
-            "thickness" => {
-                config.thickness = value.parse().map_err(|_| refuse("a length in metres is expected"))?;
-            }
-            "sort" => config.sort = switch()?,
-            "skip" => config.skip = switch()?,
-            "storage" if value == "dllb" => {}
-            "storage" => return Err(refuse("the storage is dllb")),
-            "views" if value == "cube" => {}
-            "views" => return Err(refuse("the views are cube")),
+    for given in Given::all(spec) {
+        match given.name {
+            "resolution" => config.resolution = given.number()?,
+            "buckets" => config.buckets = given.number()?,
+            "samples" => config.samples = given.number()?,
+            "capacity" => config.fragments = Some(given.number()?.into()),
+            "thickness" => config.thickness = given.length()?,
+            "sort" => config.sort = given.switch()?,
+            "skip" => config.skip = given.switch()?,
+            // One word each so far: a value is checked, and nothing else is chosen.
+            "storage" => given.choice(&[("dllb", ())])?,
+            "views" => given.choice(&[("cube", ())])?,
             "payload" => {
-                config.payload = match value.as_str() {
-                    "index" => Payload::Index,
-                    "attributes" => Payload::Attributes,
-                    _ => return Err(refuse("index or attributes")),
-                };
+                config.payload =
+                    given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
             }
             "march" => {
-                config.march = match value.as_str() {
-                    "samples" => March::Samples,
-                    "exact" => March::Exact,
-                    _ => return Err(refuse("samples or exact")),
-                };
+                config.march = given.choice(&[("samples", March::Samples), ("exact", March::Exact)])?;
             }
             "accept" => {
-                config.accept = match value.as_str() {
-                    "interval" => Accept::Interval,
-                    "thickness" => Accept::Thickness,
-                    "plane" => Accept::Plane,
-                    _ => return Err(refuse("interval, thickness or plane")),
-                };
+                config.accept = given.choice(&[
+                    ("interval", Accept::Interval),
+                    ("thickness", Accept::Thickness),
+                    ("plane", Accept::Plane),
+                ])?;
             }
             "coverage" => {
-                config.coverage = match value.as_str() {
-                    "exact" => Coverage::Exact,
-                    "hardware" => Coverage::Hardware,
-                    _ => return Err(refuse("exact or hardware")),
-                };
+                config.coverage =
+                    given.choice(&[("exact", Coverage::Exact), ("hardware", Coverage::Hardware)])?;
             }
             "addressing" => {
-                config.addressing = match value.as_str() {
-                    "descriptor" => Addressing::Descriptor,
-                    "address" => Addressing::Address,
-                    _ => return Err(refuse("descriptor or address")),
-                };
+                config.addressing = given
+                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
             }
-            _ => {
-                return Err(SystemsError::UnknownOption {
-                    system: spec.system().name,
-                    option: option.clone(),
-                });
-            }
+            _ => return Err(given.unknown()),
         }
     }
     config.validate()?;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{BruteForce, Geometry, SceneBinding, Structure};
+use rasray_ads::{Geometry, SceneBinding, Structure};
 use rasray_gpu::{Device, Requirements};
 
-use crate::{SystemsError, mmrt};
+use crate::{SystemsError, brute_force, mmrt};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,7 +26,7 @@ impl Preset {
     }
 }
 
-/// A row of the registry.
+/// A row of the registry. Everything that is known of a system by name is here.
 #[derive(Clone, Copy, Debug)]
 pub struct System {
     /// Name on the command line.
@@ -37,18 +37,18 @@ pub struct System {
     pub presets: &'static [Preset],
     /// Options it has, by their names on the command line.
     pub options: &'static [&'static str],
+    /// What a device must and may offer for a spec; also where a spec's values are checked.
+    pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
+    /// Makes the structure of a spec.
+    pub(crate) create: Create,
 }
 
+/// Makes the structure of a spec for triangles, and for a scene where surfaces or alpha are wanted.
+pub(crate) type Create =
+    fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
+
 /// Every system.
-pub static SYSTEMS: [System; 2] = [
-    System {
-        name: "mmrt",
-        structure: "abuffer",
-        presets: &[Preset::Robust, Preset::Published],
-        options: &mmrt::OPTIONS,
-    },
-    System { name: "brute-force", structure: "brute-force", presets: &[Preset::Robust], options: &[] },
-];
+pub static SYSTEMS: &[System] = &[mmrt::SYSTEM, brute_force::SYSTEM];
 
 /// A system, a preset and the options given over it.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ impl Spec {
         let row =
             SYSTEMS.iter().find(|row| row.name == system).ok_or_else(|| SystemsError::UnknownSystem {
                 name: system.to_owned(),
-                known: SYSTEMS.map(|row| row.name).join(", "),
+                known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
             })?;
         let preset = row
             .presets
@@ -85,9 +85,7 @@ impl Spec {
             return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
         }
         let spec = Self { system: row, preset, options, counters: false };
-        if row.name == "mmrt" {
-            mmrt::config(&spec)?;
-        }
+        spec.requirements()?;
         Ok(spec)
     }
 
@@ -131,10 +129,7 @@ impl Spec {
     /// # Errors
     /// An option has an impossible value.
     pub fn requirements(&self) -> Result<Requirements, SystemsError> {
-        Ok(match self.system.name {
-            "mmrt" => rasray_abuffer::ABuffer::requirements_of(&mmrt::config(self)?),
-            _ => Requirements::floor(),
-        })
+        (self.system.requirements)(self)
     }
 
     /// Makes the structure.
@@ -147,10 +142,7 @@ impl Spec {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Box<dyn Structure>, SystemsError> {
-        Ok(match self.system.name {
-            "mmrt" => Box::new(rasray_abuffer::ABuffer::new(device, mmrt::config(self)?, geometry, scene)?),
-            _ => Box::new(BruteForce::new(device, geometry, scene, self.counters)?),
-        })
+        (self.system.create)(self, device, geometry, scene)
     }
 }
 
@@ -168,7 +160,7 @@ mod tests {
 
     #[test]
     fn every_preset_of_every_system_resolves() {
-        for system in &SYSTEMS {
+        for system in SYSTEMS {
             for preset in system.presets {
                 let spec = spec(system.name, preset.name(), &[]).expect("a registered preset");
                 assert!(!spec.requirements().expect("valid").required.is_empty());

@@ -25,7 +25,7 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, AppError> {
         .collect();
     let limits = device.limits();
     let mut paths = Vec::new();
-    for system in &SYSTEMS {
+    for system in SYSTEMS {
         for preset in system.presets {
             let spec = Spec::new(system.name, preset.name(), []).map_err(device_error)?;
             let missing: Vec<_> = spec

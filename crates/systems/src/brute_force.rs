@@ -1,0 +1,18 @@
+//! Every triangle for every ray: the judge, always present.
+
+use rasray_ads::BruteForce;
+use rasray_gpu::Requirements;
+
+use crate::{Preset, System};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "brute-force",
+    structure: "brute-force",
+    presets: &[Preset::Robust],
+    options: &[],
+    requirements: |_| Ok(Requirements::floor()),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(BruteForce::new(device, geometry, scene, spec.counters())?))
+    },
+};

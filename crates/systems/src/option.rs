@@ -1,0 +1,57 @@
+//! What is given for one option, and how it is read.
+
+use crate::{Spec, SystemsError};
+
+/// An option of a spec with its value.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Given<'a> {
+    system: &'static str,
+    /// Name of the option.
+    pub(crate) name: &'a str,
+    value: &'a str,
+}
+
+impl<'a> Given<'a> {
+    /// All options over the preset, by name.
+    pub(crate) fn all(spec: &'a Spec) -> impl Iterator<Item = Self> {
+        let system = spec.system().name;
+        spec.options().iter().map(move |(name, value)| Given { system, name, value })
+    }
+
+    /// A whole number.
+    pub(crate) fn number(&self) -> Result<u32, SystemsError> {
+        self.value.parse().map_err(|_| self.refused("a whole number is expected"))
+    }
+
+    /// A length in metres.
+    pub(crate) fn length(&self) -> Result<f32, SystemsError> {
+        self.value.parse().map_err(|_| self.refused("a length in metres is expected"))
+    }
+
+    /// `on` or `off`.
+    pub(crate) fn switch(&self) -> Result<bool, SystemsError> {
+        self.choice(&[("on", true), ("off", false)])
+    }
+
+    /// One of several words.
+    pub(crate) fn choice<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, SystemsError> {
+        words.iter().find(|(word, _)| *word == self.value).map(|(_, meaning)| *meaning).ok_or_else(|| {
+            let known: Vec<_> = words.iter().map(|(word, _)| *word).collect();
+            self.refused(&format!("it is one of: {}", known.join(", ")))
+        })
+    }
+
+    /// An option that the system does not have.
+    pub(crate) fn unknown(&self) -> SystemsError {
+        SystemsError::UnknownOption { system: self.system, option: self.name.to_owned() }
+    }
+
+    fn refused(&self, expected: &str) -> SystemsError {
+        SystemsError::Value {
+            system: self.system,
+            option: self.name.to_owned(),
+            value: self.value.to_owned(),
+            expected: expected.to_owned(),
+        }
+    }
+}
