@@ -37,4 +37,10 @@ pub enum AdsError {
         /// Name of the structure.
         structure: &'static str,
     },
+    /// A build was recorded without the host's part.
+    #[error("{structure} is built by the host first: call prepare_build before every record_build")]
+    NotPrepared {
+        /// Name of the structure.
+        structure: &'static str,
+    },
 }

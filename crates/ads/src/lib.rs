@@ -11,7 +11,8 @@
 //! never give a partial answer.
 //!
 //! This crate records commands. It never submits, never waits, and allocates only in constructors and
-//! in [`Structure::resize`].
+//! in [`Structure::resize`]. Only a structure that is built on the host submits, in
+//! [`Structure::prepare_build`].
 //!
 //! # Synchronisation
 //! [`Structure::record_build`], [`Structure::record_trace`] and [`Structure::record_surfaces`] end with

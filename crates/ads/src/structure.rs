@@ -136,6 +136,16 @@ pub trait Structure {
     /// Out of memory.
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError>;
 
+    /// Does what only the host can do for the next build, of the geometry as it is now. Structures that are
+    /// built on the device alone have nothing to do here. Unlike everything else a structure does, this may
+    /// submit and wait; it comes before every [`Structure::record_build`].
+    ///
+    /// # Errors
+    /// The device failed, or memory does not suffice.
+    fn prepare_build(&mut self, _device: &Device) -> Result<(), AdsError> {
+        Ok(())
+    }
+
     /// Records a build as seen from `eye` (metres relative to the frame origin). Structures without
     /// views ignore the eye.
     ///

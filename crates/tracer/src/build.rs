@@ -18,8 +18,10 @@ pub struct BuildOutcome {
     pub passes: Vec<PassTiming>,
     /// Times the structure had to grow.
     pub regrows: u32,
-    /// Milliseconds of the last build as the host saw it, submission and wait included.
+    /// Milliseconds of the last build as the host saw it, its own part, submission and wait included.
     pub host_milliseconds: f64,
+    /// Milliseconds of [`Structure::prepare_build`] within that: what the host did before it recorded.
+    pub prepare_milliseconds: f64,
     /// What the last build left behind.
     pub status: BuildStatus,
 }
@@ -37,6 +39,8 @@ pub fn build_until_complete(
     let mut outcome = BuildOutcome::default();
     loop {
         let started = Instant::now();
+        structure.prepare_build(device)?;
+        outcome.prepare_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         let submitted = device.submit_passes(timing, |recorder| structure.record_build(recorder, eye))?;
         submitted.value?;
         outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;

@@ -175,6 +175,7 @@ fn run_of_rays(
     run.times = Times {
         timer: traced.passes.timer(),
         build_ms: Some(contestant.built.build_milliseconds),
+        build_host_ms: Some(contestant.built.prepare_milliseconds),
         trace_ms: Some(trace_ms),
         rays: Some(rays),
         mrays_per_s: (trace_ms > 0.0).then(|| rays as f64 / trace_ms / 1.0e3),
@@ -273,6 +274,7 @@ fn compare_images(
         run.times = Times {
             timer: pixels.passes.timer(),
             build_ms: Some(of_camera.built.build_milliseconds),
+            build_host_ms: Some(of_camera.built.prepare_milliseconds),
             trace_ms: Some(pixels.passes.total(|label| label.contains("/trace_"))),
             ..Times::default()
         };

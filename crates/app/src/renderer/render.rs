@@ -139,6 +139,7 @@ pub(super) fn render(
         times: Times {
             timer: pixels.passes.timer(),
             build_ms: Some(built.build_milliseconds),
+            build_host_ms: Some(built.prepare_milliseconds),
             trace_ms: Some(pixels.passes.total(is_trace)),
             ..Times::default()
         },

@@ -141,6 +141,8 @@ pub(super) struct Built {
     pub(super) passes: Passes,
     /// Median over repeated builds as the host saw them, milliseconds.
     pub(super) build_milliseconds: f64,
+    /// The host's own part of that, milliseconds.
+    pub(super) prepare_milliseconds: f64,
 }
 
 impl Built {
@@ -169,15 +171,17 @@ impl Built {
         };
         let regrows = outcome.regrows;
         let mut passes = Passes::default();
-        let mut host = Vec::new();
+        let (mut host, mut prepare) = (Vec::new(), Vec::new());
         for _ in 0..REPEATED_BUILDS {
             outcome = build_until_complete(device, structure.as_mut(), eye, timing)
                 .map_err(|e| tracer_error(&e))?;
             passes.add(&outcome.passes);
             host.push(outcome.host_milliseconds);
+            prepare.push(outcome.prepare_milliseconds);
         }
         outcome.regrows = regrows;
-        Ok(Self { structure, outcome, passes, build_milliseconds: median(&host) })
+        let (build_milliseconds, prepare_milliseconds) = (median(&host), median(&prepare));
+        Ok(Self { structure, outcome, passes, build_milliseconds, prepare_milliseconds })
     }
 
     /// Options and paths as the structure resolved them.
