@@ -49,6 +49,10 @@ layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
 layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
     Surface queue_surfaces[];
 };
+// As many as there are slots where work is counted per ray, else a placeholder.
+layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
+    RayWork queue_work[];
+};
 
 uint queue_capacity() {
     return queue_header.capacity;

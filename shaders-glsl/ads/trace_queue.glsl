@@ -1,6 +1,6 @@
 // What: traces the ray of one queue slot and files the answer; shared by the closest and the occluded
 // kernel of every structure.
-// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header.
+// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work.
 #ifndef ADS_TRACE_QUEUE_GLSL
 #define ADS_TRACE_QUEUE_GLSL
 
@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform TraceConstants {
 
 // Adds to the 64-bit sums of the header.
 void queue_add_work(uint cells, uint entries, uint tests) {
-    if (COUNTERS_ENABLED == 0u) {
+    if (COUNTERS < COUNTERS_SUMS) {
         return;
     }
     uint before = atomicAdd(queue_header.cells_low, cells);
@@ -32,6 +32,14 @@ void queue_add_work(uint cells, uint entries, uint tests) {
     }
 }
 
+// Files what a ray has spent so far, where the queue has room for it.
+void queue_file_work(uint slot, TraceState state) {
+    if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
+        return;
+    }
+    queue_work[slot] = RayWork(state.cells, state.entries, state.tests, state.rounds);
+}
+
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
     slot = invocation;
@@ -46,8 +54,9 @@ bool trace_slot(uint invocation, out uint slot) {
 }
 
 void trace_file(uint slot, uint result, TraceState state, Hit hit) {
+    state.rounds += 1u;
+    queue_file_work(slot, state);
     if (result == TRACE_PAUSED) {
-        state.rounds += 1u;
         queue_states[slot] = state;
         uint place = atomicAdd(queue_header.paused, 1u);
         queue_list[(queue_header.round & 1u) * queue_header.capacity + place] = slot;

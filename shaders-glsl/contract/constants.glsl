@@ -32,6 +32,15 @@
 #define SURFACE_PRIMITIVE 8u
 #define SURFACE_EMISSION 16u
 
+// How much of their work rays record; each value includes those below it.
+#define COUNTERS_OFF 0u
+// Sums over all rays, in the queue's header.
+#define COUNTERS_SUMS 1u
+// A RayWork per slot.
+#define COUNTERS_PER_RAY 2u
+// Every step of the logged slot.
+#define COUNTERS_STEPS 3u
+
 // Threads in a workgroup of a queue kernel.
 #define QUEUE_GROUP_SIZE 64u
 

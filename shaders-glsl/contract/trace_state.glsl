@@ -6,7 +6,7 @@
 #include "contract/types.glsl"
 
 // Constant ids 0 to 9 belong to the contract.
-layout(constant_id = 0) const uint COUNTERS_ENABLED = 0u;
+layout(constant_id = 0) const uint COUNTERS = COUNTERS_OFF;
 layout(constant_id = 1) const uint WORK_BUDGET = TRACE_WORK_BUDGET;
 
 // The state of a ray that has not been traced yet.

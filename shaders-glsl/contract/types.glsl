@@ -38,6 +38,14 @@ struct TraceState {
     uint rounds;              // dispatches so far
 };
 
+// What a ray has spent. 16 bytes.
+struct RayWork {
+    uint cells;               // cells stepped
+    uint entries;             // list entries read
+    uint tests;               // primitive tests
+    uint rounds;              // dispatches
+};
+
 // What is shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 struct Surface {
     vec3 position;

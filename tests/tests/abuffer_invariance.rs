@@ -2,7 +2,7 @@
 //! bit for bit.
 
 use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March};
-use rasray_ads::{Hit, Ray, Structure, TraceMode};
+use rasray_ads::{Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
@@ -86,7 +86,8 @@ const CHANGES: &[(&str, Change)] = &[
     ("64 units a dispatch", |config| Config { work_budget: Some(64), ..config }),
     ("room for nothing at first", |config| Config { fragments: Some(0), ..config }),
     ("room for one fragment at first", |config| Config { fragments: Some(1), ..config }),
-    ("counters", |config| Config { counters: true, ..config }),
+    ("counters", |config| Config { counters: Counters::Sums, ..config }),
+    ("counters per ray", |config| Config { counters: Counters::PerRay, ..config }),
 ];
 
 /// What of a hit may not change. With interval acceptance a and b name the fragment's place in the pool,
@@ -107,7 +108,7 @@ fn answers(bench: &Bench, config: Config, triangles: &[Triangle], rays: &[Ray]) 
     build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
     let (hits, counters) = trace_in_rounds(bench, &structure, rays, TraceMode::Closest, rounds(&config));
     assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
-    assert_eq!(counters.cells > 0, config.counters);
+    assert_eq!(counters.cells > 0, config.counters != Counters::Off);
     let (occluders, counters) =
         trace_in_rounds(bench, &structure, rays, TraceMode::Occluded, rounds(&config));
     assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");

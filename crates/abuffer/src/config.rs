@@ -1,6 +1,6 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::AdsError;
+use rasray_ads::{AdsError, Counters};
 use rasray_shaders_glsl::constants::abuffer as numbers;
 
 /// How a ray steps through cells.
@@ -78,8 +78,8 @@ pub struct Config {
     pub addressing: Addressing,
     /// Fragments to make room for before the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
-    /// Count cells, entries and tests of every ray. Changes no hit.
-    pub counters: bool,
+    /// How much of their work rays record. Changes no hit.
+    pub counters: Counters,
     /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
     pub work_budget: Option<u32>,
 }
@@ -100,7 +100,7 @@ impl Config {
             skip: true,
             addressing: Addressing::Descriptor,
             fragments: None,
-            counters: false,
+            counters: Counters::Off,
             work_budget: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use bytemuck::{bytes_of, from_bytes, pod_read_unaligned};
 use rasray_ads::{
-    AdsError, BuildStatus, Check, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
+    AdsError, BuildStatus, Check, Counters, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
     StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
 };
 use rasray_gpu::{
@@ -234,6 +234,10 @@ impl Structure for ABuffer {
 
     fn requirements(&self) -> Requirements {
         Self::requirements_of(&self.config)
+    }
+
+    fn counters(&self) -> Counters {
+        self.kernels.counters()
     }
 
     fn sizes(&self) -> &Sizes {

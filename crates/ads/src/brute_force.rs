@@ -4,8 +4,8 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl as shaders;
 
 use crate::{
-    AdsError, BuildStatus, Check, Geometry, RayQueue, SceneBinding, Sizes, Structure, StructureKind,
-    StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    AdsError, BuildStatus, Check, Counters, Geometry, RayQueue, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -26,7 +26,7 @@ impl BruteForce {
         device: &Device,
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
-        counters: bool,
+        counters: impl Into<Counters>,
     ) -> Result<Self, AdsError> {
         let empty = device.create_set_layout("brute force", 0)?;
         let (closest, occluded) = modules(scene);
@@ -40,7 +40,7 @@ impl BruteForce {
                 surfaces: surfaces_module(),
                 structure_layout: &empty,
                 constants: &[],
-                counters,
+                counters: counters.into(),
                 work_budget: Some(work_budget),
                 scene,
             },
@@ -84,6 +84,10 @@ impl Structure for BruteForce {
 
     fn requirements(&self) -> Requirements {
         Requirements::floor()
+    }
+
+    fn counters(&self) -> Counters {
+        self.kernels.counters()
     }
 
     fn sizes(&self) -> &Sizes {

@@ -5,7 +5,7 @@ use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Devic
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 
-use crate::{AdsError, Geometry, QueueHeader, RayQueue, TraceMode};
+use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode};
 
 /// The scene's set, which surfaces and alpha masks are read from.
 #[derive(Clone, Debug)]
@@ -31,8 +31,8 @@ pub struct TraceKernelsDesc<'a> {
     pub structure_layout: &'a SetLayout,
     /// Specialisation constants of the structure: id and bits.
     pub constants: &'a [(u32, u32)],
-    /// Whether rays count their work.
-    pub counters: bool,
+    /// How much of their work rays record.
+    pub counters: Counters,
     /// Work units a dispatch; the shared default where absent.
     pub work_budget: Option<u32>,
     /// The scene, where surfaces or alpha masks are needed.
@@ -47,6 +47,7 @@ pub struct TraceKernels {
     surfaces: Option<Kernel>,
     next_round: ComputePipeline,
     scene: Option<BindingSet>,
+    counters: Counters,
 }
 
 #[derive(Debug)]
@@ -74,7 +75,7 @@ impl TraceKernels {
         if let Some(scene) = desc.scene {
             sets.push(&scene.layout);
         }
-        let mut constants = vec![(0, u32::from(desc.counters))];
+        let mut constants = vec![(0, desc.counters.constant())];
         constants.extend(desc.work_budget.map(|budget| (1, budget)));
         constants.extend_from_slice(desc.constants);
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
@@ -100,7 +101,13 @@ impl TraceKernels {
             surfaces: desc.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
             next_round,
             scene: desc.scene.map(|scene| scene.set.clone()),
+            counters: desc.counters,
         })
+    }
+
+    /// How much of their work rays record.
+    pub fn counters(&self) -> Counters {
+        self.counters
     }
 
     fn bind(

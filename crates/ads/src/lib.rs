@@ -20,6 +20,7 @@
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
 mod brute_force;
+mod counters;
 mod error;
 mod geometry;
 mod kernels;
@@ -28,14 +29,15 @@ mod structure;
 mod types;
 
 pub use brute_force::BruteForce;
+pub use counters::Counters;
 pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
-pub use queue::{QueueCounters, RayQueue};
+pub use queue::{QueueCounters, QueueParts, RayQueue};
 pub use structure::{
     BuildStatus, Check, PoolSize, PoolStatus, Sizes, Structure, StructureKind, StructureReport, TraceMode,
 };
-pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, Surface, TraceState};
+pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

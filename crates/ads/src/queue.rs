@@ -4,10 +4,19 @@ use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder, SetLayout,
 };
 
-use crate::{AdsError, Hit, QueueHeader, Ray, Surface, TraceState};
+use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState};
 
 /// Number of bindings of the queue set.
-const BINDINGS: u32 = 6;
+const BINDINGS: u32 = 7;
+
+/// What a queue holds beside rays, hits and states. What is not asked for is a placeholder of 16 bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct QueueParts {
+    /// A [`Surface`] per slot.
+    pub surfaces: bool,
+    /// A [`RayWork`] per slot, written by structures that count per ray.
+    pub work: bool,
+}
 
 /// Rays, hits, surfaces and traversal states of `capacity` slots. Cheap to clone.
 #[derive(Clone, Debug)]
@@ -19,6 +28,7 @@ pub struct RayQueue {
     states: Buffer,
     list: Buffer,
     surfaces: Buffer,
+    work: Buffer,
     layout: SetLayout,
     set: BindingSet,
 }
@@ -39,11 +49,24 @@ pub struct QueueCounters {
 }
 
 impl RayQueue {
-    /// Allocates a queue. Without surfaces that buffer is a placeholder of 16 bytes.
+    /// Allocates a queue, with surfaces if asked for.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
     pub fn new(device: &Device, name: &str, capacity: u32, surfaces: bool) -> Result<Self, AdsError> {
+        Self::with_parts(device, name, capacity, QueueParts { surfaces, ..QueueParts::default() })
+    }
+
+    /// Allocates a queue with the parts asked for.
+    ///
+    /// # Errors
+    /// Out of memory, or a buffer exceeds what one binding can hold.
+    pub fn with_parts(
+        device: &Device,
+        name: &str,
+        capacity: u32,
+        parts: QueueParts,
+    ) -> Result<Self, AdsError> {
         let capacity = capacity.max(1);
         let buffer = |part: &str, element: usize, count: u64| {
             device.create_buffer(&BufferDesc {
@@ -59,11 +82,15 @@ impl RayQueue {
         let hits = buffer("hits", size_of::<Hit>(), slots)?;
         let states = buffer("states", size_of::<TraceState>(), slots)?;
         let list = buffer("list", size_of::<u32>(), 2 * slots)?;
-        let surfaces = buffer("surfaces", size_of::<Surface>(), if surfaces { slots } else { 0 })?;
+        let surfaces = buffer("surfaces", size_of::<Surface>(), if parts.surfaces { slots } else { 0 })?;
+        let work = buffer("work", size_of::<RayWork>(), if parts.work { slots } else { 0 })?;
         let layout = Self::layout(device)?;
-        let set =
-            device.create_binding_set(&layout, name, &[&header, &rays, &hits, &states, &list, &surfaces])?;
-        Ok(Self { capacity, header, rays, hits, states, list, surfaces, layout, set })
+        let set = device.create_binding_set(
+            &layout,
+            name,
+            &[&header, &rays, &hits, &states, &list, &surfaces, &work],
+        )?;
+        Ok(Self { capacity, header, rays, hits, states, list, surfaces, work, layout, set })
     }
 
     /// The layout that all queues share.
@@ -120,9 +147,15 @@ impl RayQueue {
         &self.surfaces
     }
 
+    /// [`RayWork`] per slot, as the last trace through a structure that counts per ray left it; a placeholder
+    /// unless the queue was made with [`QueueParts::work`].
+    pub fn work(&self) -> &Buffer {
+        &self.work
+    }
+
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        [&self.header, &self.rays, &self.hits, &self.states, &self.list, &self.surfaces]
+        [&self.header, &self.rays, &self.hits, &self.states, &self.list, &self.surfaces, &self.work]
             .iter()
             .map(|buffer| buffer.size())
             .sum()

@@ -2,7 +2,7 @@
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
-use crate::{AdsError, Geometry, RayQueue};
+use crate::{AdsError, Counters, Geometry, RayQueue};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,6 +119,9 @@ pub trait Structure {
 
     /// Device features that it uses.
     fn requirements(&self) -> Requirements;
+
+    /// How much of their work its rays record.
+    fn counters(&self) -> Counters;
 
     /// What is allocated now.
     fn sizes(&self) -> &Sizes;

@@ -80,6 +80,20 @@ pub struct TraceState {
     pub rounds: u32,
 }
 
+/// What a ray has spent, where work is counted per ray.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+pub struct RayWork {
+    /// Cells stepped.
+    pub cells: u32,
+    /// List entries read.
+    pub entries: u32,
+    /// Primitives tested.
+    pub tests: u32,
+    /// Dispatches the ray took part in.
+    pub rounds: u32,
+}
+
 /// What is shaded: metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{Geometry, SceneBinding, Structure};
+use rasray_ads::{Counters, Geometry, SceneBinding, Structure};
 use rasray_gpu::{Device, Requirements};
 
 use crate::{SystemsError, brute_force, mmrt};
@@ -56,7 +56,7 @@ pub struct Spec {
     system: &'static System,
     preset: Preset,
     options: BTreeMap<String, String>,
-    counters: bool,
+    counters: Counters,
 }
 
 impl Spec {
@@ -84,15 +84,15 @@ impl Spec {
         if let Some(option) = options.keys().find(|option| !row.options.contains(&option.as_str())) {
             return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
         }
-        let spec = Self { system: row, preset, options, counters: false };
+        let spec = Self { system: row, preset, options, counters: Counters::Off };
         spec.requirements()?;
         Ok(spec)
     }
 
-    /// The same with rays that count cells, entries and tests.
+    /// The same with rays that record this much of their work.
     #[must_use]
-    pub fn with_counters(self, counters: bool) -> Self {
-        Self { counters, ..self }
+    pub fn with_counters(self, counters: impl Into<Counters>) -> Self {
+        Self { counters: counters.into(), ..self }
     }
 
     /// The same with one more option over the preset.
@@ -119,8 +119,8 @@ impl Spec {
         &self.options
     }
 
-    /// Whether rays count their work.
-    pub fn counters(&self) -> bool {
+    /// How much of their work rays record.
+    pub fn counters(&self) -> Counters {
         self.counters
     }
 

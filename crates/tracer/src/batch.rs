@@ -1,6 +1,8 @@
 //! Rays from the host, hits back to the host.
 
-use rasray_ads::{Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{
+    Counters, Hit, QueueCounters, QueueHeader, QueueParts, Ray, RayQueue, RayWork, Structure, TraceMode,
+};
 use rasray_gpu::{Device, PassTiming, Timing};
 
 use crate::TracerError;
@@ -21,6 +23,8 @@ pub struct TraceOutcome {
     pub passes: Vec<PassTiming>,
     /// Sums over all rays; work is zero unless the structure counts it.
     pub counters: QueueCounters,
+    /// One per ray, in order; empty unless the structure counts per ray.
+    pub work: Vec<RayWork>,
 }
 
 impl TraceOutcome {
@@ -36,7 +40,8 @@ impl BatchTracer {
     /// # Errors
     /// Out of memory.
     pub fn new(device: &Device, capacity: u32) -> Result<Self, TracerError> {
-        Ok(Self { device: device.clone(), queue: RayQueue::new(device, "batch", capacity, false)? })
+        let parts = QueueParts { work: true, ..QueueParts::default() };
+        Ok(Self { device: device.clone(), queue: RayQueue::with_parts(device, "batch", capacity, parts)? })
     }
 
     /// Traces all rays, chunk by chunk, in at most [`Structure::rounds`] rounds.
@@ -61,6 +66,9 @@ impl BatchTracer {
             })?;
             outcome.passes.extend(submitted.passes);
             outcome.hits.extend(self.device.download_as::<Hit>(self.queue.hits(), 0, chunk.len())?);
+            if structure.counters() >= Counters::PerRay {
+                outcome.work.extend(self.device.download_as::<RayWork>(self.queue.work(), 0, chunk.len())?);
+            }
         }
         let header = self.device.download_as::<QueueHeader>(self.queue.header(), 0, 1)?;
         outcome.counters = header.first().map(RayQueue::counters).unwrap_or_default();

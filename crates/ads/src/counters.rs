@@ -1,0 +1,31 @@
+use rasray_shaders_glsl::constants::contract;
+
+/// How much of their work rays record. Changes no hit. Each value includes those before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Counters {
+    /// Nothing.
+    #[default]
+    Off,
+    /// Sums over all rays, in [`crate::QueueHeader`].
+    Sums,
+    /// A [`crate::RayWork`] per slot, where the queue has room for it.
+    PerRay,
+}
+
+impl Counters {
+    /// The value of specialisation constant 0.
+    pub(crate) fn constant(self) -> u32 {
+        match self {
+            Self::Off => contract::COUNTERS_OFF,
+            Self::Sums => contract::COUNTERS_SUMS,
+            Self::PerRay => contract::COUNTERS_PER_RAY,
+        }
+    }
+}
+
+impl From<bool> for Counters {
+    /// Sums, or nothing.
+    fn from(sums: bool) -> Self {
+        if sums { Self::Sums } else { Self::Off }
+    }
+}
