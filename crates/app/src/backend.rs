@@ -1,6 +1,7 @@
 //! The seam between the command and what renders: plain data in, plain data out.
 
 use crate::error::AppError;
+use crate::report::figures::Figures;
 use crate::report::{Counters, Device, Memory, Pass, Run, Times};
 use crate::systems::SystemConfig;
 use rasray_scene::needs::{self, Needs, Workload};
@@ -122,8 +123,19 @@ pub struct CompareJob<'a> {
     pub frame: Frame,
     /// Whether an image of each system is compared with the reference as well.
     pub image: bool,
+    /// Whether pictures and maps are kept for a page.
+    pub figures: bool,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
+}
+
+/// What a comparison gave.
+#[derive(Clone, Debug, Default)]
+pub struct Comparison {
+    /// A run per system, preset and ray set, and per image where wanted.
+    pub runs: Vec<Run>,
+    /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
+    pub figures: Figures,
 }
 
 /// How far the work is.
@@ -229,7 +241,11 @@ pub trait Backend {
 
     /// Compares systems: a run per system, preset and ray set, and per image where wanted. When
     /// `progress` breaks, the complete runs so far are the result.
-    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError>;
+    fn compare(
+        &mut self,
+        job: &CompareJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, AppError>;
 
     /// Describes the device.
     fn info(&mut self) -> Result<DeviceDescription, AppError>;

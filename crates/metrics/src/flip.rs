@@ -17,19 +17,35 @@ pub struct Flip {
     pub max: f64,
 }
 
-/// FLIP of displayed values (exposure 1, clamped, sRGB) in 8 bits a channel.
+/// The variant for low dynamic range (LDR-FLIP) of displayed values (exposure 1, clamped, sRGB) in 8 bits
+/// a channel. What lies above 1 is white for it; HDR-FLIP, which looks at several exposures, is not
+/// computed here.
 ///
 /// # Errors
 /// If the sizes differ, a pixel of the reference is not finite, or the image has more than 2^29 pixels.
 pub fn flip(test: &Image<'_>, reference: &Image<'_>) -> Result<Flip, MetricsError> {
+    Ok(Flip::of(&flip_map(test, reference)?))
+}
+
+/// The values that [`flip`] sums up: one in [0, 1] for each pixel, in row order.
+///
+/// # Errors
+/// As [`flip`].
+pub fn flip_map(test: &Image<'_>, reference: &Image<'_>) -> Result<Vec<f32>, MetricsError> {
     check(test, reference)?;
-    let map = nv_flip::flip(quantize(reference)?, quantize(test)?, DEFAULT_PIXELS_PER_DEGREE).to_vec();
-    let values: Vec<f64> = map.into_iter().map(f64::from).collect();
-    Ok(Flip {
-        mean: values.iter().sum::<f64>() / values.len() as f64,
-        p99: percentile(&values, 0.99).unwrap_or(f64::NAN),
-        max: percentile(&values, 1.0).unwrap_or(f64::NAN),
-    })
+    Ok(nv_flip::flip(quantize(reference)?, quantize(test)?, DEFAULT_PIXELS_PER_DEGREE).to_vec())
+}
+
+impl Flip {
+    /// Sums up the values of pixels, as [`flip_map`] gives them; NaN where there are none.
+    pub fn of(map: &[f32]) -> Self {
+        let values: Vec<f64> = map.iter().copied().map(f64::from).collect();
+        Self {
+            mean: values.iter().sum::<f64>() / values.len() as f64,
+            p99: percentile(&values, 0.99).unwrap_or(f64::NAN),
+            max: percentile(&values, 1.0).unwrap_or(f64::NAN),
+        }
+    }
 }
 
 fn quantize(image: &Image<'_>) -> Result<FlipImageRgb8, MetricsError> {
@@ -68,5 +84,11 @@ mod tests {
         spot[16 * 32 + 16] = [1.0, 0.1, 0.1];
         let error = measure(&spot, &grey);
         assert!(error.max > 0.2 && error.mean < 0.05 && error.p99 <= error.max, "{error:?}");
+        // The map says where: the worst pixel is the spot, and the far corner sees nothing of it.
+        let [test, reference] = [&spot, &grey].map(|p| Image::new(32, 32, p).expect("sizes fit"));
+        let map = flip_map(&test, &reference).expect("comparable");
+        assert_eq!(Flip::of(&map), error);
+        assert_eq!(f64::from(map[16 * 32 + 16]), error.max);
+        assert!(map[0] < 1e-3, "{}", map[0]);
     }
 }

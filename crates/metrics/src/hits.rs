@@ -135,6 +135,19 @@ impl HitConfusion {
     }
 }
 
+/// The true t and the found t of each unambiguous ray that hits and got a hit with a finite t.
+///
+/// Where there are fewer hits than truths, the truths beyond them are left out.
+pub fn common_hits<'a, T: Truth>(
+    truths: &'a [T],
+    hits: &'a [Option<DeviceHit>],
+) -> impl Iterator<Item = (f64, f32)> + 'a {
+    truths.iter().zip(hits).filter(|(truth, _)| !truth.is_ambiguous()).filter_map(|(truth, hit)| {
+        let hit = hit.filter(|hit| hit.t.is_finite())?;
+        Some((truth.hit()?.1, hit.t))
+    })
+}
+
 fn count(rate: &mut Rate, happened: bool) {
     rate.total += 1;
     rate.count += u64::from(happened);
@@ -251,6 +264,15 @@ mod tests {
         hits[1] = hit(2, 4.0);
         let confusion = HitConfusion::measure(&truths(), &hits, 0.0).expect("same length");
         assert_eq!(confusion.t_off, Rate { count: 0, total: 2 });
+    }
+
+    #[test]
+    fn common_hits_leave_out_what_cannot_be_compared() {
+        let pairs = |hits: &[_]| common_hits(&truths(), hits).collect::<Vec<_>>();
+        assert_eq!(pairs(&right()), [(2.0, 2.0), (4.0, 4.0)]);
+        let mut hits = right();
+        (hits[0], hits[2]) = (hit(1, f32::INFINITY), hit(1, 1.0));
+        assert_eq!(pairs(&hits), [(4.0, 4.0)]);
     }
 
     #[test]

@@ -20,8 +20,8 @@ mod tone;
 
 pub use error::MetricsError;
 #[cfg(feature = "flip")]
-pub use flip::{Flip, flip};
-pub use hits::{DeviceHit, HitConfusion, Truth};
+pub use flip::{Flip, flip, flip_map};
+pub use hits::{DeviceHit, HitConfusion, Truth, common_hits};
 pub use image::{Image, ImageError};
 pub use rate::Rate;
 pub use ssim::ssim;

@@ -2,7 +2,7 @@
 
 use super::{check_whole, destination, keep_inputs, stop_if_requested, with_progress};
 use crate::arguments::CompareArguments;
-use crate::backend::{CompareJob, OpenBackend, RaySet};
+use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::report::{Report, table};
@@ -38,9 +38,10 @@ pub(crate) fn compare(
         rays: given.rays,
         frame,
         image: given.image,
+        figures: false,
         needs: given.reading.needs(&loaded.scene, frame.workload()),
     };
-    let runs = with_progress(interrupt, |progress| backend.compare(&job, progress))?;
+    let Comparison { runs, .. } = with_progress(interrupt, |progress| backend.compare(&job, progress))?;
     let finished = runs.len();
     if finished == 0 && interrupt.requested() {
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));

@@ -2,36 +2,42 @@
 
 use std::ops::ControlFlow;
 
-use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, QueueCounters, Ray, StructureKind, TraceMode};
+use rasray_ads::{Hit, QueueCounters, Ray, TraceMode};
 use rasray_gpu::Device;
-use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::{Accept, Oracle, Verdict};
 use rasray_reference::shading::{PosedScene, View};
 use rasray_systems::Spec;
 use rasray_tracer::BatchTracer;
 
-use super::image_error::{image_error, reference_image};
+use super::images::compare_images;
+use super::judge::{accuracy, depth_errors, device_hits};
 use super::passes::{Passes, median};
 use super::rays::{RaySource, oracle_ray};
-use super::render::render_pixels;
 use super::spec_of;
 use super::stage::{Built, Stage, device_error, tracer_error};
-use crate::backend::{CompareJob, OnProgress, Progress, RaySet};
+use crate::backend::{CompareJob, Comparison, OnProgress, Progress, RaySet};
 use crate::error::AppError;
-use crate::report::{Accuracy, Run, Times};
+use crate::report::{Run, Times};
 use crate::systems::{SystemConfig, word};
 
 /// Timed repetitions of each ray set, after one that warms up and is judged.
 const REPETITIONS: usize = 3;
 
-/// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
-const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
-
 /// One system of the comparison.
-struct Contestant<'a> {
-    config: &'a SystemConfig,
-    spec: Spec,
-    built: Built,
+pub(super) struct Contestant<'a> {
+    pub(super) config: &'a SystemConfig,
+    pub(super) spec: Spec,
+    pub(super) built: Built,
+}
+
+/// What images are made from.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub(super) device: &'a Device,
+    pub(super) job: &'a CompareJob<'a>,
+    pub(super) stage: &'a Stage,
+    pub(super) posed: &'a PosedScene<'a>,
+    pub(super) view: &'a View,
 }
 
 /// Runs all systems on all ray sets, then on the image where that is wanted.
@@ -39,7 +45,7 @@ pub(super) fn compare(
     device: &Device,
     job: &CompareJob<'_>,
     progress: &mut OnProgress<'_>,
-) -> Result<Vec<Run>, AppError> {
+) -> Result<Comparison, AppError> {
     let frame = job.frame;
     let stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
@@ -82,20 +88,21 @@ pub(super) fn compare(
         contestants.push(Contestant { config, spec, built });
     }
     let total = (contestants.len() * (job.ray_sets.len() + usize::from(job.image))) as u64;
-    let mut runs = Vec::new();
+    let mut comparison = Comparison::default();
     for set in &job.ray_sets {
         let rays = source.rays(*set, job.rays);
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
-        runs.extend(trace_set(device, &contestants, *set, &rays, &verdicts, job)?);
-        let done = runs.len() as u64;
+        trace_set(device, &contestants, *set, &rays, &verdicts, job, &mut comparison)?;
+        let done = comparison.runs.len() as u64;
         if progress(Progress { task: &word(set), done, total, unit: "runs" }) == ControlFlow::Break(()) {
-            return Ok(runs);
+            return Ok(comparison);
         }
     }
     if job.image {
-        runs.extend(compare_images(device, job, &stage, &posed, &view, &contestants, progress)?);
+        let setting = Setting { device, job, stage: &stage, posed: &posed, view: &view };
+        compare_images(&setting, &contestants, &mut comparison, progress)?;
     }
-    Ok(runs)
+    Ok(comparison)
 }
 
 /// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so
@@ -116,7 +123,8 @@ fn trace_set(
     rays: &[Ray],
     verdicts: &[Verdict],
     job: &CompareJob<'_>,
-) -> Result<Vec<Run>, AppError> {
+    comparison: &mut Comparison,
+) -> Result<(), AppError> {
     let tracer =
         BatchTracer::new(device, rays.len().clamp(1, 131_072) as u32).map_err(|e| tracer_error(&e))?;
     let timing = device.best_timing();
@@ -135,13 +143,16 @@ fn trace_set(
             }
         }
     }
-    contestants
-        .iter()
-        .zip(traces)
-        .map(|(contestant, traced)| {
-            run_of_rays(device, contestant, set, rays.len() as u64, verdicts, traced, job)
-        })
-        .collect()
+    for (contestant, traced) in contestants.iter().zip(traces) {
+        let hits = device_hits(&traced.hits);
+        let mut run = run_of_rays(device, contestant, set, rays.len() as u64, traced, job)?;
+        run.accuracy = Some(accuracy(contestant.built.structure.kind(), verdicts, &hits)?);
+        if job.figures {
+            comparison.figures.depth_errors.push(depth_errors(comparison.runs.len(), verdicts, &hits));
+        }
+        comparison.runs.push(run);
+    }
+    Ok(())
 }
 
 /// What one system answered to one set.
@@ -158,7 +169,6 @@ fn run_of_rays(
     contestant: &Contestant<'_>,
     set: RaySet,
     rays: u64,
-    verdicts: &[Verdict],
     traced: Traced,
     job: &CompareJob<'_>,
 ) -> Result<Run, AppError> {
@@ -183,12 +193,11 @@ fn run_of_rays(
     };
     run.passes.extend(traced.passes.report());
     run.counters = Some(counters);
-    run.accuracy = Some(accuracy(contestant, verdicts, &traced.hits)?);
     Ok(run)
 }
 
 /// Names, options, build passes and bytes of a system.
-fn base_run(device: &Device, contestant: &Contestant<'_>) -> Result<Run, AppError> {
+pub(super) fn base_run(device: &Device, contestant: &Contestant<'_>) -> Result<Run, AppError> {
     let (options, paths) = contestant.built.resolved()?;
     Ok(Run {
         system: word(&contestant.config.name),
@@ -200,100 +209,4 @@ fn base_run(device: &Device, contestant: &Contestant<'_>) -> Result<Run, AppErro
         memory: Some(contestant.built.memory(device)?),
         ..Run::default()
     })
-}
-
-fn accuracy(contestant: &Contestant<'_>, verdicts: &[Verdict], hits: &[Hit]) -> Result<Accuracy, AppError> {
-    let hits: Vec<Option<DeviceHit>> = hits
-        .iter()
-        .map(|hit| {
-            hit.is_hit().then(|| DeviceHit {
-                t: hit.t,
-                primitive: (hit.primitive != PRIMITIVE_UNKNOWN).then_some(hit.primitive),
-            })
-        })
-        .collect();
-    let tolerance = match contestant.built.structure.kind() {
-        StructureKind::Primitive => 0.0,
-        StructureKind::Fragment => FRAGMENT_TOLERANCE,
-    };
-    let confusion = HitConfusion::measure(verdicts, &hits, tolerance).map_err(device_error)?;
-    Ok(Accuracy {
-        rays: confusion.rays,
-        ambiguous: confusion.ambiguous,
-        ambiguous_lost: confusion.ambiguous_lost.count + confusion.ambiguous_wrong.count,
-        missed: confusion.missed.count,
-        false_hits: confusion.false_hits.count,
-        wrong_primitive: confusion.wrong_primitive.map(|rate| rate.count),
-        dt_rel_p50: confusion.dt_rel.map(|dt| dt.p50),
-        dt_rel_p99: confusion.dt_rel.map(|dt| dt.p99),
-        dt_rel_max: confusion.dt_rel.map(|dt| dt.max),
-        non_finite: confusion.non_finite.count,
-    })
-}
-
-/// Renders the frame through each system and compares it with the reference. A run named `reference`
-/// is the reference with another seed: what noise alone makes of the same numbers.
-fn compare_images(
-    device: &Device,
-    job: &CompareJob<'_>,
-    stage: &Stage,
-    posed: &PosedScene<'_>,
-    view: &View,
-    contestants: &[Contestant<'_>],
-    progress: &mut OnProgress<'_>,
-) -> Result<Vec<Run>, AppError> {
-    let frame = job.frame;
-    let Some(reference) = reference_image(posed, view, &frame)? else {
-        return Err(AppError::usage(
-            "--image compares with the reference, which has the integrators path and ao",
-            "choose --integrator path or ao, or leave --image out",
-        ));
-    };
-    let mut runs = Vec::new();
-    let image_of = |run: &mut Run, pixels: &[[f32; 3]]| -> Result<(), AppError> {
-        run.integrator = Some(crate::commands::integrator_name(&frame).to_owned());
-        run.width = Some(frame.width);
-        run.height = Some(frame.height);
-        run.spp = Some(frame.spp);
-        run.bounces = crate::commands::bounces(&frame);
-        run.image = Some(image_error(&frame, pixels, &reference)?);
-        Ok(())
-    };
-    for contestant in contestants {
-        // Images are taken as renders are: from a structure built around the camera.
-        let spec = spec_of(contestant.config)?;
-        let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), device.best_timing())?;
-        let task = format!("image {}", word(&contestant.config.name));
-        let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
-        if pixels.samples_done < frame.spp {
-            return Ok(runs);
-        }
-        let of_camera = Contestant { config: contestant.config, spec, built };
-        let mut run = base_run(device, &of_camera)?;
-        run.seed = Some(frame.seed);
-        run.times = Times {
-            timer: pixels.passes.timer(),
-            build_ms: Some(of_camera.built.build_milliseconds),
-            build_host_ms: Some(of_camera.built.prepare_milliseconds),
-            trace_ms: Some(pixels.passes.total(|label| label.contains("/trace_"))),
-            ..Times::default()
-        };
-        run.passes.extend(pixels.passes.report());
-        run.counters = Some(pixels.counters);
-        image_of(&mut run, &pixels.beauty)?;
-        runs.push(run);
-    }
-    let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
-    if let Some(noise) = reference_image(posed, &other, &frame)? {
-        let mut run = Run {
-            system: "reference".to_owned(),
-            structure: "oracle".to_owned(),
-            preset: "another-seed".to_owned(),
-            seed: Some(other.seed),
-            ..Run::default()
-        };
-        image_of(&mut run, &noise.pixels)?;
-        runs.push(run);
-    }
-    Ok(runs)
 }

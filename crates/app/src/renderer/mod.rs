@@ -2,7 +2,8 @@
 
 mod compare;
 mod describe;
-mod image_error;
+mod images;
+mod judge;
 mod passes;
 mod rays;
 mod render;
@@ -12,10 +13,10 @@ use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
 use rasray_systems::Spec;
 
 use crate::backend::{
-    Backend, CompareJob, DeviceChoice, DeviceDescription, OnProgress, RenderJob, RenderOutput,
+    Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, OnProgress, RenderJob, RenderOutput,
 };
 use crate::error::AppError;
-use crate::report::{Device, Run};
+use crate::report::Device;
 use crate::systems::{SystemConfig, word};
 
 /// A device and nothing else: everything made for a job goes with the job.
@@ -90,10 +91,14 @@ impl Backend for Renderer {
         Ok(output)
     }
 
-    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError> {
-        let runs = compare::compare(&self.device, job, progress)?;
+    fn compare(
+        &mut self,
+        job: &CompareJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, AppError> {
+        let comparison = compare::compare(&self.device, job, progress)?;
         self.check_validation()?;
-        Ok(runs)
+        Ok(comparison)
     }
 
     fn info(&mut self) -> Result<DeviceDescription, AppError> {

@@ -5,8 +5,8 @@
 
 use rasray_app::AppError;
 use rasray_app::backend::{
-    Backend, ChosenPath, CompareJob, DeviceChoice, DeviceDescription, Feature, OnProgress, Progress,
-    RenderJob, RenderOutput,
+    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, Feature, OnProgress,
+    Progress, RenderJob, RenderOutput,
 };
 use rasray_app::report::{Counters, Device, Run, Times};
 use std::path::Path;
@@ -69,13 +69,17 @@ impl Backend for Scripted {
         })
     }
 
-    fn compare(&mut self, job: &CompareJob<'_>, progress: &mut OnProgress<'_>) -> Result<Vec<Run>, AppError> {
+    fn compare(
+        &mut self,
+        job: &CompareJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, AppError> {
         say_ready();
         let mut runs = Vec::new();
         for system in &job.systems {
             for set in &job.ray_sets {
                 if progress(Progress { task: "compare", done: 0, total: 0, unit: "rays" }).is_break() {
-                    return Ok(runs);
+                    return Ok(Comparison { runs, ..Comparison::default() });
                 }
                 if self.device == "slow" {
                     std::thread::sleep(Duration::from_millis(300));
@@ -89,7 +93,7 @@ impl Backend for Scripted {
                 });
             }
         }
-        Ok(runs)
+        Ok(Comparison { runs, ..Comparison::default() })
     }
 
     fn info(&mut self) -> Result<DeviceDescription, AppError> {

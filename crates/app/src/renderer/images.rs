@@ -1,0 +1,125 @@
+//! Images of the systems against the naive reference with the same random numbers.
+
+use rasray_metrics as metrics;
+use rasray_reference::integrators::Image;
+use rasray_reference::shading::{PosedScene, View};
+
+use super::compare::{Contestant, Setting, base_run};
+use super::render::render_pixels;
+use super::spec_of;
+use super::stage::{Built, device_error};
+use crate::backend::{Comparison, Frame, Integrator, OnProgress};
+use crate::error::AppError;
+use crate::report::figures::{Images, SystemImage};
+use crate::report::{ImageError, Run, Times};
+use crate::systems::word;
+
+/// The reference image of a frame; absent for integrators that it does not have.
+fn reference_image(scene: &PosedScene<'_>, view: &View, frame: &Frame) -> Result<Option<Image>, AppError> {
+    let image = match frame.integrator {
+        Integrator::Path { bounces } => scene.render_path(view, bounces),
+        Integrator::AmbientOcclusion { distance } => {
+            scene.render_ambient_occlusion(view, distance.unwrap_or(f32::INFINITY))
+        }
+        Integrator::Raycast => return Ok(None),
+    };
+    image.map(Some).map_err(|error| AppError::usage(error.to_string(), ""))
+}
+
+/// How far an image is from the reference, as a whole and, where wanted, in each pixel.
+fn image_error(
+    frame: &Frame,
+    test: &[[f32; 3]],
+    reference: &Image,
+    map: bool,
+) -> Result<(ImageError, Vec<f32>), AppError> {
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    let test = metrics::Image::new(width, height, test).map_err(device_error)?;
+    let reference = metrics::Image::new(width, height, &reference.pixels).map_err(device_error)?;
+    let error = metrics::ImageError::measure(&test, &reference).map_err(device_error)?;
+    let map = if map { metrics::flip_map(&test, &reference).map_err(device_error)? } else { Vec::new() };
+    let error = ImageError {
+        flip_mean: Some(error.flip.mean),
+        flip_p99: Some(error.flip.p99),
+        rmse: Some(error.rmse),
+        relmse: Some(error.relmse),
+        psnr: error.psnr.is_finite().then_some(error.psnr),
+        ssim: Some(error.ssim),
+    };
+    Ok((error, map))
+}
+
+/// Renders the frame through each system and compares it with the reference. A run named `reference`
+/// is the reference with another seed: what noise alone makes of the same numbers.
+pub(super) fn compare_images(
+    setting: &Setting<'_>,
+    contestants: &[Contestant<'_>],
+    comparison: &mut Comparison,
+    progress: &mut OnProgress<'_>,
+) -> Result<(), AppError> {
+    let Setting { device, job, stage, posed, view } = *setting;
+    let frame = job.frame;
+    let Some(reference) = reference_image(posed, view, &frame)? else {
+        return Err(AppError::usage(
+            "--image compares with the reference, which has the integrators path and ao",
+            "choose --integrator path or ao, or leave --image out",
+        ));
+    };
+    if job.figures {
+        comparison.figures.images = Some(Images {
+            width: frame.width,
+            height: frame.height,
+            reference: reference.pixels.clone(),
+            systems: Vec::new(),
+        });
+    }
+    let add = |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), AppError> {
+        run.integrator = Some(crate::commands::integrator_name(&frame).to_owned());
+        run.width = Some(frame.width);
+        run.height = Some(frame.height);
+        run.spp = Some(frame.spp);
+        run.bounces = crate::commands::bounces(&frame);
+        let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
+        run.image = Some(error);
+        if let Some(images) = &mut comparison.figures.images {
+            images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
+        }
+        comparison.runs.push(run);
+        Ok(())
+    };
+    for contestant in contestants {
+        // Images are taken as renders are: from a structure built around the camera.
+        let spec = spec_of(contestant.config)?;
+        let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), device.best_timing())?;
+        let task = format!("image {}", word(&contestant.config.name));
+        let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
+        if pixels.samples_done < frame.spp {
+            return Ok(());
+        }
+        let of_camera = Contestant { config: contestant.config, spec, built };
+        let mut run = base_run(device, &of_camera)?;
+        run.seed = Some(frame.seed);
+        run.times = Times {
+            timer: pixels.passes.timer(),
+            build_ms: Some(of_camera.built.build_milliseconds),
+            build_host_ms: Some(of_camera.built.prepare_milliseconds),
+            trace_ms: Some(pixels.passes.total(|label| label.contains("/trace_"))),
+            ..Times::default()
+        };
+        run.passes.extend(pixels.passes.report());
+        run.counters = Some(pixels.counters);
+        add(comparison, run, pixels.beauty)?;
+    }
+    let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
+    if let Some(noise) = reference_image(posed, &other, &frame)? {
+        let run = Run {
+            system: "reference".to_owned(),
+            structure: "oracle".to_owned(),
+            preset: "another-seed".to_owned(),
+            seed: Some(other.seed),
+            ..Run::default()
+        };
+        add(comparison, run, noise.pixels)?;
+    }
+    Ok(())
+}
