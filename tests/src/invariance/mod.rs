@@ -1,0 +1,13 @@
+//! Which options may change a hit, as data, and what it takes to hold every system against it.
+//!
+//! Structures that find triangles give the same bits whatever their options. Structures that store
+//! fragments give the same bits under everything that only arranges what they store. Any other change is
+//! a bug. A new option is one row of [`LAWS`]; a test asserts that none is missing.
+
+mod laws;
+mod pairs;
+mod subject;
+
+pub use laws::{LAWS, Law, Value, law};
+pub use pairs::pairwise;
+pub use subject::{Answers, SUBJECTS, Subject, first_difference};

@@ -1,0 +1,110 @@
+use rasray_ads::{Hit, Ray, StructureKind, TraceMode};
+use rasray_gpu::Timing;
+use rasray_systems::{SYSTEMS, Spec};
+use rasray_tracer::{BatchTracer, build_until_complete};
+
+use crate::harness::Bench;
+use crate::shapes::Triangle;
+
+/// A system, a preset, and options over it by name and value.
+type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+
+/// Options that a preset needs to be traced without a scene and in the time of a test. What a system
+/// does not have is left out.
+pub const SUBJECTS: &[Row] = &[
+    ("mmrt", "robust", &[("resolution", "24"), ("capacity", "40000")]),
+    // Attributes come from a scene's materials, which plain triangles lack.
+    ("mmrt", "published", &[("resolution", "24"), ("capacity", "40000"), ("payload", "index")]),
+];
+
+/// Options of systems that [`SUBJECTS`] does not name.
+const OTHERS: &[(&str, &str)] = &[("resolution", "24")];
+
+/// A preset of a system with its options for tests.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// What is made.
+    pub spec: Spec,
+    /// What its hits are.
+    pub kind: StructureKind,
+}
+
+/// Answers to all rays, bit for bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answers {
+    /// t, primitive, and the barycentrics where hits are on triangles.
+    pub closest: Vec<[u32; 4]>,
+    /// Whether anything is hit.
+    pub occluded: Vec<bool>,
+}
+
+impl Subject {
+    /// Every preset of every system of the registry.
+    ///
+    /// # Panics
+    /// If the device fails or a preset cannot be made.
+    pub fn all(bench: &Bench) -> Vec<Self> {
+        let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
+        let presets =
+            SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, preset)));
+        presets
+            .map(|(system, preset)| {
+                let own = SUBJECTS.iter().find(|row| row.0 == system.name && row.1 == preset.name());
+                let given = own.map_or(OTHERS, |row| row.2);
+                let known = given.iter().filter(|(option, _)| system.options.contains(option));
+                let options = known.map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
+                let spec =
+                    Spec::new(system.name, preset.name(), options).expect("the options are the system's");
+                let kind = spec.create(bench.device(), &placeholder, None).expect("it can be made").kind();
+                Self { spec, kind }
+            })
+            .collect()
+    }
+
+    /// `system preset`.
+    pub fn name(&self) -> String {
+        format!("{} {}", self.spec.system().name, self.spec.preset().name())
+    }
+
+    /// The same with other values of options; absent where the system does not take them.
+    pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
+        let spec = options
+            .iter()
+            .try_fold(self.spec.clone(), |spec, (option, value)| spec.with_option(option, value).ok())?;
+        Some(Self { spec, kind: self.kind })
+    }
+
+    /// Builds and traces.
+    ///
+    /// # Panics
+    /// If the device fails, rays do not finish, or the build finds its own lists corrupted.
+    pub fn answers(&self, bench: &Bench, eye: [f32; 3], triangles: &[Triangle], rays: &[Ray]) -> Answers {
+        let geometry = bench.geometry(triangles);
+        let device = bench.device();
+        let mut structure = self.spec.create(device, &geometry, None).expect("the options are valid");
+        build_until_complete(device, structure.as_mut(), eye, Timing::None).expect("the build completes");
+        let tracer = BatchTracer::new(device, rays.len().clamp(1, 65_536) as u32).expect("a queue fits");
+        let trace =
+            |mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish").hits;
+        let closest = trace(TraceMode::Closest);
+        let occluded = trace(TraceMode::Occluded);
+        assert_eq!(structure.status().expect("the status is readable").corrupted, 0, "{}", self.name());
+        let key = |hit: &Hit| match self.kind {
+            StructureKind::Primitive => [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()],
+            // a and b say where a fragment lies, which is not part of the answer.
+            StructureKind::Fragment => [hit.t.to_bits(), hit.primitive, 0, 0],
+        };
+        Answers {
+            closest: closest.iter().map(key).collect(),
+            occluded: occluded.iter().map(Hit::is_hit).collect(),
+        }
+    }
+}
+
+/// The first ray whose answers differ.
+pub fn first_difference(left: &Answers, right: &Answers) -> Option<usize> {
+    assert_eq!((left.closest.len(), left.occluded.len()), (right.closest.len(), right.occluded.len()));
+    let closest = left.closest.iter().zip(&right.closest).position(|(left, right)| left != right);
+    let occluded = left.occluded.iter().zip(&right.occluded).position(|(left, right)| left != right);
+    closest.into_iter().chain(occluded).min()
+}
