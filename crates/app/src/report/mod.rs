@@ -1,6 +1,7 @@
 //! What was measured: the JSON that machines read and the table that people read.
 
 pub mod figures;
+pub mod html;
 mod schema;
 mod table;
 

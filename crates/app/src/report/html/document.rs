@@ -1,0 +1,114 @@
+//! The frame of the page: head, title, device, navigation, parts, notices and scripts.
+
+use super::super::grouped;
+use super::super::schema::Report;
+use super::markup::Markup;
+use super::section::Section;
+use serde_json::Value;
+use std::borrow::Cow;
+
+/// Forbids every load from anywhere else, should a part of the page ever try.
+const POLICY: &str =
+    "default-src 'none'; img-src data: blob:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+
+/// The whole page.
+pub(super) fn document(report: &Report, sections: &[Section]) -> String {
+    let mut page = Markup::default();
+    page.fixed("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
+    page.empty("meta", &[("http-equiv", "Content-Security-Policy"), ("content", POLICY)]);
+    page.fixed("\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
+    page.fixed("<meta name=\"color-scheme\" content=\"light dark\">\n");
+    page.leaf("title", &[], format_args!("rasray compare: {}", report.scene.name));
+    page.fixed("\n<style>\n").fixed(include_str!("page.css")).fixed("</style>\n");
+    // Before anything is laid out: parts that need the script are hidden where none runs.
+    page.script("document.documentElement.classList.add('scripted');");
+    page.fixed("</head>\n<body>\n");
+    header(&mut page, report);
+    navigation(&mut page, sections);
+    page.fixed("<main>\n");
+    for section in sections {
+        page.element("section", &[("id", section.id)], |page| {
+            page.leaf("h2", &[], section.title).fixed("\n").append(&section.body);
+        });
+        page.fixed("\n");
+    }
+    page.fixed("</main>\n");
+    footer(&mut page);
+    let plots: Vec<Value> =
+        sections.iter().flat_map(|section| &section.plots).map(super::section::Plot::value).collect();
+    if !plots.is_empty() {
+        page.library(&plot_library());
+        page.data("plots", &Value::Array(plots));
+    }
+    page.script(include_str!("page.js"));
+    page.fixed("</body>\n</html>\n");
+    page.into_string()
+}
+
+fn header(page: &mut Markup, report: &Report) {
+    let device = &report.device;
+    page.fixed("<header>\n");
+    page.element("h1", &[], |title| {
+        title.fixed("<span>rasray compare</span> ").text(&report.scene.name);
+    });
+    page.fixed("\n<dl class=\"facts\">");
+    let mut fact = |name: &'static str, value: Cow<'_, str>| {
+        page.element("div", &[], |pair| {
+            pair.leaf("dt", &[], name).leaf("dd", &[], value);
+        });
+    };
+    fact("Triangles", grouped(report.scene.triangles).into());
+    if let Some(sum) = &report.scene.sha256 {
+        fact("Scene, SHA-256", sum.into());
+    }
+    let kind = if device.software { ", software" } else { "" };
+    fact("Device", format!("{} ({}{kind})", device.name, device.driver).into());
+    let commit = report.commit.as_ref().map(|commit| format!(", commit {commit}")).unwrap_or_default();
+    fact("Version", format!("{}{commit}", report.version).into());
+    fact("Runs", grouped(report.runs.len() as u64).into());
+    page.fixed("</dl>\n");
+    if device.software {
+        page.fixed(
+            "<p class=\"note\" role=\"note\"><strong>A software driver.</strong> Its times are for ratios \
+             between runs on this device, not for what a graphics card would need.</p>\n",
+        );
+    }
+    page.fixed("</header>\n");
+}
+
+fn navigation(page: &mut Markup, sections: &[Section]) {
+    page.element("nav", &[("aria-label", "Parts of the page")], |page| {
+        for section in sections {
+            page.leaf("a", &[("href", &format!("#{}", section.id))], section.title).fixed(" ");
+        }
+    });
+    page.fixed("\n<noscript><p class=\"note\">Plots, sorting and the slider need JavaScript; tables and images do not.</p></noscript>\n");
+}
+
+fn footer(page: &mut Markup) {
+    page.fixed("<footer>\n<details><summary>Licences of libraries in this page</summary><pre>");
+    page.text(include_str!("notices.txt"));
+    page.fixed("</pre></details>\n</footer>\n");
+}
+
+/// The first script of the embedded library, which is plotly.js; the second sets formulas, and the page
+/// has none.
+fn plot_library() -> String {
+    let scripts = plotly::Plot::offline_js_sources();
+    let first = scripts.split("</script>").next().unwrap_or_default();
+    let start = first.find('>').map_or(0, |end| end + 1);
+    first[start..].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_is_plotly_alone() {
+        let library = plot_library();
+        assert!(library.contains("plotly.js v") && !library.contains("MathJax = "), "{}", &library[..200]);
+        assert!(!library.contains("<script") && !library.contains("<!--"));
+        assert!((1 << 20..6 << 20).contains(&library.len()), "{}", library.len());
+    }
+}

@@ -1,0 +1,43 @@
+//! The report as one page that needs nothing else: no other file, no server, no network.
+//!
+//! Every part stands in a module of its own and is absent where its data was not measured. Figures are
+//! computed here; the page's script only draws, sorts and slides.
+
+mod document;
+mod markup;
+#[allow(dead_code, reason = "also serves the plots")]
+mod names;
+#[allow(dead_code, reason = "also serves the plots")]
+mod section;
+mod summary;
+
+use super::figures::Figures;
+use super::schema::Report;
+use crate::error::AppError;
+
+/// The page as UTF-8 text.
+///
+/// # Errors
+/// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
+pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
+    check(report, figures)?;
+    let sections: Vec<_> = [summary::section(report)].into_iter().flatten().collect();
+    Ok(document::document(report, &sections).into_bytes())
+}
+
+fn check(report: &Report, figures: &Figures) -> Result<(), AppError> {
+    let runs = figures.work.iter().map(|map| map.run).chain(figures.depth_errors.iter().map(|one| one.run));
+    let images = figures.images.iter().flat_map(|images| &images.systems).map(|system| system.run);
+    match runs.chain(images).find(|run| *run >= report.runs.len()) {
+        Some(run) => Err(misfit(format!("a figure belongs to run {run} of {}", report.runs.len()))),
+        None => Ok(()),
+    }
+}
+
+/// Figures and report contradict each other, which no input of a user can cause.
+fn misfit(what: impl Into<String>) -> AppError {
+    AppError::refused(
+        what,
+        "the page was not written; this is a defect, please report it with the command line",
+    )
+}

@@ -1,0 +1,113 @@
+//! How runs are named, grouped and coloured, the same in every part of the page.
+
+use super::super::schema::Run;
+
+/// Colours that people with any colour vision tell apart, after Okabe and Ito; black is left out
+/// because it vanishes on a dark page, and yellow is last because it is faint on a light one.
+const COLOURS: [&str; 8] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#8c8c8c", "#d8c83a"];
+
+/// System and preset.
+pub(super) fn contestant(run: &Run) -> String {
+    format!("{} {}", run.system, run.preset).trim_end().to_owned()
+}
+
+/// What the run's rays are: the name of a ray set, or the integrator of an image.
+pub(super) fn workload(run: &Run) -> String {
+    match (&run.ray_set, &run.integrator) {
+        (Some(set), _) => set.clone(),
+        (None, Some(integrator)) => format!("image, {integrator}"),
+        (None, None) => "unnamed".to_owned(),
+    }
+}
+
+/// Positions of runs per workload, in order of appearance.
+pub(super) fn by_workload(runs: &[Run]) -> Vec<(String, Vec<usize>)> {
+    let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
+    for (index, run) in runs.iter().enumerate() {
+        let name = workload(run);
+        match groups.iter_mut().find(|group| group.0 == name) {
+            Some(group) => group.1.push(index),
+            None => groups.push((name, vec![index])),
+        }
+    }
+    groups
+}
+
+/// How a run is drawn: one colour a system, one symbol and dash a preset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Look {
+    /// `#rrggbb`.
+    pub colour: &'static str,
+    /// A marker's name in the plots' library.
+    pub symbol: &'static str,
+    /// A dash's name there.
+    pub dash: &'static str,
+}
+
+/// The look of `run`, by the order in which systems and presets appear in `runs`.
+pub(super) fn look(runs: &[Run], run: &Run) -> Look {
+    const SYMBOLS: [&str; 4] = ["circle", "square", "diamond", "cross"];
+    const DASHES: [&str; 4] = ["solid", "dash", "dot", "dashdot"];
+    let system = position(runs.iter().map(|run| run.system.as_str()), &run.system);
+    let preset = position(runs.iter().map(|run| run.preset.as_str()), &run.preset);
+    Look {
+        colour: COLOURS[system % COLOURS.len()],
+        symbol: SYMBOLS[preset % SYMBOLS.len()],
+        dash: DASHES[preset % DASHES.len()],
+    }
+}
+
+/// How many different names come before `wanted`.
+fn position<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> usize {
+    let mut seen: Vec<&str> = Vec::new();
+    for name in names.take_while(|name| *name != wanted) {
+        if !seen.contains(&name) {
+            seen.push(name);
+        }
+    }
+    seen.len()
+}
+
+/// Colours for the parts of a bar; repeats after eight.
+pub(super) fn part_colour(index: usize) -> &'static str {
+    COLOURS[index % COLOURS.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(system: &str, preset: &str, set: &str) -> Run {
+        Run {
+            system: system.to_owned(),
+            preset: preset.to_owned(),
+            ray_set: Some(set.to_owned()),
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn a_system_keeps_its_colour_and_a_preset_its_symbol() {
+        let runs = [
+            run("mmrt", "robust", "eye"),
+            run("mmrt", "published", "eye"),
+            run("dirt", "robust", "eye"),
+            run("mmrt", "robust", "camera"),
+        ];
+        let looks: Vec<_> = runs.iter().map(|run| look(&runs, run)).collect();
+        assert_eq!(looks[0], looks[3]);
+        assert_eq!(looks[0].colour, looks[1].colour);
+        assert_ne!(looks[0].symbol, looks[1].symbol);
+        assert_ne!(looks[0].dash, looks[1].dash);
+        assert_ne!(looks[0].colour, looks[2].colour);
+        assert_eq!(looks[0].symbol, looks[2].symbol);
+    }
+
+    #[test]
+    fn runs_of_one_ray_set_stand_together() {
+        let runs = [run("a", "", "eye"), run("a", "", "camera"), run("b", "", "eye")];
+        let groups = by_workload(&runs);
+        assert_eq!(groups, [("eye".to_owned(), vec![0, 2]), ("camera".to_owned(), vec![1])]);
+    }
+}

@@ -1,0 +1,214 @@
+//! The table with one row a run; a click on a heading sorts it.
+
+use super::super::schema::{Accuracy, Counters, ImageError, Report, Run};
+use super::super::{bytes, grouped};
+use super::markup::Markup;
+use super::names::{contestant, workload};
+use super::section::Section;
+
+/// What a cell says and what it is sorted by.
+struct Cell {
+    text: String,
+    value: f64,
+}
+
+/// A column: its heading, its meaning, and the value of a run where it was measured.
+struct Column {
+    heading: &'static str,
+    meaning: &'static str,
+    cell: fn(&Run) -> Option<Cell>,
+}
+
+fn number(value: Option<f64>, digits: usize) -> Option<Cell> {
+    let value = value.filter(|value| value.is_finite())?;
+    Some(Cell { text: format!("{value:.digits$}"), value })
+}
+
+fn scientific(value: Option<f64>) -> Option<Cell> {
+    let value = value.filter(|value| value.is_finite())?;
+    Some(Cell { text: if value == 0.0 { "0".to_owned() } else { format!("{value:.2e}") }, value })
+}
+
+fn count(value: Option<u64>) -> Option<Cell> {
+    value.map(|value| Cell { text: grouped(value), value: value as f64 })
+}
+
+fn accuracy<T>(run: &Run, field: impl Fn(&Accuracy) -> Option<T>) -> Option<T> {
+    run.accuracy.as_ref().and_then(field)
+}
+
+fn counter<T>(run: &Run, field: impl Fn(&Counters) -> Option<T>) -> Option<T> {
+    run.counters.as_ref().and_then(field)
+}
+
+fn image(run: &Run, field: impl Fn(&ImageError) -> Option<f64>) -> Option<f64> {
+    run.image.as_ref().and_then(field)
+}
+
+const COLUMNS: &[Column] = &[
+    Column {
+        heading: "build ms",
+        meaning: "posed positions to traceable, host work included; median",
+        cell: |run| number(run.times.build_ms, 3),
+    },
+    Column {
+        heading: "trace ms",
+        meaning: "rays in to hits out; median",
+        cell: |run| number(run.times.trace_ms, 3),
+    },
+    Column { heading: "frame ms", meaning: "everything; median", cell: |run| number(run.times.frame_ms, 3) },
+    Column {
+        heading: "Mrays/s",
+        meaning: "millions of rays per second of trace time",
+        cell: |run| number(run.times.mrays_per_s, 3),
+    },
+    Column {
+        heading: "memory",
+        meaning: "the structure's allocations after the final build",
+        cell: |run| {
+            let value = run.memory.as_ref()?.structure_bytes?;
+            Some(Cell { text: bytes(value), value: value as f64 })
+        },
+    },
+    Column {
+        heading: "cells/ray",
+        meaning: "cells stepped per ray",
+        cell: |run| number(counter(run, |counters| counters.cells_per_ray), 2),
+    },
+    Column {
+        heading: "entries/ray",
+        meaning: "list entries or tree nodes read per ray",
+        cell: |run| number(counter(run, |counters| counters.nodes_per_ray), 2),
+    },
+    Column {
+        heading: "tests/ray",
+        meaning: "primitive tests per ray",
+        cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
+    },
+    Column {
+        heading: "rays judged",
+        meaning: "unambiguous rays that the oracle judged",
+        cell: |run| count(accuracy(run, |hits| hits.rays.checked_sub(hits.ambiguous))),
+    },
+    Column {
+        heading: "missed",
+        meaning: "hits that were not found",
+        cell: |run| count(accuracy(run, |hits| Some(hits.missed))),
+    },
+    Column {
+        heading: "false",
+        meaning: "hits where there is nothing",
+        cell: |run| count(accuracy(run, |hits| Some(hits.false_hits))),
+    },
+    Column {
+        heading: "wrong",
+        meaning: "hits of another primitive; absent where the structure does not know the primitive",
+        cell: |run| count(accuracy(run, |hits| hits.wrong_primitive)),
+    },
+    Column {
+        heading: "not finite",
+        meaning: "answers that are not finite numbers",
+        cell: |run| count(accuracy(run, |hits| Some(hits.non_finite))),
+    },
+    Column {
+        heading: "|dt|/t p50",
+        meaning: "median of the relative error in t over common hits",
+        cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_p50)),
+    },
+    Column {
+        heading: "|dt|/t p99",
+        meaning: "99th percentile of the relative error in t over common hits",
+        cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_p99)),
+    },
+    Column {
+        heading: "|dt|/t max",
+        meaning: "largest relative error in t over common hits",
+        cell: |run| scientific(accuracy(run, |hits| hits.dt_rel_max)),
+    },
+    Column {
+        heading: "FLIP",
+        meaning: "mean of FLIP against the reference, 0 for equal images",
+        cell: |run| number(image(run, |error| error.flip_mean), 5),
+    },
+    Column {
+        heading: "FLIP p99",
+        meaning: "99th percentile of FLIP",
+        cell: |run| number(image(run, |error| error.flip_p99), 5),
+    },
+    Column {
+        heading: "RMSE",
+        meaning: "root of the mean squared error of linear colours",
+        cell: |run| scientific(image(run, |error| error.rmse)),
+    },
+    Column {
+        heading: "relMSE",
+        meaning: "relative mean squared error",
+        cell: |run| scientific(image(run, |error| error.relmse)),
+    },
+    Column {
+        heading: "PSNR dB",
+        meaning: "peak signal to noise ratio; absent also where the images are equal",
+        cell: |run| number(image(run, |error| error.psnr), 2),
+    },
+    Column {
+        heading: "SSIM",
+        meaning: "structural similarity, 1 for equal images",
+        cell: |run| number(image(run, |error| error.ssim), 5),
+    },
+];
+
+/// The table; only columns in which some run has a value.
+pub(super) fn section(report: &Report) -> Option<Section> {
+    if report.runs.is_empty() {
+        return None;
+    }
+    let columns: Vec<&Column> =
+        COLUMNS.iter().filter(|column| report.runs.iter().any(|run| (column.cell)(run).is_some())).collect();
+    let mut body = Markup::default();
+    body.fixed(
+        "<p class=\"script-only\">A heading sorts by its column; a second time turns the order around.</p>\n",
+    );
+    let scrolled =
+        [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", "Summary table")];
+    body.element("div", &scrolled, |body| {
+        body.element("table", &[("id", "summary-table")], |table| {
+            table.fixed("<caption>One row per system, preset and ray set or image</caption><thead><tr>");
+            for name in ["system", "preset", "rays"] {
+                table.leaf("th", &[("scope", "col")], name);
+            }
+            for column in &columns {
+                let meaning = [("scope", "col"), ("class", "number"), ("title", column.meaning)];
+                table.leaf("th", &meaning, column.heading);
+            }
+            table.fixed("</tr></thead>\n<tbody>\n");
+            for run in &report.runs {
+                row(table, run, &columns);
+            }
+            table.fixed("</tbody>");
+        });
+    });
+    body.fixed("<details><summary>What the columns mean</summary><dl>");
+    for column in &columns {
+        body.leaf("dt", &[], column.heading).leaf("dd", &[], column.meaning);
+    }
+    body.fixed("</dl></details>\n");
+    Some(Section::new("summary", "Summary", body))
+}
+
+fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {
+    table.element("tr", &[], |row| {
+        row.leaf("th", &[("scope", "row"), ("title", &contestant(run))], &run.system);
+        row.leaf("td", &[], &run.preset).leaf("td", &[], workload(run));
+        for column in columns {
+            match (column.cell)(run) {
+                Some(cell) => {
+                    row.leaf("td", &[("class", "number"), ("data-value", &cell.value.to_string())], cell.text)
+                }
+                None => row.fixed(
+                    "<td class=\"number\"><span class=\"absent\" aria-label=\"not measured\">–</span></td>",
+                ),
+            };
+        }
+    });
+    table.fixed("\n");
+}
