@@ -5,6 +5,7 @@
 #ifndef ABUFFER_SEARCH_GLSL
 #define ABUFFER_SEARCH_GLSL
 
+#include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
@@ -20,40 +21,60 @@ struct AbufferSearch {
     bool in_bucket;       // the bucket has been begun
 };
 
-// Whether the plane of a fragment's triangle is hit within the cell.
-bool abuffer_accept_plane(AbufferSearch search, vec3 eye, float cell_size, Ray ray, uint primitive, out float t, out vec2 barycentrics) {
+// Whether the plane of a fragment's triangle is hit within the cell and replaces the best hit so far, or
+// why it does not (TEST_*).
+uint abuffer_judge_plane(AbufferSearch search, vec3 eye, float cell_size, Ray ray, Hit best, uint primitive, out float t,
+    out vec2 barycentrics, out float t_error) {
     vec3 a;
     vec3 b;
     vec3 c;
     t = 0.0;
     barycentrics = vec2(0.0);
+    t_error = 0.0;
     if (primitive == ray.exclude_primitive) {
-        return false;
+        return TEST_EXCLUDED;
     }
     geometry_vertices(primitive, a, b, c);
-    float t_error;
-    if (triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
-        return t > max(ray.t_min, t_error) && t >= search.t_low && t <= search.t_high;
+    bool inside = triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error);
+    if (!inside && !triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
+        return TEST_PARALLEL;
     }
-    if (!triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
-        return false;
+    if (!(t > (inside ? max(ray.t_min, t_error) : ray.t_min))) {
+        return TEST_BEFORE;
     }
-    if (!(t > ray.t_min && t >= search.t_low && t <= search.t_high)) {
-        return false;
+    if (!(t >= search.t_low && t <= search.t_high)) {
+        return TEST_OUTSIDE_CELL;
     }
-    vec3 from_eye = abs(ray.origin + t * ray.direction - eye);
-    float width = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
-    // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
-    // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
-    vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
-    vec3 normal = cross(b - a, c - a);
-    float twice_area = length(normal);
-    vec3 outside = -vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) * twice_area / lengths;
-    if (max(outside.x, max(outside.y, outside.z)) > ABUFFER_PLANE_REACH * width) {
-        return false;
+    if (!inside) {
+        vec3 from_eye = abs(ray.origin + t * ray.direction - eye);
+        float width = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
+        // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
+        // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
+        vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
+        vec3 normal = cross(b - a, c - a);
+        float twice_area = length(normal);
+        vec3 outside = -vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) * twice_area / lengths;
+        if (max(outside.x, max(outside.y, outside.z)) > ABUFFER_PLANE_REACH * width) {
+            return TEST_OUT_OF_REACH;
+        }
+        // A ray that starts closer to the plane than a cell is wide may have left that very surface.
+        if (!(abs(dot(normal, ray.origin - a)) > width * twice_area)) {
+            return TEST_LEAVING;
+        }
     }
-    // A ray that starts closer to the plane than a cell is wide may have left that very surface.
-    return abs(dot(normal, ray.origin - a)) > width * twice_area;
+    if (!(t < ray.t_max)) {
+        return TEST_BEYOND;
+    }
+    return hit_is_better(best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+}
+
+// Logs a fragment whose depth is not among those looked for.
+void abuffer_log_outside(AbufferRef s, uint link, float z) {
+    if (COUNTERS < COUNTERS_STEPS) {
+        return;
+    }
+    uint primitive = ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX ? abuffer_data(s, link, 0u) : PRIMITIVE_UNKNOWN;
+    trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
 }
 
 // Returns true if the work budget ended before the search did.
@@ -61,6 +82,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     inout TraceState state, inout uint work) {
     AbufferBounds bounds = abuffer_bounds(s, search.cell);
     if (bounds.empty) {
+        trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         return false;
     }
     vec3 eye = ABUFFER_HEADER(s).eye;
@@ -84,6 +106,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     uint last = ABUFFER_BUCKETS - 1u;
     if (ABUFFER_SKIP != 0u) {
         if (low > bounds.z_max || high < bounds.z_min) {
+            trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, low, high);
             return false;
         }
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
@@ -101,6 +124,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             link = away ? abuffer_head(s, search.cell, bucket) : abuffer_tail(s, search.cell, bucket);
         }
         search.in_bucket = false;
+        trace_log(STEP_LIST, bucket, link, 0u, low, high);
         while (link != 0u) {
             if (work >= WORK_BUDGET) {
                 search.bucket = step_index;
@@ -113,20 +137,26 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             AbufferNode node = abuffer_node(s, link);
             uint current = link;
             link = away ? node.next : node.prev;
+            trace_log(STEP_ENTRY, current, 0u, 0u, node.z, node.z);
             bool past = away ? node.z > high : node.z < low;
             if (past && ordered && ABUFFER_SKIP != 0u) {
+                trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
                 return false;
             }
             if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
                 if (node.z < low || node.z > high) {
+                    abuffer_log_outside(s, current, node.z);
                     continue;
                 }
                 uint primitive = abuffer_data(s, current, 0u);
                 float t;
                 vec2 barycentrics;
+                float t_error;
                 state.tests++;
-                if (abuffer_accept_plane(search, eye, cell_size, ray, primitive, t, barycentrics) && t < ray.t_max
-                    && hit_is_better(state.best, t, primitive)) {
+                uint verdict = abuffer_judge_plane(search, eye, cell_size, ray, state.best, primitive, t, barycentrics, t_error);
+                trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+                if (verdict == TEST_ACCEPTED) {
+                    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
                     state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
                 }
             } else if (node.z >= low && node.z < high) {
@@ -143,7 +173,11 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 }
                 // A fragment without an id cannot be the triangle that is excluded.
                 bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
-                if (t > ray.t_min && t < ray.t_max && !excluded && better) {
+                uint verdict = excluded ? TEST_EXCLUDED : (!(t > ray.t_min) ? TEST_BEFORE
+                    : (!(t < ray.t_max) ? TEST_BEYOND : (better ? TEST_ACCEPTED : TEST_NOT_BETTER)));
+                trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, node.z);
+                if (verdict == TEST_ACCEPTED) {
+                    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
                     vec2 found = vec2(uintBitsToFloat(current), 0.0);
                     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
                         vec3 a;
@@ -154,6 +188,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     }
                     state.best = Hit(t, primitive, found.x, found.y);
                 }
+            } else {
+                abuffer_log_outside(s, current, node.z);
             }
         }
         search.link = 0u;

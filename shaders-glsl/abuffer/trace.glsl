@@ -7,7 +7,8 @@
 #define ABUFFER_TRACE_GLSL
 
 #include "contract/trace_state.glsl"
-#include "contract/alpha.glsl"
+#include "contract/trace_log.glsl"
+#include "ads/judge.glsl"
 #include "ads/march_cells.glsl"
 #include "ads/march_cube.glsl"
 #include "ads/march_samples.glsl"
@@ -87,39 +88,24 @@ bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout Tra
         }
         work++;
         state.tests++;
-        uint primitive = ABUFFER_NEAR(s)[walk.place];
-        vec3 a;
-        vec3 b;
-        vec3 c;
-        geometry_vertices(primitive, a, b, c);
-        float t;
-        vec2 barycentrics;
-        float t_error;
-        if (primitive != ray.exclude_primitive
-            && triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)
-            && t > max(ray.t_min, t_error) && t < ray.t_max && t >= walk.segment.t_begin - walk.segment.t_error
-            && t <= walk.segment.t_end + walk.segment.t_error && hit_is_better(state.best, t, primitive)
-            && alpha_accepts(primitive, barycentrics)) {
-            state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
-        }
+        test_triangle(ray, ABUFFER_NEAR(s)[walk.place], walk.segment.t_begin - walk.segment.t_error,
+            walk.segment.t_end + walk.segment.t_error, state.best);
     }
     return false;
 }
 
 // Prepares the search of the cell the walk is at.
-void abuffer_begin_search(AbufferWalk walk, uint resolution, inout AbufferSearch search) {
+void abuffer_begin_search(inout AbufferWalk walk, uint resolution, inout AbufferSearch search) {
     search.in_bucket = false;
     search.bucket = 0u;
     search.link = 0u;
     if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT) {
         search.t_low = walk.cells.t_in - walk.cells.error_in;
         search.t_high = walk.cells.t_out + walk.cells.error_out;
-        search.cell = cell_index(walk.segment.face, walk.searched, resolution);
     } else {
-        ivec2 cell;
-        samples_cell(walk.samples, walk.place, cell, search.t_low, search.t_high);
-        search.cell = cell_index(walk.segment.face, cell, resolution);
+        samples_cell(walk.samples, walk.place, walk.searched, search.t_low, search.t_high);
     }
+    search.cell = cell_index(walk.segment.face, walk.searched, resolution);
 }
 
 // Goes to the next cell; false at the end of the segment.
@@ -188,10 +174,12 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         if (!restored) {
             // Nothing behind the best hit can be nearer.
             if (!(t < clip.y) || t > state.best.t) {
+                trace_log(STEP_SKIP, t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
                 break;
             }
             walk.segment = segment_at(origin, direction, t, clip.y, near);
             abuffer_begin_walk(s, origin, direction, walk);
+            trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
             searching = false;
         }
         restored = false;
@@ -217,11 +205,13 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 search.in_bucket = saved_in_bucket;
                 searching = false;
                 if (search.t_low > state.best.t) {
+                    trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
                     t = clip.y;
                     break;
                 }
                 work++;
                 state.cells++;
+                trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
                 if (abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {
                     abuffer_save(walk, search, true, state);
                     return TRACE_PAUSED;

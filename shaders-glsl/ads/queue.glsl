@@ -30,6 +30,17 @@ struct QueueHeader {
     uint tests_high;
 };
 
+// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words.
+struct TraceStep {
+    uint kind;
+    uint round;
+    uint a;
+    uint b;
+    uint c;
+    float t_low;
+    float t_high;
+};
+
 layout(set = QUEUE_SET, binding = 0, scalar) buffer QueueHeaderBuffer {
     QueueHeader queue_header;
 };
@@ -52,6 +63,12 @@ layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
 // As many as there are slots where work is counted per ray, else a placeholder.
 layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
     RayWork queue_work[];
+};
+// The steps of one slot; a placeholder without room for any unless asked for.
+layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
+    uint queue_logged_slot;
+    uint queue_step_demand;   // steps taken, also those that did not fit
+    TraceStep queue_steps[];
 };
 
 uint queue_capacity() {

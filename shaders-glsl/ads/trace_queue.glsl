@@ -1,10 +1,12 @@
 // What: traces the ray of one queue slot and files the answer; shared by the closest and the occluded
 // kernel of every structure.
-// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work.
+// Reads: rays, states, the list of paused rays. Writes: hits, states, list, header, work, steps.
 #ifndef ADS_TRACE_QUEUE_GLSL
 #define ADS_TRACE_QUEUE_GLSL
 
+#define TRACE_LOG
 #include "ads/queue.glsl"
+#include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "contract/select.glsl"
 
@@ -43,13 +45,14 @@ void queue_file_work(uint slot, TraceState state) {
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
     slot = invocation;
-    if (queue_header.round == 0u) {
-        return invocation < trace_count;
-    }
-    if (invocation >= queue_header.listed) {
+    if (invocation >= (queue_header.round == 0u ? trace_count : queue_header.listed)) {
         return false;
     }
-    slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
+    if (queue_header.round > 0u) {
+        slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
+    }
+    trace_log_slot = slot;
+    trace_log(STEP_ROUND, queue_header.round, 0u, 0u, 0.0, 0.0);
     return true;
 }
 
@@ -57,6 +60,7 @@ void trace_file(uint slot, uint result, TraceState state, Hit hit) {
     state.rounds += 1u;
     queue_file_work(slot, state);
     if (result == TRACE_PAUSED) {
+        trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
         queue_states[slot] = state;
         uint place = atomicAdd(queue_header.paused, 1u);
         queue_list[(queue_header.round & 1u) * queue_header.capacity + place] = slot;
@@ -65,6 +69,7 @@ void trace_file(uint slot, uint result, TraceState state, Hit hit) {
     if (result == TRACE_NOT_READY) {
         atomicAdd(queue_header.not_ready, 1u);
     }
+    trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);
     queue_add_work(state.cells, state.entries, state.tests);
     queue_set_hit(slot, hit);
 }

@@ -5,31 +5,17 @@
 #define BRUTE_TRACE_GLSL
 
 #include "contract/trace_state.glsl"
-#include "contract/alpha.glsl"
-#include "ads/geometry.glsl"
-#include "ads/triangle.glsl"
+#include "ads/judge.glsl"
 #include "brute/types.glsl"
+
+#define BRUTE_INFINITY uintBitsToFloat(0x7F800000u)
 
 uint brute_trace(Ray ray, inout TraceState state, bool any_hit) {
     uint count = geometry_triangle_count();
     uint begin = state.cursor[0];
     uint end = min(count, begin + WORK_BUDGET);
     for (uint primitive = begin; primitive < end; primitive++) {
-        vec3 a;
-        vec3 b;
-        vec3 c;
-        geometry_vertices(primitive, a, b, c);
-        float t;
-        vec2 barycentrics;
-        float t_error;
-        if (primitive == ray.exclude_primitive
-            || !triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)
-            || t <= max(ray.t_min, t_error) || t >= ray.t_max || !hit_is_better(state.best, t, primitive)
-            || !alpha_accepts(primitive, barycentrics)) {
-            continue;
-        }
-        state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
-        if (any_hit) {
+        if (test_triangle(ray, primitive, -BRUTE_INFINITY, BRUTE_INFINITY, state.best) && any_hit) {
             end = primitive + 1u;
             count = end;
         }

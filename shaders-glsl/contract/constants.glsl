@@ -41,6 +41,67 @@
 // Every step of the logged slot.
 #define COUNTERS_STEPS 3u
 
+// Kinds of steps that a traversal logs, with the meaning of a, b, c, t_low and t_high.
+// A dispatch begins for the ray; a: the round.
+#define STEP_ROUND 1u
+// A view (or the near box) is entered; a: the view, t: its stretch of the ray.
+#define STEP_VIEW 2u
+// A cell is searched; a: the view, b and c: column and row (signed), t: its stretch of the ray, widened.
+#define STEP_CELL 3u
+// A node of a hierarchy is visited; a: the node, b: its first child or entry, t: its stretch of the ray.
+#define STEP_NODE 4u
+// A bucket or list is searched; a: the bucket, b: its first entry, t: the depths looked for, metres.
+#define STEP_LIST 5u
+// Something is passed over; a: why (SKIP_*), t: what was looked for.
+#define STEP_SKIP 6u
+// An entry of a list is read; a: the entry, t_low: its depth, metres.
+#define STEP_ENTRY 7u
+// A primitive is tested; a: the primitive, b: the verdict (TEST_*), t_low: t, t_high: the bound of its error.
+#define STEP_TEST 8u
+// A fragment is judged by its depth; a: the primitive, b: the verdict (TEST_*), t_low: t, t_high: depth, metres.
+#define STEP_FRAGMENT 9u
+// The best hit is replaced; a: the primitive, t_low: t.
+#define STEP_BEST 10u
+// The work budget of the dispatch is used up.
+#define STEP_PAUSE 11u
+// The ray is answered; a: what the trace function returned, b: the primitive, t_low: t.
+#define STEP_END 12u
+
+// Verdicts of tests.
+#define TEST_ACCEPTED 0u
+// The ray excludes this primitive.
+#define TEST_EXCLUDED 1u
+// The ray passes beside the triangle.
+#define TEST_BESIDE 2u
+// The ray runs along the triangle's plane, or the triangle has no area.
+#define TEST_PARALLEL 3u
+// At or before t_min, or within rounding of the origin.
+#define TEST_BEFORE 4u
+// At or beyond t_max.
+#define TEST_BEYOND 5u
+// Outside the cell's or segment's stretch of the ray, or of the depths looked for.
+#define TEST_OUTSIDE_CELL 6u
+// On the triangle's plane, too far from the triangle.
+#define TEST_OUT_OF_REACH 7u
+// The ray starts on the plane.
+#define TEST_LEAVING 8u
+// No better than the best hit.
+#define TEST_NOT_BETTER 9u
+// Refused by the alpha test.
+#define TEST_TRANSPARENT 10u
+
+// Why something is passed over.
+// The cell or list is empty.
+#define SKIP_EMPTY 0u
+// The depths looked for are not in the cell, or the ray passes beside the node.
+#define SKIP_OUTSIDE 1u
+// It lies behind the best hit.
+#define SKIP_BEHIND 2u
+// The rest of a sorted list lies past the depths looked for.
+#define SKIP_PAST 3u
+// Nothing is left of the ray's range within the bounds of the geometry.
+#define SKIP_BOUNDS 4u
+
 // Threads in a workgroup of a queue kernel.
 #define QUEUE_GROUP_SIZE 64u
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::mem::offset_of;
 
 use rasray_abuffer::{Config, Header, Payload, plan};
-use rasray_ads::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState};
+use rasray_ads::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 use rasray_gpu_scene::layout as scene;
 use rasray_integrators::{AovPixel, FilmFaults, FilmPixel, PathState};
 use rasray_shaders_glsl::layout::layouts;
@@ -166,6 +166,7 @@ fn records_of_the_contract() {
     check_layout!(TRACES, Hit as "Hit" { t, primitive, a, b });
     check_layout!(TRACES, TraceState as "TraceState" { best, cursor, cells, entries, tests, rounds });
     check_layout!(TRACES, RayWork as "RayWork" { cells, entries, tests, rounds });
+    check_layout!(TRACES, TraceStep as "TraceStep" { kind, round, a, b, c, t_low, t_high });
     check_layout!([&shaders::BRUTE_SURFACES, &shaders::ABUFFER_SURFACES], Surface as "Surface" {
         position, position_error, geometric_normal, primitive, normal, valid, base_color, metallic,
         emission, roughness, transmission, ior, opacity, thickness, attenuation_color,
@@ -191,11 +192,12 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 16] = [
+    const SHARED: [&str; 17] = [
         "Ray",
         "Hit",
         "TraceState",
         "RayWork",
+        "TraceStep",
         "Surface",
         "Draw",
         "GeometryHeader",

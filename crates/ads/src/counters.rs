@@ -10,6 +10,8 @@ pub enum Counters {
     Sums,
     /// A [`crate::RayWork`] per slot, where the queue has room for it.
     PerRay,
+    /// Every step of the logged slot of a queue that was made with [`crate::QueueParts::steps`].
+    Steps,
 }
 
 impl Counters {
@@ -19,6 +21,7 @@ impl Counters {
             Self::Off => contract::COUNTERS_OFF,
             Self::Sums => contract::COUNTERS_SUMS,
             Self::PerRay => contract::COUNTERS_PER_RAY,
+            Self::Steps => contract::COUNTERS_STEPS,
         }
     }
 }

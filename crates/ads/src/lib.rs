@@ -25,6 +25,7 @@ mod error;
 mod geometry;
 mod kernels;
 mod queue;
+mod steps;
 mod structure;
 mod types;
 
@@ -34,10 +35,11 @@ pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use queue::{QueueCounters, QueueParts, RayQueue};
+pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{
     BuildStatus, Check, PoolSize, PoolStatus, Sizes, Structure, StructureKind, StructureReport, TraceMode,
 };
-pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState};
+pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

@@ -4,10 +4,13 @@ use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder, SetLayout,
 };
 
-use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState};
+use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
 /// Number of bindings of the queue set.
-const BINDINGS: u32 = 7;
+const BINDINGS: u32 = 8;
+
+/// Bytes before the first step: the logged slot and the number of steps.
+const STEP_HEADER: u64 = 8;
 
 /// What a queue holds beside rays, hits and states. What is not asked for is a placeholder of 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,6 +19,8 @@ pub struct QueueParts {
     pub surfaces: bool,
     /// A [`RayWork`] per slot, written by structures that count per ray.
     pub work: bool,
+    /// Room for this many [`TraceStep`]s of slot 0, written by structures that log steps.
+    pub steps: u32,
 }
 
 /// Rays, hits, surfaces and traversal states of `capacity` slots. Cheap to clone.
@@ -29,6 +34,8 @@ pub struct RayQueue {
     list: Buffer,
     surfaces: Buffer,
     work: Buffer,
+    steps: Buffer,
+    step_capacity: u32,
     layout: SetLayout,
     set: BindingSet,
 }
@@ -84,13 +91,29 @@ impl RayQueue {
         let list = buffer("list", size_of::<u32>(), 2 * slots)?;
         let surfaces = buffer("surfaces", size_of::<Surface>(), if parts.surfaces { slots } else { 0 })?;
         let work = buffer("work", size_of::<RayWork>(), if parts.work { slots } else { 0 })?;
+        // Less than the placeholder's 16 bytes would have room for no step either.
+        let step_bytes = u64::from(parts.steps) * size_of::<TraceStep>() as u64;
+        let steps = buffer("steps", 1, if parts.steps > 0 { STEP_HEADER + step_bytes } else { 0 })?;
         let layout = Self::layout(device)?;
         let set = device.create_binding_set(
             &layout,
             name,
-            &[&header, &rays, &hits, &states, &list, &surfaces, &work],
+            &[&header, &rays, &hits, &states, &list, &surfaces, &work, &steps],
         )?;
-        Ok(Self { capacity, header, rays, hits, states, list, surfaces, work, layout, set })
+        Ok(Self {
+            capacity,
+            header,
+            rays,
+            hits,
+            states,
+            list,
+            surfaces,
+            work,
+            steps,
+            step_capacity: parts.steps,
+            layout,
+            set,
+        })
     }
 
     /// The layout that all queues share.
@@ -109,6 +132,10 @@ impl RayQueue {
         recorder.fill(&self.header, 0, size, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, std::mem::offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
+        // Slot 0 is logged; no slot where there is no room.
+        let logged = if self.step_capacity > 0 { 0 } else { u32::MAX };
+        recorder.fill(&self.steps, 0, 4, logged);
+        recorder.fill(&self.steps, 4, 4, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
@@ -153,12 +180,36 @@ impl RayQueue {
         &self.work
     }
 
+    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has room
+    /// for. Submits and waits: for tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download_steps(&self, device: &Device) -> Result<(Vec<TraceStep>, u32), AdsError> {
+        if self.step_capacity == 0 {
+            return Ok((Vec::new(), 0));
+        }
+        let header = device.download_as::<u32>(&self.steps, 0, 2)?;
+        let taken = header.get(1).copied().unwrap_or(0);
+        let kept = taken.min(self.step_capacity) as usize;
+        Ok((device.download_as::<TraceStep>(&self.steps, STEP_HEADER, kept)?, taken))
+    }
+
     /// Bytes of all buffers.
     pub fn bytes(&self) -> u64 {
-        [&self.header, &self.rays, &self.hits, &self.states, &self.list, &self.surfaces, &self.work]
-            .iter()
-            .map(|buffer| buffer.size())
-            .sum()
+        [
+            &self.header,
+            &self.rays,
+            &self.hits,
+            &self.states,
+            &self.list,
+            &self.surfaces,
+            &self.work,
+            &self.steps,
+        ]
+        .iter()
+        .map(|buffer| buffer.size())
+        .sum()
     }
 
     /// What a downloaded header says.

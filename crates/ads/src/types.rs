@@ -94,6 +94,26 @@ pub struct RayWork {
     pub rounds: u32,
 }
 
+/// One step of a logged traversal, as the device writes it; [`TraceStep::kind`] and the others read it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TraceStep {
+    /// A `STEP_*` number; it says what the words after `round` mean.
+    pub kind: u32,
+    /// The dispatch it was taken in, from 0.
+    pub round: u32,
+    /// The kind's.
+    pub a: u32,
+    /// The kind's.
+    pub b: u32,
+    /// The kind's.
+    pub c: u32,
+    /// The kind's.
+    pub t_low: f32,
+    /// The kind's.
+    pub t_high: f32,
+}
+
 /// What is shaded: metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

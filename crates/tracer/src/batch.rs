@@ -5,7 +5,7 @@ use rasray_ads::{
 };
 use rasray_gpu::{Device, PassTiming, Timing};
 
-use crate::TracerError;
+use crate::{Replay, TracerError};
 
 /// Traces batches of rays of any length through a queue of fixed capacity.
 #[derive(Debug)]
@@ -79,5 +79,19 @@ impl BatchTracer {
             return Err(TracerError::Unfinished { unfinished: outcome.counters.unfinished, rounds });
         }
         Ok(outcome)
+    }
+
+    /// Traces one ray and returns everything that the structure did for it, in at most
+    /// [`Structure::rounds`] rounds. The structure was made with [`Counters::Steps`].
+    ///
+    /// # Errors
+    /// The structure does not log steps, or the device fails.
+    pub fn replay(
+        &self,
+        structure: &dyn Structure,
+        ray: &Ray,
+        mode: TraceMode,
+    ) -> Result<Replay, TracerError> {
+        Replay::of(&self.device, structure, ray, mode)
     }
 }

@@ -21,6 +21,12 @@ pub enum TracerError {
         /// Rebuilds made.
         rebuilds: u32,
     },
+    /// A structure was asked to replay a ray that does not log steps.
+    #[error("{structure} does not log steps; create it with `Counters::Steps` to replay a ray")]
+    NoSteps {
+        /// Name of the structure.
+        structure: &'static str,
+    },
     /// Rays were given up.
     #[error("{unfinished} rays did not finish within {rounds} rounds; allow more rounds")]
     Unfinished {

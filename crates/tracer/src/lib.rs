@@ -5,7 +5,9 @@
 mod batch;
 mod build;
 mod error;
+mod replay;
 
 pub use batch::{BatchTracer, TraceOutcome};
 pub use build::{BuildOutcome, build_until_complete};
 pub use error::TracerError;
+pub use replay::Replay;

@@ -1,0 +1,268 @@
+//! What a logged step says, in words.
+
+use std::fmt;
+
+use rasray_shaders_glsl::constants::contract as numbers;
+
+use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, TraceStep};
+
+/// The number that stands for the near box among the views of a cube.
+const VIEW_NEAR: u32 = 6;
+
+/// What a traversal did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepKind {
+    /// A dispatch began for the ray.
+    Round,
+    /// A view was entered.
+    View,
+    /// A cell was searched.
+    Cell,
+    /// A node of a hierarchy was visited.
+    Node,
+    /// A bucket or list was searched.
+    List,
+    /// Something was passed over.
+    Skip,
+    /// An entry of a list was read.
+    Entry,
+    /// A primitive was tested.
+    Test,
+    /// A fragment was judged by its depth.
+    Fragment,
+    /// The best hit was replaced.
+    Best,
+    /// The work budget of a dispatch was used up.
+    Pause,
+    /// The ray was answered.
+    End,
+    /// A number that has no meaning here.
+    Unknown,
+}
+
+/// What came of a test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TestVerdict {
+    /// It is the best hit so far.
+    Accepted,
+    /// The ray excludes this primitive.
+    Excluded,
+    /// The ray passes beside the triangle.
+    Beside,
+    /// The ray runs along the triangle's plane, or the triangle has no area.
+    Parallel,
+    /// At or before `t_min`, or within rounding of the origin.
+    Before,
+    /// At or beyond `t_max`.
+    Beyond,
+    /// Outside the cell's stretch of the ray, or of the depths looked for.
+    OutsideCell,
+    /// On the triangle's plane, too far from the triangle.
+    OutOfReach,
+    /// The ray starts on the plane.
+    Leaving,
+    /// No better than the best hit.
+    NotBetter,
+    /// Refused by the alpha test.
+    Transparent,
+    /// A number that has no meaning here.
+    Unknown,
+}
+
+/// Why something was passed over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SkipReason {
+    /// The cell or list is empty.
+    Empty,
+    /// What is looked for is not in it.
+    Outside,
+    /// It lies behind the best hit.
+    Behind,
+    /// The rest of a sorted list lies past the depths looked for.
+    Past,
+    /// Nothing is left of the ray's range within the bounds of the geometry.
+    Bounds,
+    /// A number that has no meaning here.
+    Unknown,
+}
+
+impl TraceStep {
+    /// What was done.
+    pub fn kind(&self) -> StepKind {
+        match self.kind {
+            numbers::STEP_ROUND => StepKind::Round,
+            numbers::STEP_VIEW => StepKind::View,
+            numbers::STEP_CELL => StepKind::Cell,
+            numbers::STEP_NODE => StepKind::Node,
+            numbers::STEP_LIST => StepKind::List,
+            numbers::STEP_SKIP => StepKind::Skip,
+            numbers::STEP_ENTRY => StepKind::Entry,
+            numbers::STEP_TEST => StepKind::Test,
+            numbers::STEP_FRAGMENT => StepKind::Fragment,
+            numbers::STEP_BEST => StepKind::Best,
+            numbers::STEP_PAUSE => StepKind::Pause,
+            numbers::STEP_END => StepKind::End,
+            _ => StepKind::Unknown,
+        }
+    }
+
+    /// What came of a test or of judging a fragment; `None` for other steps.
+    pub fn verdict(&self) -> Option<TestVerdict> {
+        if !matches!(self.kind(), StepKind::Test | StepKind::Fragment) {
+            return None;
+        }
+        Some(match self.b {
+            numbers::TEST_ACCEPTED => TestVerdict::Accepted,
+            numbers::TEST_EXCLUDED => TestVerdict::Excluded,
+            numbers::TEST_BESIDE => TestVerdict::Beside,
+            numbers::TEST_PARALLEL => TestVerdict::Parallel,
+            numbers::TEST_BEFORE => TestVerdict::Before,
+            numbers::TEST_BEYOND => TestVerdict::Beyond,
+            numbers::TEST_OUTSIDE_CELL => TestVerdict::OutsideCell,
+            numbers::TEST_OUT_OF_REACH => TestVerdict::OutOfReach,
+            numbers::TEST_LEAVING => TestVerdict::Leaving,
+            numbers::TEST_NOT_BETTER => TestVerdict::NotBetter,
+            numbers::TEST_TRANSPARENT => TestVerdict::Transparent,
+            _ => TestVerdict::Unknown,
+        })
+    }
+
+    /// Why something was passed over; `None` for other steps.
+    pub fn skip_reason(&self) -> Option<SkipReason> {
+        if self.kind() != StepKind::Skip {
+            return None;
+        }
+        Some(match self.a {
+            numbers::SKIP_EMPTY => SkipReason::Empty,
+            numbers::SKIP_OUTSIDE => SkipReason::Outside,
+            numbers::SKIP_BEHIND => SkipReason::Behind,
+            numbers::SKIP_PAST => SkipReason::Past,
+            numbers::SKIP_BOUNDS => SkipReason::Bounds,
+            _ => SkipReason::Unknown,
+        })
+    }
+
+    /// View, column and row of a cell; `None` for other steps. Columns and rows of a cube's border are -1
+    /// and the resolution.
+    pub fn cell(&self) -> Option<(u32, i32, i32)> {
+        (self.kind() == StepKind::Cell).then(|| (self.a, self.b.cast_signed(), self.c.cast_signed()))
+    }
+
+    /// The primitive of a test, a fragment, a best hit or an answer, where one is known.
+    pub fn primitive(&self) -> Option<u32> {
+        let id = match self.kind() {
+            StepKind::Test | StepKind::Fragment | StepKind::Best => self.a,
+            StepKind::End => self.b,
+            _ => return None,
+        };
+        (id != PRIMITIVE_NONE && id != PRIMITIVE_UNKNOWN).then_some(id)
+    }
+}
+
+/// A primitive in words.
+fn name_of(primitive: u32) -> String {
+    match primitive {
+        PRIMITIVE_NONE => "no triangle".to_owned(),
+        PRIMITIVE_UNKNOWN => "a fragment without id".to_owned(),
+        id => format!("triangle {id}"),
+    }
+}
+
+impl fmt::Display for TraceStep {
+    /// One line without indentation.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { a, b, t_low, t_high, .. } = *self;
+        match self.kind() {
+            StepKind::Round => write!(f, "round {a}"),
+            StepKind::View if a == VIEW_NEAR => write!(f, "near box, t {t_low} to {t_high}"),
+            StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
+            StepKind::Cell => {
+                let (view, x, y) = (a, b.cast_signed(), self.c.cast_signed());
+                write!(f, "cell ({x}, {y}) of view {view}, t {t_low} to {t_high}")
+            }
+            StepKind::Node => write!(f, "node {a}, first {b}, t {t_low} to {t_high}"),
+            StepKind::List if b == 0 => write!(f, "bucket {a}: empty"),
+            StepKind::List => write!(f, "bucket {a} from entry {b}, depths {t_low} to {t_high}"),
+            StepKind::Skip => match self.skip_reason().unwrap_or(SkipReason::Unknown) {
+                SkipReason::Empty => write!(f, "passed over: empty"),
+                SkipReason::Outside => write!(f, "passed over: nothing within {t_low} to {t_high}"),
+                SkipReason::Behind => write!(f, "ended: t {t_low} lies behind the best hit"),
+                SkipReason::Past => write!(f, "rest of the list passed over: past {t_low} to {t_high}"),
+                SkipReason::Bounds => write!(f, "ended: nothing of the geometry after t {t_low}"),
+                SkipReason::Unknown => write!(f, "passed over: reason {a}"),
+            },
+            StepKind::Entry => write!(f, "entry {a}, depth {t_low}"),
+            StepKind::Test => write!(f, "{}: {}", name_of(a), Words(self)),
+            StepKind::Fragment => write!(f, "{} at depth {t_high}: {}", name_of(a), Words(self)),
+            StepKind::Best => write!(f, "best hit: {}, t {t_low}", name_of(a)),
+            StepKind::Pause => write!(f, "pause: work budget used up"),
+            StepKind::End if a == numbers::TRACE_NOT_READY => write!(f, "answer: the structure is not built"),
+            StepKind::End => write!(f, "answer: {}, t {t_low}", name_of(b)),
+            StepKind::Unknown => write!(f, "step {} ({a}, {b}, {}, {t_low}, {t_high})", self.kind, self.c),
+        }
+    }
+}
+
+/// The verdict of a test in words, with t where there is one.
+struct Words<'a>(&'a TraceStep);
+
+impl fmt::Display for Words<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let t = self.0.t_low;
+        match self.0.verdict().unwrap_or(TestVerdict::Unknown) {
+            TestVerdict::Accepted => write!(f, "accepted, t {t}"),
+            TestVerdict::Excluded => write!(f, "excluded by the ray"),
+            TestVerdict::Beside => write!(f, "passed beside"),
+            TestVerdict::Parallel => write!(f, "parallel to the ray, or without area"),
+            TestVerdict::Before => write!(f, "refused, t {t} is before the range"),
+            TestVerdict::Beyond => write!(f, "refused, t {t} is beyond the range"),
+            TestVerdict::OutsideCell if self.0.kind() == StepKind::Fragment => {
+                write!(f, "refused, not among the depths looked for")
+            }
+            TestVerdict::OutsideCell => write!(f, "refused, t {t} is outside of the cell"),
+            TestVerdict::OutOfReach => write!(f, "refused, t {t} is too far beside the triangle"),
+            TestVerdict::Leaving => write!(f, "refused, the ray starts on the plane"),
+            TestVerdict::NotBetter => write!(f, "t {t} is no better than the best hit"),
+            TestVerdict::Transparent => write!(f, "transparent at t {t}"),
+            TestVerdict::Unknown => write!(f, "verdict {}", self.0.b),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(kind: u32, [a, b, c]: [u32; 3], [t_low, t_high]: [f32; 2]) -> TraceStep {
+        TraceStep { kind, round: 0, a, b, c, t_low, t_high }
+    }
+
+    #[test]
+    fn steps_read_as_they_were_meant() {
+        let cell = step(numbers::STEP_CELL, [3, u32::MAX, 7], [0.5, 1.5]);
+        assert_eq!(cell.cell(), Some((3, -1, 7)));
+        assert_eq!(cell.to_string(), "cell (-1, 7) of view 3, t 0.5 to 1.5");
+        let test = step(numbers::STEP_TEST, [12, numbers::TEST_OUTSIDE_CELL, 0], [2.5, 0.0]);
+        assert_eq!((test.primitive(), test.verdict()), (Some(12), Some(TestVerdict::OutsideCell)));
+        assert_eq!(test.to_string(), "triangle 12: refused, t 2.5 is outside of the cell");
+        let end = step(numbers::STEP_END, [numbers::TRACE_MISS, PRIMITIVE_NONE, 0], [4.0, 4.0]);
+        assert_eq!((end.primitive(), end.verdict(), end.skip_reason()), (None, None, None));
+        assert_eq!(end.to_string(), "answer: no triangle, t 4");
+        let skip = step(numbers::STEP_SKIP, [numbers::SKIP_PAST, 0, 0], [1.0, 2.0]);
+        assert_eq!(skip.skip_reason(), Some(SkipReason::Past));
+    }
+
+    /// Numbers that a newer shader might write are shown, not mistaken for another step.
+    #[test]
+    fn unknown_numbers_stay_visible() {
+        let unknown = step(99, [1, 2, 3], [0.0; 2]);
+        assert_eq!(unknown.kind(), StepKind::Unknown);
+        assert_eq!(unknown.to_string(), "step 99 (1, 2, 3, 0, 0)");
+        let verdict = step(numbers::STEP_TEST, [1, 77, 0], [0.0; 2]);
+        assert_eq!(verdict.verdict(), Some(TestVerdict::Unknown));
+        assert_eq!(step(numbers::STEP_SKIP, [55, 0, 0], [0.0; 2]).skip_reason(), Some(SkipReason::Unknown));
+    }
+}

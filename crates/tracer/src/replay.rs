@@ -1,0 +1,147 @@
+//! Everything a traversal does for one ray.
+
+use std::fmt;
+
+use rasray_ads::{
+    Counters, Hit, QueueHeader, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode, TraceStep,
+};
+use rasray_gpu::Device;
+
+use crate::TracerError;
+
+/// Steps there is room for at first; a longer traversal is traced again with room for all.
+const FIRST_STEPS: u32 = 4096;
+
+/// Most steps that are kept: 28 MiB. What goes beyond is counted.
+const MOST_STEPS: u32 = 1 << 20;
+
+/// One ray's traversal, step by step.
+#[derive(Clone, Debug)]
+pub struct Replay {
+    /// Name of the structure.
+    pub structure: &'static str,
+    /// The ray.
+    pub ray: Ray,
+    /// What was asked.
+    pub mode: TraceMode,
+    /// What was done, in order.
+    pub steps: Vec<TraceStep>,
+    /// Steps after those kept.
+    pub omitted: u32,
+    /// The answer; `None` where the ray did not finish or the structure is not built.
+    pub hit: Option<Hit>,
+    /// What the ray spent.
+    pub work: RayWork,
+    /// Dispatches it took part in.
+    pub rounds: u32,
+}
+
+impl Replay {
+    /// Traces one ray and keeps its steps.
+    pub(crate) fn of(
+        device: &Device,
+        structure: &dyn Structure,
+        ray: &Ray,
+        mode: TraceMode,
+    ) -> Result<Self, TracerError> {
+        if structure.counters() != Counters::Steps {
+            return Err(TracerError::NoSteps { structure: structure.name() });
+        }
+        let mut capacity = FIRST_STEPS;
+        loop {
+            let replay = Self::with_room(device, structure, ray, mode, capacity)?;
+            if replay.omitted == 0 || capacity == MOST_STEPS {
+                return Ok(replay);
+            }
+            capacity = capacity.saturating_add(replay.omitted).min(MOST_STEPS);
+        }
+    }
+
+    fn with_room(
+        device: &Device,
+        structure: &dyn Structure,
+        ray: &Ray,
+        mode: TraceMode,
+        capacity: u32,
+    ) -> Result<Self, TracerError> {
+        let parts = QueueParts { work: true, steps: capacity, ..QueueParts::default() };
+        let queue = RayQueue::with_parts(device, "replay", 1, parts)?;
+        device.submit(|recorder| queue.record_reset(recorder))?;
+        device.upload_slice(queue.rays(), 0, &[*ray])?;
+        device.submit(|recorder| structure.record_trace(recorder, &queue, 1, mode, structure.rounds()))?;
+        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1)?;
+        let counters = header.first().map(RayQueue::counters).unwrap_or_default();
+        let answered = counters.unfinished == 0 && counters.not_ready == 0;
+        let (steps, taken) = queue.download_steps(device)?;
+        let work = device.download_as::<RayWork>(queue.work(), 0, 1)?.first().copied().unwrap_or_default();
+        let hit = device.download_as::<Hit>(queue.hits(), 0, 1)?.first().copied();
+        Ok(Self {
+            structure: structure.name(),
+            ray: *ray,
+            mode,
+            omitted: taken - steps.len() as u32,
+            steps,
+            hit: hit.filter(|_| answered),
+            work,
+            rounds: work.rounds,
+        })
+    }
+
+    /// The work that the kept steps add up to; equal to [`Replay::work`] where none is omitted.
+    pub fn logged_work(&self) -> RayWork {
+        let count = |kind| self.steps.iter().filter(|step| step.kind() == kind).count() as u32;
+        RayWork {
+            cells: count(StepKind::Cell),
+            entries: count(StepKind::Entry),
+            tests: count(StepKind::Test),
+            rounds: count(StepKind::Round),
+        }
+    }
+
+    /// The steps that concern a primitive, each with the cell, view or node it was met in.
+    pub fn steps_of(&self, primitive: u32) -> Vec<(Option<&TraceStep>, &TraceStep)> {
+        let mut place = None;
+        let mut found = Vec::new();
+        for step in &self.steps {
+            match step.kind() {
+                StepKind::View | StepKind::Cell | StepKind::Node => place = Some(step),
+                _ if step.primitive() == Some(primitive) => found.push((place, step)),
+                _ => {}
+            }
+        }
+        found
+    }
+}
+
+impl fmt::Display for Replay {
+    /// The ray, then one step a line, indented by what it is part of.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Ray { origin, direction, t_min, t_max, .. } = self.ray;
+        let asked = match self.mode {
+            TraceMode::Closest => "nearest hit",
+            TraceMode::Occluded => "any hit",
+        };
+        writeln!(f, "{}, {asked}, {} rounds", self.structure, self.rounds)?;
+        writeln!(f, "from {origin:?} along {direction:?}, t {t_min} to {t_max}")?;
+        let RayWork { cells, entries, tests, .. } = self.work;
+        writeln!(f, "{cells} cells, {entries} entries, {tests} tests")?;
+        for step in &self.steps {
+            let depth = match step.kind() {
+                StepKind::Round | StepKind::Pause | StepKind::End => 1,
+                StepKind::View => 2,
+                StepKind::Cell | StepKind::Node => 3,
+                StepKind::List | StepKind::Skip => 4,
+                _ => 5,
+            };
+            writeln!(f, "{:width$}{step}", "", width = 2 * depth)?;
+        }
+        if self.omitted > 0 {
+            writeln!(f, "  … and {} steps more, for which there is no room", self.omitted)?;
+        }
+        match &self.hit {
+            None => writeln!(f, "no answer: the ray did not finish, or the structure is not built"),
+            Some(hit) if hit.is_hit() => writeln!(f, "hit: triangle {}, t {}", hit.primitive, hit.t),
+            Some(_) => writeln!(f, "miss"),
+        }
+    }
+}

@@ -1,0 +1,59 @@
+// What: whether a triangle becomes a ray's best hit, and if not, why.
+// Reads: geometry; the scene where alpha is tested. Writes: nothing.
+#ifndef ADS_JUDGE_GLSL
+#define ADS_JUDGE_GLSL
+
+#include "contract/alpha.glsl"
+#include "contract/trace_log.glsl"
+#include "contract/trace_state.glsl"
+#include "ads/geometry.glsl"
+#include "ads/triangle.glsl"
+
+// The verdict (TEST_*) on a triangle met within [t_low, t_high]; t and t_error are 0 where it is not met.
+uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
+    out float t_error) {
+    t = 0.0;
+    barycentrics = vec2(0.0);
+    t_error = 0.0;
+    if (primitive == ray.exclude_primitive) {
+        return TEST_EXCLUDED;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    if (!triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
+        return TEST_BESIDE;
+    }
+    if (!(t > max(ray.t_min, t_error))) {
+        return TEST_BEFORE;
+    }
+    if (!(t < ray.t_max)) {
+        return TEST_BEYOND;
+    }
+    if (!(t >= t_low && t <= t_high)) {
+        return TEST_OUTSIDE_CELL;
+    }
+    if (!hit_is_better(best, t, primitive)) {
+        return TEST_NOT_BETTER;
+    }
+    return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
+}
+
+// Judges a triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.
+// True if it did.
+bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    uint verdict = judge_triangle(ray, best, primitive, t_low, t_high, t, barycentrics, t_error);
+    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    if (verdict != TEST_ACCEPTED) {
+        return false;
+    }
+    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+    best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    return true;
+}
+
+#endif
