@@ -1,0 +1,231 @@
+//! The replay of one ray: its steps are the work that was counted, and they show where a hit was lost.
+
+use rasray_abuffer::{ABuffer, Config, Payload};
+use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, TestVerdict, TraceMode};
+use rasray_gpu::Timing;
+use rasray_reference::oracle::Verdict;
+use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::visits::{face_from_world, point};
+use rasray_tracer::{BatchTracer, Replay, TracerError, build_until_complete};
+
+const EYE: [f32; 3] = [0.25, -0.125, 0.5];
+const RESOLUTION: u32 = 64;
+
+fn scene() -> Vec<Triangle> {
+    let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
+    triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
+    triangles
+}
+
+fn rays(seed: u64, count: usize) -> Vec<Ray> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect()
+}
+
+fn published() -> Config {
+    // The quantised attributes need a scene and do not say which triangle a fragment is of.
+    Config { payload: Payload::Index, ..Config::published(RESOLUTION) }
+}
+
+fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Structure> {
+    let mut structure = ABuffer::new(bench.device(), config, geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    Box::new(structure)
+}
+
+/// Brute force and both presets, with the work that is recorded; budgets are small, so that rays pause.
+fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
+    let work_budget = Some(40);
+    let brute = BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made");
+    vec![
+        Box::new(brute),
+        abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
+        abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
+    ]
+}
+
+fn tracer(bench: &Bench) -> BatchTracer {
+    BatchTracer::new(bench.device(), 1024).expect("a queue fits")
+}
+
+fn key(hit: &Hit) -> (u32, u32) {
+    (hit.t.to_bits(), hit.primitive)
+}
+
+#[test]
+fn the_steps_are_the_work_and_end_in_the_hit() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    let rays = rays(0x7265_706C_6179, 40);
+    let tracer = tracer(&bench);
+    let counted = structures(&bench, &geometry, Counters::PerRay);
+    let logged = structures(&bench, &geometry, Counters::Steps);
+    for (counted, logged) in counted.iter().zip(&logged) {
+        for mode in [TraceMode::Closest, TraceMode::Occluded] {
+            let expected =
+                tracer.trace(counted.as_ref(), &rays, mode, Timing::None).expect("all rays finish");
+            let mut paused = false;
+            for (index, ray) in rays.iter().enumerate() {
+                let replay = tracer.replay(logged.as_ref(), ray, mode).expect("the structure logs steps");
+                let context = format!("{} {mode:?} ray {index}\n{replay}", logged.name());
+                assert_eq!(replay.omitted, 0);
+                assert_eq!(replay.work, expected.work[index], "{context}");
+                assert_eq!(replay.logged_work(), expected.work[index], "{context}");
+                let hit = replay.hit.expect("the ray finishes");
+                assert_eq!(key(&hit), key(&expected.hits[index]), "{context}");
+                let best = replay.steps.iter().rev().find(|step| step.kind() == StepKind::Best);
+                assert_eq!(best.and_then(|step| step.primitive()), hit.is_hit().then_some(hit.primitive));
+                assert_eq!(replay.steps.last().map(|step| step.kind()), Some(StepKind::End), "{context}");
+                assert!(replay.steps.iter().all(|step| step.kind() != StepKind::Unknown), "{context}");
+                paused |= replay.steps.iter().any(|step| step.kind() == StepKind::Pause);
+                // A step lost or invented is noticed.
+                let mut wrong = replay.clone();
+                let counts = |step: &rasray_ads::TraceStep| {
+                    matches!(step.kind(), StepKind::Cell | StepKind::Entry | StepKind::Test)
+                };
+                let place = wrong.steps.iter().position(counts).expect("something is done for every ray");
+                wrong.steps.remove(place);
+                assert_ne!(wrong.logged_work(), expected.work[index]);
+            }
+            assert_eq!(paused, logged.name() == "mmrt", "{}: a small budget makes rays pause", logged.name());
+        }
+    }
+}
+
+/// The cell of a view that holds a point relative to the eye.
+fn cell_of(p: [f64; 3]) -> (u32, i32, i32) {
+    let inside = |face: u32| {
+        let q = face_from_world(p, face);
+        q[2] > 0.0 && q[0].abs() <= q[2] && q[1].abs() <= q[2]
+    };
+    let face = (0..6).find(|&face| inside(face)).expect("the pyramids fill space");
+    let q = face_from_world(p, face);
+    let place = |x: f64| ((x / q[2] + 1.0) * 0.5 * f64::from(RESOLUTION)).floor() as i32;
+    (face, place(q[0]), place(q[1]))
+}
+
+/// What the replay of a ray says about a hit that was lost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Loss {
+    /// The triangle was met in a cell and refused there.
+    Refused((u32, i32, i32), TestVerdict),
+    /// The cell of the hit was never searched.
+    NotVisited((u32, i32, i32)),
+    /// The cell of the hit was searched and does not hold the triangle.
+    NotStored((u32, i32, i32)),
+}
+
+fn loss(replay: &Replay, truth: &Verdict) -> Option<Loss> {
+    let (primitive, t) = truth.outcome.hit()?;
+    let p = point(&replay.ray, t);
+    let cell = cell_of(std::array::from_fn(|axis| p[axis] - f64::from(EYE[axis])));
+    let met = replay.steps_of(primitive);
+    if met.iter().any(|(_, step)| step.verdict() == Some(TestVerdict::Accepted)) {
+        return None;
+    }
+    let refused = met.iter().find_map(|(place, step)| Some((place.as_ref()?.cell()?, step.verdict()?)));
+    if let Some((cell, verdict)) = refused {
+        return Some(Loss::Refused(cell, verdict));
+    }
+    let visited = replay.steps.iter().any(|step| step.cell() == Some(cell));
+    Some(if visited { Loss::NotStored(cell) } else { Loss::NotVisited(cell) })
+}
+
+#[test]
+fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let geometry = bench.geometry(&triangles);
+    let tracer = tracer(&bench);
+    let rays = rays(0x6C6F_7373, 3000);
+    let oracle = oracle_of(&triangles);
+    let truths: Vec<Verdict> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
+    // Few samples leave cells out; depth intervals refuse fragments of slanted triangles.
+    let broken = [("interval", published()), ("4 samples", Config { samples: 4, ..published() })];
+    for (name, config) in broken {
+        let structure = abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..config });
+        let hits = bench.trace(structure.as_ref(), &rays).hits;
+        let lost: Vec<usize> = (0..rays.len())
+            .filter(|&i| {
+                !truths[i].ambiguous && truths[i].outcome.hit().map(|(id, _)| id) != Some(hits[i].primitive)
+            })
+            .collect();
+        assert!(lost.len() > 20, "{name}: the broken structure answers {} rays wrong", lost.len());
+        let mut losses = [0_usize; 3];
+        for &index in &lost {
+            let replay =
+                tracer.replay(structure.as_ref(), &rays[index], TraceMode::Closest).expect("it logs");
+            match loss(&replay, &truths[index]) {
+                Some(Loss::Refused(..)) => losses[0] += 1,
+                Some(Loss::NotVisited(cell)) => {
+                    losses[1] += 1;
+                    assert!(replay.steps.iter().all(|step| step.cell() != Some(cell)));
+                }
+                Some(Loss::NotStored(_)) => losses[2] += 1,
+                // Accepted for a while, and then replaced by something that is not there.
+                None => assert_ne!(
+                    replay.hit.map(|hit| hit.primitive),
+                    truths[index].outcome.hit().map(|(id, _)| id)
+                ),
+            }
+        }
+        println!("{name}: {} rays answered wrong; refused, not visited, not stored: {losses:?}", lost.len());
+        match name {
+            "interval" => assert!(losses[0] > 0, "{losses:?}"),
+            _ => assert!(losses[1] > 0, "{losses:?}"),
+        }
+    }
+    // The sound structure loses none of those, so the explanation is the option, not the explainer.
+    let robust =
+        abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::robust(RESOLUTION) });
+    for (ray, truth) in rays.iter().zip(&truths).filter(|(_, truth)| !truth.ambiguous).take(40) {
+        let replay = tracer.replay(robust.as_ref(), ray, TraceMode::Closest).expect("it logs");
+        if truth.outcome.hit().map(|(id, _)| id) == replay.hit.map(|hit| hit.primitive) {
+            assert_eq!(loss(&replay, truth), None, "{replay}");
+        }
+    }
+}
+
+/// More steps than there is room for at first are traced again, so that none is lost silently.
+#[test]
+fn a_long_traversal_is_logged_in_full() {
+    let bench = Bench::new();
+    let triangles = sphere([0.0; 3], 2.0, 60);
+    let count = triangles.len();
+    assert!(count > 5000, "{count} triangles");
+    let geometry = bench.geometry(&triangles);
+    let structure =
+        BruteForce::new(bench.device(), &geometry, None, Counters::Steps).expect("pipelines can be made");
+    let ray = Ray::new([0.1, 0.2, 0.3], [0.5, 0.25, 1.0]);
+    let replay = tracer(&bench).replay(&structure, &ray, TraceMode::Closest).expect("it logs");
+    assert_eq!((replay.omitted, replay.logged_work().tests as usize), (0, count));
+    assert!(replay.rounds > 1);
+    let text = replay.to_string();
+    assert!(
+        text.lines().count() > count && text.contains("pause") && text.contains("answer: triangle"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_structure_that_logs_nothing_says_so() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    let ray = Ray::new([0.0; 3], [0.0, 0.0, 1.0]);
+    for structure in structures(&bench, &geometry, Counters::PerRay) {
+        let refused =
+            tracer(&bench).replay(structure.as_ref(), &ray, TraceMode::Closest).expect_err("refused");
+        assert!(matches!(refused, TracerError::NoSteps { .. }), "{refused}");
+        assert!(refused.to_string().contains("Counters::Steps"));
+    }
+    // One whose build ran out of room gives no answer and says why.
+    let config = Config { counters: Counters::Steps, fragments: Some(0), ..Config::robust(RESOLUTION) };
+    let mut cramped = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    let recorded = bench.device().submit(|recorder| cramped.record_build(recorder, EYE));
+    recorded.expect("the device works").value.expect("the build is recorded");
+    let replay = tracer(&bench).replay(&cramped, &ray, TraceMode::Closest).expect("it logs");
+    assert_eq!(replay.hit, None);
+    assert!(replay.to_string().contains("not built"), "{replay}");
+}
