@@ -3,13 +3,20 @@
 //! Every part stands in a module of its own and is absent where its data was not measured. Figures are
 //! computed here; the page's script only draws, sorts and slides.
 
+mod axes;
+mod bars;
+mod depth_errors;
+mod details;
 mod document;
+mod images;
 mod markup;
-#[allow(dead_code, reason = "also serves the plots")]
 mod names;
-#[allow(dead_code, reason = "also serves the plots")]
+mod pareto;
+mod picture;
 mod section;
+mod speed_error;
 mod summary;
+mod work;
 
 use super::figures::Figures;
 use super::schema::Report;
@@ -21,7 +28,20 @@ use crate::error::AppError;
 /// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
 pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
     check(report, figures)?;
-    let sections: Vec<_> = [summary::section(report)].into_iter().flatten().collect();
+    let sections: Vec<_> = [
+        summary::section(report),
+        speed_error::section(report),
+        depth_errors::histograms(report, figures),
+        depth_errors::percentiles(report),
+        bars::passes(report),
+        bars::memory(report),
+        work::section(report, figures)?,
+        images::section(report, figures)?,
+        details::section(report)?,
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     Ok(document::document(report, &sections).into_bytes())
 }
 

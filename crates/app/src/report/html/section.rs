@@ -51,6 +51,8 @@ pub(super) struct Plot {
     pub id: String,
     /// The line above it.
     pub title: String,
+    /// More about how it is drawn, or nothing.
+    pub note: String,
     /// What it shows, in words, for those who cannot see it.
     pub description: String,
     /// Pixels from top to bottom.
@@ -64,7 +66,12 @@ pub(super) struct Plot {
 impl Plot {
     fn place(&self, body: &mut Markup) {
         body.element("figure", &[("class", "plot")], |figure| {
-            figure.leaf("figcaption", &[], &self.title);
+            figure.element("figcaption", &[], |caption| {
+                caption.leaf("strong", &[], &self.title);
+                if !self.note.is_empty() {
+                    caption.fixed(" ").text(&self.note);
+                }
+            });
             let height = format!("height:{}px", self.height);
             let area = [
                 ("class", "area"),

@@ -157,42 +157,60 @@ const COLUMNS: &[Column] = &[
     },
 ];
 
-/// The table; only columns in which some run has a value.
+/// A table of the runs of rays and one of the images, as their columns differ.
 pub(super) fn section(report: &Report) -> Option<Section> {
     if report.runs.is_empty() {
         return None;
     }
-    let columns: Vec<&Column> =
-        COLUMNS.iter().filter(|column| report.runs.iter().any(|run| (column.cell)(run).is_some())).collect();
+    let (images, rays): (Vec<&Run>, Vec<&Run>) =
+        report.runs.iter().partition(|run| run.ray_set.is_none() && run.integrator.is_some());
     let mut body = Markup::default();
     body.fixed(
         "<p class=\"script-only\">A heading sorts by its column; a second time turns the order around.</p>\n",
     );
-    let scrolled =
-        [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", "Summary table")];
-    body.element("div", &scrolled, |body| {
-        body.element("table", &[("id", "summary-table")], |table| {
-            table.fixed("<caption>One row per system, preset and ray set or image</caption><thead><tr>");
-            for name in ["system", "preset", "rays"] {
-                table.leaf("th", &[("scope", "col")], name);
+    let mut explained: Vec<&Column> = Vec::new();
+    for (title, runs) in [("Rays against the oracle", rays), ("Images against the reference", images)] {
+        if runs.is_empty() {
+            continue;
+        }
+        let columns: Vec<&Column> =
+            COLUMNS.iter().filter(|column| runs.iter().any(|run| (column.cell)(run).is_some())).collect();
+        table(&mut body, title, &runs, &columns);
+        for column in columns {
+            if !explained.iter().any(|known| known.heading == column.heading) {
+                explained.push(column);
             }
-            for column in &columns {
-                let meaning = [("scope", "col"), ("class", "number"), ("title", column.meaning)];
-                table.leaf("th", &meaning, column.heading);
-            }
-            table.fixed("</tr></thead>\n<tbody>\n");
-            for run in &report.runs {
-                row(table, run, &columns);
-            }
-            table.fixed("</tbody>");
-        });
-    });
+        }
+    }
     body.fixed("<details><summary>What the columns mean</summary><dl>");
-    for column in &columns {
+    for column in explained {
         body.leaf("dt", &[], column.heading).leaf("dd", &[], column.meaning);
     }
     body.fixed("</dl></details>\n");
     Some(Section::new("summary", "Summary", body))
+}
+
+/// One row a run, and only columns in which some run has a value.
+fn table(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
+    let scrolled = [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)];
+    body.element("div", &scrolled, |body| {
+        body.element("table", &[("class", "sortable")], |table| {
+            table.leaf("caption", &[], title).fixed("<thead><tr>");
+            for name in ["system", "preset", "rays"] {
+                table.leaf("th", &[("scope", "col")], name);
+            }
+            for column in columns {
+                let meaning = [("scope", "col"), ("class", "number"), ("title", column.meaning)];
+                table.leaf("th", &meaning, column.heading);
+            }
+            table.fixed("</tr></thead>\n<tbody>\n");
+            for run in runs {
+                row(table, run, columns);
+            }
+            table.fixed("</tbody>");
+        });
+    });
+    body.fixed("\n");
 }
 
 fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {

@@ -1,0 +1,81 @@
+//! Layouts that the plots share; colours of text and grid come from the page's script.
+
+use serde_json::{Value, json};
+
+/// Decimal exponents of the smallest and the largest positive value.
+fn exponents(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let (low, high) = values
+        .filter(|value| *value > 0.0 && value.is_finite())
+        .map(f64::log10)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+    (low <= high).then_some((low, high))
+}
+
+/// A logarithmic axis over whole decades around positive values.
+pub(super) fn decades(title: &str, values: impl Iterator<Item = f64>) -> Value {
+    let (low, high) = exponents(values).map_or((-1.0, 0.0), |(low, high)| (low.floor(), high.ceil()));
+    let high = high.max(low + 1.0);
+    // Labels stay apart on a phone.
+    let step = ((high - low) / 8.0).ceil();
+    json!({
+        "type": "log", "title": {"text": title}, "range": [low - 0.15, high + 0.15],
+        "dtick": step, "exponentformat": "power", "automargin": true,
+    })
+}
+
+/// A logarithmic axis that ends where the values do, with labels at 1, 2 and 5.
+pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value {
+    let (low, high) = exponents(values).unwrap_or((0.0, 1.0));
+    let ticks = if high - low > 2.5 { json!(1) } else { json!("D2") };
+    json!({
+        "type": "log", "title": {"text": title}, "range": [low - 0.2, high + 0.2],
+        "dtick": ticks, "exponentformat": "none", "automargin": true,
+    })
+}
+
+/// A linear axis from zero.
+pub(super) fn linear(title: &str) -> Value {
+    json!({"title": {"text": title}, "rangemode": "tozero", "automargin": true})
+}
+
+/// A linear axis with some room below zero, so that symbols at zero are whole.
+pub(super) fn around_zero(title: &str, values: impl Iterator<Item = f64>) -> Value {
+    let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let most = if most > 0.0 { most } else { 1.0 };
+    json!({"title": {"text": title}, "range": [-0.06 * most, 1.1 * most], "automargin": true})
+}
+
+/// The values at the two ends of an axis that has a range.
+pub(super) fn ends(axis: &Value) -> Option<[f64; 2]> {
+    let end = |index: usize| {
+        let value = axis["range"][index].as_f64()?;
+        Some(if axis["type"] == "log" { 10_f64.powf(value) } else { value })
+    };
+    Some([end(0)?, end(1)?])
+}
+
+/// Names, the first at the top.
+pub(super) fn names() -> Value {
+    json!({"autorange": "reversed", "automargin": true, "type": "category"})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decades_are_whole_and_never_none() {
+        let axis = decades("t", [2.0e-6, 3.0e-4, 0.0, f64::NAN].into_iter());
+        assert_eq!(axis["range"], json!([-6.15, -2.85]));
+        assert_eq!(decades("t", [1.0].into_iter())["range"], json!([-0.15, 1.15]));
+        assert_eq!(decades("t", [].into_iter())["range"], json!([-1.15, 0.15]));
+    }
+
+    #[test]
+    fn ends_are_in_the_units_of_the_values() {
+        let [low, high] = ends(&close_log("t", [0.1, 10.0].into_iter())).expect("a range");
+        assert!(low < 0.1 && low > 0.05 && high > 10.0 && high < 20.0, "{low} {high}");
+        assert_eq!(ends(&around_zero("t", [0.0, 2.0].into_iter())), Some([-0.12, 2.2]));
+        assert_eq!(ends(&linear("t")), None);
+    }
+}

@@ -1,0 +1,285 @@
+//! Stacked bars, one a run: time per pass and memory per part.
+
+use super::super::bytes;
+use super::super::schema::{Memory, Pass, Report, Run};
+use super::axes;
+use super::markup::plot_text;
+use super::names::{by_workload, contestant, part_colour};
+use super::section::{Plot, Section};
+use serde_json::{Value, json};
+
+/// Parts that get a colour of their own; the rest share the last one.
+const COLOURED: usize = 7;
+
+/// Bytes of a mebibyte.
+const MEBIBYTE: f64 = 1_048_576.0;
+
+/// A part of a run's bar.
+struct Part<'a> {
+    name: &'a str,
+    size: f64,
+    words: String,
+}
+
+fn pass_part(pass: &Pass) -> Part<'_> {
+    let words = format!("{:.3} ms ({:.3} to {:.3})", pass.ms_median, pass.ms_min, pass.ms_max);
+    Part { name: &pass.label, size: pass.ms_median, words }
+}
+
+fn memory_parts(memory: &Memory) -> Vec<Part<'_>> {
+    memory
+        .by_part
+        .iter()
+        .map(|(name, value)| Part { name, size: *value as f64 / MEBIBYTE, words: bytes(*value) })
+        .collect()
+}
+
+/// Names of all parts, the largest in any run first, so that a part has one colour in the whole page.
+fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
+    let mut sizes: Vec<(&str, f64)> = Vec::new();
+    for part in parts {
+        match sizes.iter_mut().find(|(name, _)| *name == part.name) {
+            Some((_, size)) => *size = size.max(part.size),
+            None => sizes.push((part.name, part.size)),
+        }
+    }
+    sizes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sizes.into_iter().map(|(name, _)| name).collect()
+}
+
+/// A run's name on two lines, so that names leave room for bars on a phone.
+fn bar_name(run: &Run) -> String {
+    format!("{}<br>{}", plot_text(&run.system), plot_text(&run.preset))
+}
+
+/// One trace a part: the coloured ones, then one of all others.
+fn stacked(runs: &[(&Run, Vec<Part<'_>>)], ranking: &[&str]) -> Vec<Value> {
+    // A single part beyond the colours is not worth a group.
+    let coloured = if ranking.len() <= COLOURED + 1 { ranking.len() } else { COLOURED };
+    let (own, others) = ranking.split_at(coloured);
+    let mut traces = Vec::new();
+    for (index, name) in own.iter().enumerate() {
+        let found: Vec<_> = runs
+            .iter()
+            .filter_map(|(run, parts)| {
+                let part = parts.iter().find(|part| part.name == *name)?;
+                Some((bar_name(run), part.size, part.words.clone()))
+            })
+            .collect();
+        if !found.is_empty() {
+            traces.push(trace(name, part_colour(index), found));
+        }
+    }
+    let rest: Vec<_> = runs
+        .iter()
+        .filter_map(|(run, parts)| {
+            let of_rest = || parts.iter().filter(|part| others.contains(&part.name));
+            let words: Vec<_> =
+                of_rest().map(|part| format!("{} {}", plot_text(part.name), part.words)).collect();
+            (!words.is_empty())
+                .then(|| (bar_name(run), of_rest().map(|part| part.size).sum(), words.join("<br>")))
+        })
+        .collect();
+    if !rest.is_empty() {
+        traces.push(trace(&format!("{} others", others.len()), part_colour(COLOURED), rest));
+    }
+    traces
+}
+
+fn trace(name: &str, colour: &str, bars: Vec<(String, f64, String)>) -> Value {
+    json!({
+        "type": "bar", "orientation": "h", "name": plot_text(name), "marker": {"color": colour},
+        "y": bars.iter().map(|bar| &bar.0).collect::<Vec<_>>(),
+        "x": bars.iter().map(|bar| bar.1).collect::<Vec<_>>(),
+        "hovertext": bars.iter().map(|bar| format!("{}<br>{}", plot_text(name), bar.2)).collect::<Vec<_>>(),
+        "hoverinfo": "text",
+    })
+}
+
+fn bar_height(runs: usize, traces: usize) -> usize {
+    90 + 44 * runs + 22 * traces
+}
+
+/// Medians of the passes of each run.
+pub(super) fn passes(report: &Report) -> Option<Section> {
+    let ranking = ranked(report.runs.iter().flat_map(|run| run.passes.iter().map(pass_part)));
+    let mut plots = Vec::new();
+    for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
+        let runs: Vec<(&Run, Vec<Part<'_>>)> = indices
+            .iter()
+            .map(|index| &report.runs[*index])
+            .filter(|run| !run.passes.is_empty())
+            .map(|run| (run, run.passes.iter().map(pass_part).collect()))
+            .collect();
+        if runs.is_empty() {
+            continue;
+        }
+        let data = stacked(&runs, &ranking);
+        plots.push(Plot {
+            id: format!("passes-{position}"),
+            title: format!("{workload}: milliseconds per pass"),
+            note: String::new(),
+            description: format!(
+                "Stacked bars of the time of each pass for {workload}: {}.",
+                totals(&runs, |size| format!("{size:.3} ms"))
+            ),
+            height: bar_height(runs.len(), data.len()),
+            data,
+            layout: json!({"barmode": "stack", "xaxis": axes::linear("ms, median"), "yaxis": axes::names()}),
+        });
+    }
+    Section::of_plots(
+        "passes",
+        "Time per pass",
+        "Medians of every pass that was timed, build and trace alike; a label is the path of the pass's \
+         shader. Passes beyond the seven longest share a colour.",
+        plots,
+    )
+}
+
+/// Each bar's name and length in words.
+fn totals(runs: &[(&Run, Vec<Part<'_>>)], words: impl Fn(f64) -> String) -> String {
+    let one = |(run, parts): &(&Run, Vec<Part<'_>>)| {
+        format!("{} {}", contestant(run), words(parts.iter().map(|part| part.size).sum()))
+    };
+    runs.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// Workloads whose runs agree in every byte, and the runs of the first of them.
+struct SharedMemory<'a> {
+    workloads: Vec<String>,
+    runs: Vec<(&'a Run, &'a Memory)>,
+}
+
+/// A number of bytes that is a mark on a bar, not a part of it.
+struct Mark {
+    name: &'static str,
+    /// A marker's name in the plots' library.
+    symbol: &'static str,
+    value: fn(&Memory) -> Option<u64>,
+}
+
+const MARKS: [Mark; 2] = [
+    Mark { name: "by formula", symbol: "diamond", value: |memory| memory.formula_bytes },
+    Mark { name: "capacity", symbol: "line-ns-open", value: |memory| memory.capacity_bytes },
+];
+
+/// Bytes of the parts of each structure, with what the formula of its page says.
+pub(super) fn memory(report: &Report) -> Option<Section> {
+    let parts = report.runs.iter().filter_map(|run| run.memory.as_ref()).flat_map(memory_parts);
+    let ranking = ranked(parts);
+    let mut shown: Vec<SharedMemory<'_>> = Vec::new();
+    for (workload, indices) in by_workload(&report.runs) {
+        let own: Vec<(&Run, &Memory)> = indices
+            .iter()
+            .map(|index| &report.runs[*index])
+            .filter_map(|run| Some((run, run.memory.as_ref()?)))
+            .filter(|(_, memory)| !memory.by_part.is_empty() || memory.structure_bytes.is_some())
+            .collect();
+        let same = |others: &[(&Run, &Memory)]| {
+            others.len() == own.len()
+                && others.iter().zip(&own).all(|(a, b)| contestant(a.0) == contestant(b.0) && a.1 == b.1)
+        };
+        if own.is_empty() {
+            continue;
+        }
+        // Ray sets share the structure that was built once, and then a plot.
+        match shown.iter_mut().find(|other| same(&other.runs)) {
+            Some(other) => other.workloads.push(workload),
+            None => shown.push(SharedMemory { workloads: vec![workload], runs: own }),
+        }
+    }
+    let plots = shown
+        .iter()
+        .enumerate()
+        .map(|(position, one)| memory_plot(position, &one.workloads.join(", "), &one.runs, &ranking))
+        .collect();
+    Section::of_plots(
+        "memory",
+        "Memory",
+        "The structure's allocations by part, in MiB. A diamond is what the formula of the system's page \
+         gives for the counted fragments, entries and cells; a line is the room in the pools.",
+        plots,
+    )
+}
+
+fn memory_plot(position: usize, workload: &str, own: &[(&Run, &Memory)], ranking: &[&str]) -> Plot {
+    let whole = |memory: &Memory| -> Option<u64> {
+        memory.by_part.is_empty().then_some(memory.structure_bytes).flatten()
+    };
+    let runs: Vec<(&Run, Vec<Part<'_>>)> = own
+        .iter()
+        .map(|(run, memory)| {
+            let mut parts = memory_parts(memory);
+            parts.extend(whole(memory).map(|value| Part {
+                name: "structure",
+                size: value as f64 / MEBIBYTE,
+                words: bytes(value),
+            }));
+            (*run, parts)
+        })
+        .collect();
+    let mut names = ranking.to_vec();
+    if own.iter().any(|(_, memory)| whole(memory).is_some()) && !names.contains(&"structure") {
+        names.push("structure");
+    }
+    let mut data = stacked(&runs, &names);
+    for Mark { name, symbol, value } in MARKS {
+        let found: Vec<_> =
+            own.iter().filter_map(|(run, memory)| Some((bar_name(run), value(memory)?))).collect();
+        if found.is_empty() {
+            continue;
+        }
+        data.push(json!({
+            "type": "scatter", "mode": "markers", "name": name,
+            "y": found.iter().map(|one| &one.0).collect::<Vec<_>>(),
+            "x": found.iter().map(|one| one.1 as f64 / MEBIBYTE).collect::<Vec<_>>(),
+            "hovertext": found.iter().map(|one| format!("{name}<br>{}", bytes(one.1))).collect::<Vec<_>>(),
+            "hoverinfo": "text",
+            // The script gives these marks the colour of text.
+            "marker": {"symbol": symbol, "size": 13, "line": {"width": 2}}, "meta": "text-colour",
+        }));
+    }
+    Plot {
+        id: format!("memory-{position}"),
+        title: format!("{workload}: MiB by part"),
+        note: String::new(),
+        description: format!(
+            "Stacked bars of the bytes of each part of the structures for {workload}: {}.",
+            totals(&runs, |size| format!("{size:.3} MiB"))
+        ),
+        height: bar_height(runs.len(), data.len()),
+        data,
+        layout: json!({"barmode": "stack", "xaxis": axes::linear("MiB"), "yaxis": axes::names()}),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn part(name: &str, size: f64) -> Part<'_> {
+        Part { name, size, words: format!("{size}") }
+    }
+
+    #[test]
+    fn parts_are_ranked_by_their_largest_size() {
+        let parts = [part("a", 1.0), part("b", 5.0), part("a", 9.0), part("c", 2.0)];
+        assert_eq!(ranked(parts.into_iter()), ["a", "b", "c"]);
+    }
+
+    #[test]
+    fn no_part_is_lost_beyond_the_colours() {
+        let run = Run { system: "s".to_owned(), ..Default::default() };
+        let names: Vec<String> = (0..12).map(|index| format!("part {index}")).collect();
+        let parts = || names.iter().enumerate().map(|(index, name)| part(name, 20.0 - index as f64));
+        for count in [1, COLOURED, COLOURED + 1, COLOURED + 2, 12] {
+            let ranking = ranked(parts().take(count));
+            let traces = stacked(&[(&run, parts().take(count).collect())], &ranking);
+            assert!(traces.len() <= COLOURED + 1);
+            let drawn: f64 = traces.iter().map(|trace| trace["x"][0].as_f64().expect("a length")).sum();
+            let wanted: f64 = parts().take(count).map(|part| part.size).sum();
+            assert_eq!(drawn, wanted);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! How |dt|/t is distributed: histograms, and percentiles beside each other.
+
+use super::super::figures::{DepthErrors, Figures};
+use super::super::schema::{Accuracy, Report};
+use super::axes;
+use super::markup::plot_text;
+use super::names::{by_workload, contestant, look};
+use super::section::{Plot, Section};
+use serde_json::{Value, json};
+
+/// |dt|/t where bin `index` begins.
+fn edge(index: usize) -> f64 {
+    10_f64.powf(DepthErrors::LOW + DepthErrors::WIDTH * index as f64)
+}
+
+/// The first bin with a hit in any histogram, and the one after the last.
+fn used<'a>(histograms: impl Iterator<Item = &'a DepthErrors> + Clone) -> Option<(usize, usize)> {
+    let filled = |histogram: &'a DepthErrors| {
+        histogram.bins.iter().enumerate().filter(|(_, count)| **count > 0).map(|(index, _)| index)
+    };
+    let first = histograms.clone().filter_map(|one| filled(one).next()).min()?;
+    let last = histograms.filter_map(|one| filled(one).next_back()).max()?;
+    Some((first, last + 1))
+}
+
+/// All hits of a histogram.
+fn total(histogram: &DepthErrors) -> u64 {
+    histogram.zero + histogram.bins.iter().sum::<u64>()
+}
+
+/// Histograms, one plot a workload and one line a run.
+pub(super) fn histograms(report: &Report, figures: &Figures) -> Option<Section> {
+    let mut plots = Vec::new();
+    for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
+        let own: Vec<&DepthErrors> = indices
+            .iter()
+            .filter_map(|index| figures.depth_errors.iter().find(|one| one.run == *index))
+            .filter(|histogram| total(histogram) > 0)
+            .collect();
+        if own.is_empty() {
+            continue;
+        }
+        let exact = own.iter().filter(|one| used(std::iter::once(**one)).is_none()).count();
+        let Some(range) = used(own.iter().copied()) else {
+            continue;
+        };
+        plots.push(histogram_plot(report, position, &workload, &own, range, exact));
+    }
+    Section::of_plots(
+        "histograms",
+        "Errors in t",
+        "The share of a run's common hits per quarter of a decade of |dt|/t, on logarithmic axes; the \
+         legend says which share has exactly the oracle's t, rounded to f32, and so stands in no bin. The \
+         first and the last bin of the scale hold everything beyond.",
+        plots,
+    )
+}
+
+fn histogram_plot(
+    report: &Report,
+    position: usize,
+    workload: &str,
+    own: &[&DepthErrors],
+    (first, end): (usize, usize),
+    exact: usize,
+) -> Plot {
+    let most = own.iter().map(|one| total(one)).max().unwrap_or(1) as f64;
+    // Empty bins go below the axis, so that lines fall out of the plot instead of ending in it.
+    let below = 0.01 / most;
+    let mut largest = 0.0_f64;
+    let mut data = Vec::new();
+    for one in own.iter().filter(|one| one.bins.iter().any(|count| *count > 0)) {
+        let run = &report.runs[one.run];
+        let look = look(&report.runs, run);
+        let hits = total(one) as f64;
+        let share = |index: usize| one.bins.get(index).map_or(0.0, |count| *count as f64 / hits);
+        let (mut x, mut y) = (vec![edge(first)], vec![below]);
+        for index in first..end {
+            let height = share(index).max(below);
+            largest = largest.max(height);
+            x.extend([edge(index), edge(index + 1)]);
+            y.extend([height, height]);
+        }
+        x.push(edge(end));
+        y.push(below);
+        let zero = 100.0 * one.zero as f64 / hits;
+        data.push(json!({
+            "type": "scatter", "mode": "lines", "x": x, "y": y,
+            "name": format!("{}, {zero:.1} % exact", plot_text(&contestant(run))),
+            "hovertemplate": "|dt|/t %{x:.1e}: %{y:.2%}",
+            "line": {"color": look.colour, "dash": look.dash, "width": 2},
+        }));
+    }
+    let mut y = axes::decades("share of common hits", std::iter::once(largest));
+    y["range"] = json!([(0.5 / most).log10(), (largest * 2.0).log10().min(0.1)]);
+    let note = match exact {
+        0 => String::new(),
+        1 => "One run is exact in every hit and has no line.".to_owned(),
+        _ => format!("{exact} runs are exact in every hit and have no line."),
+    };
+    Plot {
+        id: format!("histogram-{position}"),
+        title: format!("{workload}: |dt|/t"),
+        note,
+        description: format!(
+            "Histograms of the relative error in t for {workload}, one line a run, between {:.1e} and {:.1e}.",
+            edge(first),
+            edge(end)
+        ),
+        height: 400,
+        data,
+        layout: json!({
+            "xaxis": axes::decades("|dt|/t", [edge(first), edge(end)].into_iter()), "yaxis": y,
+        }),
+    }
+}
+
+/// Names and values of the percentiles that were measured.
+fn measured(accuracy: &Accuracy) -> Vec<(&'static str, f64)> {
+    [("median", accuracy.dt_rel_p50), ("99 %", accuracy.dt_rel_p99), ("largest", accuracy.dt_rel_max)]
+        .into_iter()
+        .filter_map(|(name, value)| Some((name, value.filter(|value| value.is_finite())?)))
+        .collect()
+}
+
+/// Percentiles, one plot a workload and one line a run.
+pub(super) fn percentiles(report: &Report) -> Option<Section> {
+    let mut plots = Vec::new();
+    for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
+        let floor = edge(0);
+        let mut drawn = Vec::new();
+        let mut data: Vec<Value> = Vec::new();
+        for index in indices {
+            let run = &report.runs[index];
+            let Some(accuracy) = &run.accuracy else { continue };
+            let values = measured(accuracy);
+            if values.is_empty() {
+                continue;
+            }
+            let look = look(&report.runs, run);
+            let heights: Vec<f64> = values.iter().map(|(_, value)| value.max(floor)).collect();
+            let symbols: Vec<String> = values
+                .iter()
+                .map(|(_, value)| format!("{}{}", look.symbol, if *value == 0.0 { "-open" } else { "" }))
+                .collect();
+            let words: Vec<String> =
+                values.iter().map(|(name, value)| format!("{name}: {value:.2e}")).collect();
+            data.push(json!({
+                "type": "scatter", "mode": "lines+markers", "name": plot_text(&contestant(run)),
+                "x": values.iter().map(|(name, _)| *name).collect::<Vec<_>>(), "y": heights,
+                "hovertext": words, "hoverinfo": "text+name",
+                "line": {"color": look.colour, "dash": look.dash, "width": 1.5},
+                "marker": {"color": look.colour, "symbol": symbols, "size": 10, "line": {"width": 2, "color": look.colour}},
+            }));
+            drawn.extend(heights);
+        }
+        if data.is_empty() {
+            continue;
+        }
+        plots.push(Plot {
+            id: format!("percentiles-{position}"),
+            title: format!("{workload}: percentiles of |dt|/t"),
+            note: String::new(),
+            description: format!("Percentiles of the relative error in t for {workload}, one line a run."),
+            height: 380,
+            data,
+            layout: json!({
+                "xaxis": {"type": "category", "automargin": true},
+                "yaxis": axes::decades("|dt|/t", drawn.into_iter()),
+            }),
+        });
+    }
+    Section::of_plots(
+        "percentiles",
+        "Percentiles of |dt|/t",
+        "Over hits that the run and the oracle share. Hollow symbols are exact zeros; they, and everything \
+         smaller than 1e-9, are drawn at 1e-9. Half a step of f32 is 6e-8.",
+        plots,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bins_are_quarters_of_decades_from_the_lowest() {
+        assert_eq!(edge(0), 1.0e-9);
+        assert!((edge(4) / 1.0e-8 - 1.0).abs() < 1.0e-12);
+        assert!((edge(DepthErrors::BINS) / 10.0 - 1.0).abs() < 1.0e-12);
+    }
+
+    #[test]
+    fn only_bins_between_the_first_and_the_last_hit_are_drawn() {
+        let with = |filled: &[usize]| {
+            let mut bins = vec![0; DepthErrors::BINS];
+            filled.iter().for_each(|index| bins[*index] = 5);
+            DepthErrors { run: 0, zero: 1, bins }
+        };
+        let histograms = [with(&[7, 9]), with(&[]), with(&[3])];
+        assert_eq!(used(histograms.iter()), Some((3, 10)));
+        assert_eq!(used(histograms[1..2].iter()), None);
+        assert_eq!(total(&histograms[0]), 11);
+    }
+}

@@ -1,0 +1,112 @@
+//! Everything a run says, in parts that open on demand: options, paths and every number of the JSON.
+
+use super::super::schema::Report;
+use super::markup::Markup;
+use super::names::{contestant, workload};
+use super::section::Section;
+use crate::error::AppError;
+use serde_json::Value;
+
+/// Fields that are tables of their own, before all others.
+const OWN_TABLES: [(&str, &str); 2] = [("options", "Options"), ("paths", "What the device decided")];
+
+/// Fields that stand in the summary or in a plot value by value.
+const LEFT_OUT: [&str; 3] = ["system", "preset", "passes"];
+
+/// One part a run.
+///
+/// # Errors
+/// A run that cannot be written as JSON.
+pub(super) fn section(report: &Report) -> Result<Option<Section>, AppError> {
+    if report.runs.is_empty() {
+        return Ok(None);
+    }
+    let mut body = Markup::default();
+    body.leaf(
+        "p",
+        &[],
+        "Options as resolved from preset and command line, and every number by its name in the JSON report.",
+    );
+    for run in &report.runs {
+        let value = serde_json::to_value(run).map_err(|error| super::misfit(error.to_string()))?;
+        body.element("details", &[], |body| {
+            body.leaf("summary", &[], format_args!("{}, {}", contestant(run), workload(run)));
+            for (field, title) in OWN_TABLES {
+                let mut rows = Vec::new();
+                flatten(&value[field], String::new(), &mut rows);
+                table(body, title, &rows);
+            }
+            let mut rows = Vec::new();
+            for (name, field) in value.as_object().into_iter().flatten() {
+                let known = LEFT_OUT.contains(&name.as_str()) || OWN_TABLES.iter().any(|own| own.0 == name);
+                if !known {
+                    flatten(field, name.clone(), &mut rows);
+                }
+            }
+            table(body, "Measured", &rows);
+            pass_table(body, run);
+        });
+        body.fixed("\n");
+    }
+    Ok(Some(Section::new("runs", "Runs in full", body)))
+}
+
+/// Rows of names with dots and values in words.
+fn flatten(value: &Value, name: String, rows: &mut Vec<[String; 2]>) {
+    match value {
+        Value::Null => {}
+        Value::Object(fields) => {
+            for (field, value) in fields {
+                let name = if name.is_empty() { field.clone() } else { format!("{name}.{field}") };
+                flatten(value, name, rows);
+            }
+        }
+        Value::String(text) => rows.push([name, text.clone()]),
+        other => rows.push([name, other.to_string()]),
+    }
+}
+
+fn table(body: &mut Markup, title: &'static str, rows: &[[String; 2]]) {
+    if rows.is_empty() {
+        return;
+    }
+    body.element(
+        "div",
+        &[("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)],
+        |body| {
+            body.element("table", &[("class", "pairs")], |table| {
+                table.leaf("caption", &[], title).fixed("<tbody>");
+                for [name, value] in rows {
+                    table.element("tr", &[], |row| {
+                        row.leaf("th", &[("scope", "row")], name).leaf("td", &[], value);
+                    });
+                }
+                table.fixed("</tbody>");
+            });
+        },
+    );
+}
+
+fn pass_table(body: &mut Markup, run: &super::super::schema::Run) {
+    if run.passes.is_empty() {
+        return;
+    }
+    body.element("div", &[("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", "Passes")], |body| {
+        body.element("table", &[], |table| {
+            table.fixed(
+                "<caption>Passes, ms</caption><thead><tr><th scope=\"col\">pass</th>\
+                 <th scope=\"col\" class=\"number\">median</th><th scope=\"col\" class=\"number\">shortest</th>\
+                 <th scope=\"col\" class=\"number\">longest</th></tr></thead><tbody>",
+            );
+            for pass in &run.passes {
+                table.element("tr", &[], |row| {
+                    row.leaf("th", &[("scope", "row")], &pass.label);
+                    for value in [pass.ms_median, pass.ms_min, pass.ms_max] {
+                        row.leaf("td", &[("class", "number")], format_args!("{value:.4}"));
+                    }
+                });
+            }
+            table.fixed("</tbody>");
+        });
+    });
+}

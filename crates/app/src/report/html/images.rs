@@ -1,0 +1,135 @@
+//! Images against the reference: a slider between any two, all of them side by side, maps of FLIP.
+
+use super::super::figures::{Figures, Images, SystemImage};
+use super::super::schema::Report;
+use super::markup::Markup;
+use super::misfit;
+use super::names::contestant;
+use super::picture::{MAGMA, address, colour, ramp};
+use super::section::Section;
+use crate::error::AppError;
+use crate::output::tone_map;
+
+/// The images; absent unless images were compared.
+///
+/// # Errors
+/// An image or a map that lacks pixels.
+pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, AppError> {
+    let Some(images) = &figures.images else { return Ok(None) };
+    let mut body = Markup::default();
+    body.leaf(
+        "p",
+        &[],
+        "Tone mapping: linear colours clamped to [0, 1], then the sRGB curve; nothing else. The reference \
+         is rendered with the same random numbers, so that noise is no difference.",
+    );
+    viewer(&mut body, report, images);
+    body.fixed("<h3>All images</h3>\n<div class=\"pictures\">\n");
+    let alternative = "The scene as the reference renders it";
+    picture(
+        &mut body,
+        images,
+        ("image-reference", "reference", alternative),
+        &beauty(images, &images.reference)?,
+    );
+    for (index, system) in images.systems.iter().enumerate() {
+        let name = contestant(&report.runs[system.run]);
+        let id = format!("image-{index}");
+        let alternative = format!("The scene as {name} renders it");
+        picture(&mut body, images, (&id, &name, &alternative), &beauty(images, &system.pixels)?);
+    }
+    body.fixed("</div>\n");
+    if images.systems.iter().any(|system| !system.flip.is_empty()) {
+        maps(&mut body, report, images)?;
+    }
+    Ok(Some(Section::new("images", "Images", body)))
+}
+
+fn beauty(images: &Images, pixels: &[[f32; 3]]) -> Result<String, AppError> {
+    address(images.width, images.height, &tone_map(pixels, 0.0))
+}
+
+/// Two images one over the other; the page's script takes them from the gallery, so that none is in the
+/// page twice.
+fn viewer(body: &mut Markup, report: &Report, images: &Images) {
+    if images.systems.is_empty() {
+        return;
+    }
+    let names: Vec<String> =
+        images.systems.iter().map(|system| contestant(&report.runs[system.run])).collect();
+    body.element("div", &[("class", "viewer script-only"), ("id", "viewer")], |body| {
+        body.fixed("<div class=\"choices\">");
+        for (id, label, chosen) in [("viewer-left", "Left", 0), ("viewer-right", "Right", 1)] {
+            body.element("label", &[("for", id)], |body| {
+                body.fixed(label).fixed(" ").element("select", &[("id", id)], |body| {
+                    let all = std::iter::once("reference").chain(names.iter().map(String::as_str));
+                    for (index, name) in all.enumerate() {
+                        let value = match index.checked_sub(1) {
+                            Some(index) => format!("image-{index}"),
+                            None => "image-reference".to_owned(),
+                        };
+                        let selected = [("value", value.as_str()), ("selected", "")];
+                        body.leaf("option", &selected[..if index == chosen { 2 } else { 1 }], name);
+                    }
+                });
+            });
+        }
+        let shape = format!("aspect-ratio:{}/{}", images.width, images.height);
+        body.fixed("</div>\n").element("div", &[("class", "stage"), ("style", &shape)], |body| {
+            body.fixed("<img id=\"viewer-under\" alt=\"\"><img id=\"viewer-over\" alt=\"\">");
+        });
+        body.fixed(
+            "\n<label for=\"viewer-split\">Boundary between left and right</label>\
+             <input type=\"range\" id=\"viewer-split\" min=\"0\" max=\"100\" value=\"50\">",
+        );
+    });
+    body.fixed("\n");
+}
+
+fn picture(body: &mut Markup, images: &Images, (id, caption, alternative): (&str, &str, &str), source: &str) {
+    let size = [images.width, images.height].map(|length| length.to_string());
+    body.element("figure", &[], |figure| {
+        let attributes =
+            [("id", id), ("src", source), ("alt", alternative), ("width", &size[0]), ("height", &size[1])];
+        // Figures without a name are not looked up by anything.
+        figure.empty("img", if id.is_empty() { &attributes[1..] } else { &attributes });
+        figure.leaf("figcaption", &[], caption);
+    });
+    body.fixed("\n");
+}
+
+fn maps(body: &mut Markup, report: &Report, images: &Images) -> Result<(), AppError> {
+    body.fixed("<h3>FLIP of each pixel</h3>\n<div class=\"legend\">");
+    let words = "From 0 (dark, no visible difference) to 1 (bright)";
+    body.empty("img", &[("src", &ramp(MAGMA)?), ("alt", words)]);
+    body.fixed("<div aria-hidden=\"true\">");
+    for (place, label) in [
+        ("left:0%", "0"),
+        ("left:25%", "0.25"),
+        ("left:50%", "0.5"),
+        ("left:75%", "0.75"),
+        ("left:100%", "1"),
+    ] {
+        body.leaf("span", &[("style", place)], label);
+    }
+    body.fixed("</div></div>\n<div class=\"pictures\">\n");
+    for system in images.systems.iter().filter(|system| !system.flip.is_empty()) {
+        map(body, report, images, system)?;
+    }
+    body.fixed("</div>\n");
+    Ok(())
+}
+
+fn map(body: &mut Markup, report: &Report, images: &Images, system: &SystemImage) -> Result<(), AppError> {
+    if system.flip.len() != system.pixels.len() {
+        return Err(misfit(format!("a map of FLIP has {} pixels", system.flip.len())));
+    }
+    let rgb: Vec<u8> = system.flip.iter().flat_map(|value| colour(MAGMA, f64::from(*value))).collect();
+    let source = address(images.width, images.height, &rgb)?;
+    let name = contestant(&report.runs[system.run]);
+    let mean = system.flip.iter().map(|value| f64::from(*value)).sum::<f64>() / system.flip.len() as f64;
+    let largest = system.flip.iter().copied().fold(0.0, f32::max);
+    let caption = format!("{name}: mean {mean:.5}, largest {largest:.3}");
+    picture(body, images, ("", &caption, &format!("Map of FLIP of {caption}")), &source);
+    Ok(())
+}

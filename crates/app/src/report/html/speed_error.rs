@@ -1,0 +1,231 @@
+//! Speed against error, one plot a workload and measure, with the runs that no other beats.
+
+use super::super::figures::DepthErrors;
+use super::super::grouped;
+use super::super::schema::{Report, Run};
+use super::axes;
+use super::markup::plot_text;
+use super::names::{by_workload, contestant, look};
+use super::pareto::{Point, front};
+use super::section::{Plot, Section};
+use serde_json::{Value, json};
+
+/// A run in a plot.
+struct Entry<'a> {
+    run: &'a Run,
+    /// Where it stands from left to right.
+    x: f64,
+    /// How fast it is: more is better.
+    speed: f64,
+    /// What was measured.
+    error: f64,
+    /// The error's interval, where there is one.
+    interval: Option<[f64; 2]>,
+    /// More about it.
+    note: String,
+}
+
+/// What a plot's axes are.
+struct Measure {
+    id: &'static str,
+    title: &'static str,
+    x: &'static str,
+    y: &'static str,
+    /// Whether a faster run stands to the right.
+    faster_is_right: bool,
+    /// Where errors too small to be told from zero are drawn; absent on an axis that has a zero.
+    floor: Option<f64>,
+}
+
+/// Unambiguous rays.
+pub(super) fn judged(run: &Run) -> Option<u64> {
+    let accuracy = run.accuracy.as_ref()?;
+    accuracy.rays.checked_sub(accuracy.ambiguous).filter(|rays| *rays > 0)
+}
+
+/// Missed, false and wrong hits.
+fn errors(run: &Run) -> Option<u64> {
+    let accuracy = run.accuracy.as_ref()?;
+    Some(accuracy.missed + accuracy.false_hits + accuracy.wrong_primitive.unwrap_or(0))
+}
+
+/// Millions of rays a second.
+fn rate(run: &Run) -> Option<f64> {
+    let by_time = || Some(run.times.rays? as f64 / run.times.trace_ms? / 1000.0);
+    run.times.mrays_per_s.or_else(by_time).filter(|rate| rate.is_finite() && *rate > 0.0)
+}
+
+fn hits(run: &Run) -> Option<Entry<'_>> {
+    let (speed, rays, errors) = (rate(run)?, judged(run)?, errors(run)?);
+    let note = format!("{} errors of {} rays", grouped(errors), grouped(rays));
+    Some(Entry { run, x: speed, speed, error: errors as f64 / rays as f64, interval: None, note })
+}
+
+fn depth(run: &Run) -> Option<Entry<'_>> {
+    let (speed, error) = (rate(run)?, run.accuracy.as_ref()?.dt_rel_p99?);
+    let note = format!("99 % of common hits within {error:.2e}");
+    Some(Entry { run, x: speed, speed, error, interval: None, note })
+}
+
+fn picture(run: &Run) -> Option<Entry<'_>> {
+    let milliseconds = run.times.frame_ms.or(run.times.trace_ms).filter(|time| *time > 0.0)?;
+    let error = run.image.as_ref()?.flip_mean?;
+    let note = format!("FLIP {error:.5}");
+    Some(Entry { run, x: milliseconds, speed: 1.0 / milliseconds, error, interval: None, note })
+}
+
+/// All plots; a workload of which no run has both numbers has none.
+pub(super) fn section(report: &Report) -> Option<Section> {
+    let mut plots = Vec::new();
+    for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
+        let runs = || indices.iter().map(|index| &report.runs[*index]);
+        // The rays of one set are the same for every run; the fewest judged is the honest floor.
+        let rays = runs().filter_map(judged).min().unwrap_or(1);
+        let kinds: [(Measure, Vec<Entry<'_>>); 3] = [
+            (
+                Measure {
+                    id: "hits",
+                    title: "wrong answers",
+                    x: "Mrays/s (right is faster)",
+                    faster_is_right: true,
+                    y: "rate of missed, false and wrong hits",
+                    floor: Some(3.0 / rays as f64),
+                },
+                runs().filter_map(hits).collect(),
+            ),
+            (
+                Measure {
+                    id: "depth",
+                    title: "error in t",
+                    x: "Mrays/s (right is faster)",
+                    faster_is_right: true,
+                    y: "|dt|/t, 99th percentile",
+                    floor: Some(10_f64.powf(DepthErrors::LOW)),
+                },
+                runs().filter_map(depth).collect(),
+            ),
+            (
+                Measure {
+                    id: "picture",
+                    title: "FLIP of the image",
+                    x: "ms a frame (left is faster)",
+                    faster_is_right: false,
+                    y: "FLIP, mean",
+                    floor: None,
+                },
+                runs().filter_map(picture).collect(),
+            ),
+        ];
+        for (measure, entries) in kinds {
+            if !entries.is_empty() {
+                let rays = (measure.id == "hits").then_some(rays);
+                plots.push(plot(report, position, &workload, &measure, &entries, rays));
+            }
+        }
+    }
+    Section::of_plots(
+        "speed-error",
+        "Speed against error",
+        "Each run is a point; the line is the Pareto front: for a run on it no other run is faster without \
+         being less exact. The front is decided by the measured numbers. A colour is a system, a symbol a \
+         preset. Where the structure does not know the primitive, wrong hits are not counted. Hollow \
+         symbols mark errors of exactly zero.",
+        plots,
+    )
+}
+
+fn plot(
+    report: &Report,
+    position: usize,
+    workload: &str,
+    measure: &Measure,
+    entries: &[Entry<'_>],
+    rays: Option<u64>,
+) -> Plot {
+    let drawn = |entry: &Entry<'_>| entry.error.max(measure.floor.unwrap_or(0.0));
+    let points: Vec<_> =
+        entries.iter().map(|entry| Point { speed: entry.speed, error: entry.error }).collect();
+    let best = front(&points);
+    let floor = measure.floor.filter(|floor| entries.iter().any(|entry| entry.error < *floor));
+    let (note, shapes) = caption(floor, rays);
+    let y = match measure.floor {
+        Some(_) => axes::decades(measure.y, entries.iter().map(drawn).chain(floor)),
+        None => axes::around_zero(measure.y, entries.iter().map(drawn)),
+    };
+    let x = axes::close_log(measure.x, entries.iter().map(|entry| entry.x));
+    let steps = best.iter().map(|index| [entries[*index].x, drawn(&entries[*index])]).collect();
+    let mut data = vec![front_line(steps, measure.faster_is_right, &x, &y)];
+    data.extend(entries.iter().map(|entry| marker(report, entry, drawn(entry))));
+    let names: Vec<_> = best.iter().map(|index| contestant(entries[*index].run)).collect();
+    Plot {
+        id: format!("speed-error-{}-{position}", measure.id),
+        title: format!("{workload}: speed and {}", measure.title),
+        note,
+        description: format!(
+            "Scatter plot of speed against {} for {workload}. On the Pareto front, slowest first: {}.",
+            measure.title,
+            names.join(", ")
+        ),
+        height: 420,
+        data,
+        layout: json!({"xaxis": x, "yaxis": y, "shapes": shapes}),
+    }
+}
+
+/// Steps through the front, slowest first, and on to both edges of the plot: any speed between two runs
+/// is reached by the faster one, with its error, and any lower speed by the slowest.
+fn front_line(mut steps: Vec<[f64; 2]>, faster_is_right: bool, x: &Value, y: &Value) -> Value {
+    if let (Some(slowest), Some(fastest)) = (steps.first().copied(), steps.last().copied())
+        && let (Some([left, right]), Some([_, top])) = (axes::ends(x), axes::ends(y))
+    {
+        steps.insert(0, [if faster_is_right { left } else { right }, slowest[1]]);
+        steps.push([fastest[0], top]);
+    }
+    json!({
+        "type": "scatter", "mode": "lines", "name": "Pareto front", "hoverinfo": "skip",
+        "x": steps.iter().map(|step| step[0]).collect::<Vec<_>>(),
+        "y": steps.iter().map(|step| step[1]).collect::<Vec<_>>(),
+        "line": {"shape": "vh", "width": 1.5, "color": "#8c8c8c"},
+    })
+}
+
+/// What to know of the floor, and its line in the plot.
+fn caption(floor: Option<f64>, rays: Option<u64>) -> (String, Vec<Value>) {
+    let Some(floor) = floor else { return (String::new(), Vec::new()) };
+    let note = match rays {
+        Some(rays) => format!(
+            "{} rays do not resolve rates under 3/N = {floor:.1e}: smaller ones, zero too, are drawn at that \
+             dotted line.",
+            grouped(rays)
+        ),
+        None => format!("Errors under {floor:.0e}, zero too, are drawn at that dotted line."),
+    };
+    let line = json!({
+        "type": "line", "xref": "paper", "x0": 0, "x1": 1, "y0": floor, "y1": floor, "layer": "below",
+        "line": {"dash": "dot", "width": 1, "color": "#8c8c8c"},
+    });
+    (note, vec![line])
+}
+
+fn marker(report: &Report, entry: &Entry<'_>, drawn: f64) -> Value {
+    let look = look(&report.runs, entry.run);
+    let symbol = if entry.error == 0.0 { format!("{}-open", look.symbol) } else { look.symbol.to_owned() };
+    let mut lines = vec![plot_text(&contestant(entry.run)), plot_text(&entry.note)];
+    let times = [("build", entry.run.times.build_ms), ("trace", entry.run.times.trace_ms)];
+    for (name, value) in times {
+        lines.extend(value.map(|value| format!("{name} {value:.3} ms")));
+    }
+    let mut trace = json!({
+        "type": "scatter", "mode": "markers", "name": plot_text(&contestant(entry.run)),
+        "x": [entry.x], "y": [drawn], "hovertext": [lines.join("<br>")], "hoverinfo": "text",
+        "marker": {"color": look.colour, "symbol": symbol, "size": 12, "line": {"width": 2, "color": look.colour}},
+        "cliponaxis": false,
+    });
+    if let Some([low, high]) = entry.interval.filter(|_| entry.error > 0.0) {
+        trace["error_y"] = json!({
+            "type": "data", "symmetric": false, "array": [high - drawn], "arrayminus": [drawn - low],
+            "thickness": 1, "width": 4,
+        });
+    }
+    trace
+}
