@@ -1,6 +1,6 @@
 //! Empty and tiny scenes, scenes to overflow pools with, and bad input.
 
-use super::case::{Answer, Content, Context, Entry, Expectation, Triangle};
+use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle};
 use super::geometry::{aim, plate, point_on, sphere};
 use super::random::Stream;
 use rasray_reference::oracle::Ray;
@@ -8,6 +8,18 @@ use rasray_reference::oracle::Ray;
 pub(super) const CASES: &[Entry] = &[
     Entry { id: "C1", title: "no triangles", parameter: 0.0, build: empty },
     Entry { id: "C2", title: "one triangle", parameter: 0.0, build: single },
+    Entry {
+        id: "C3",
+        title: "sphere of a hundred thousand triangles (ten million in full)",
+        parameter: 0.0,
+        build: fine_sphere,
+    },
+    Entry {
+        id: "C3-random",
+        title: "a hundred thousand tiny random triangles (ten million in full)",
+        parameter: 0.0,
+        build: dust,
+    },
     Entry {
         id: "C4",
         title: "layers of random triangles, for pools of every capacity",
@@ -32,6 +44,7 @@ pub(super) const CASES: &[Entry] = &[
         parameter: 0.0,
         build: bad_rays,
     },
+    Entry { id: "C9", title: "lists of 64 layers, for corrupting them", parameter: 64.0, build: long_lists },
 ];
 
 /// How many triangles of case C5 loaders must drop: NaN, infinity and 1e38 at nine places each.
@@ -60,6 +73,50 @@ fn scattered(id: &str, index: usize, size: f32) -> Triangle {
     let mut random = Stream::new(id, 0, index as u64);
     let center = [random.between(-3.0, 3.0), random.between(-3.0, 3.0), random.between(4.0, 8.0)];
     [(); 3].map(|()| random.near(center, size))
+}
+
+fn fine_sphere(context: &Context) -> Content {
+    let triangles = sphere([0.0; 3], 2.0, if context.scale.full { 2236 } else { 224 });
+    let rays = context.rays(|random, _| Ray::new(random.near([0.0; 3], 0.8), random.direction()));
+    Content::new(triangles, rays, Expectation::All(Answer::Hit))
+}
+
+fn dust(context: &Context) -> Content {
+    let count = if context.scale.full { 10_000_000 } else { 100_000 };
+    let triangles = (0..count)
+        .map(|index| {
+            let mut random = Stream::new("C3-random", 0, index);
+            let center = random.near([0.0; 3], 1.0);
+            [(); 3].map(|()| random.near(center, 1e-3))
+        })
+        .collect();
+    let rays = context.rays(|random, index| {
+        let origin = if index % 2 == 0 { [0.0; 3] } else { random.near([0.0; 3], 1.0) };
+        Ray::new(origin, random.direction())
+    });
+    Content::new(triangles, rays, Expectation::Oracle)
+}
+
+fn long_lists(context: &Context) -> Content {
+    let z = |layer: usize| 2.0 + layer as f32 * 0.0625;
+    let layers = context.parameter as usize;
+    let triangles = (0..layers).flat_map(|layer| plate(z(layer), z(layer))).collect();
+    let (rays, expect) = context.answered(|random, index| {
+        // From before each layer, so that lists are walked to every depth.
+        let layer = index % layers;
+        let (x, y) = (random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+        let answer = if (x - y).abs() < 1e-3 {
+            AIMED
+        } else {
+            Answer::HitOn { primitive: 2 * layer as u32 + u32::from(y > x), t: 1.0, tolerance: 1e-4 }
+        };
+        let start = z(layer) - 0.03125;
+        (
+            aim([x + random.between(-0.01, 0.01), y + random.between(-0.01, 0.01), start], [x, y, z(layer)]),
+            answer,
+        )
+    });
+    Content::new(triangles, rays, expect)
 }
 
 fn layers(context: &Context) -> Content {

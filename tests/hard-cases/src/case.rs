@@ -1,3 +1,5 @@
+use super::catalogue::{Targets, catalogue_row};
+use super::grid::Grid;
 use super::random::Stream;
 use rasray_metrics::{DeviceHit, Truth};
 use rasray_reference::oracle::{Ray, Verdict};
@@ -38,6 +40,12 @@ pub struct HardCase {
     pub eye: [f32; 3],
     /// What is known about the answers.
     pub expect: Expectation,
+    /// What is looked at.
+    pub measure: &'static str,
+    /// What is demanded, by kind of structure.
+    pub target: Targets,
+    /// The voxels that the case is made for, where it is about voxels.
+    pub grid: Option<Grid>,
 }
 
 /// What is known by construction about the answers to all rays of a case.
@@ -167,6 +175,7 @@ pub(super) struct Content {
     pub rays: Vec<Ray>,
     pub eye: [f32; 3],
     pub expect: Expectation,
+    pub grid: Option<Grid>,
 }
 
 /// What the construction of a case may depend on.
@@ -179,8 +188,10 @@ pub(super) struct Context {
 impl Entry {
     pub fn build(&self, scale: Scale) -> HardCase {
         let context = Context { id: self.id, parameter: self.parameter, scale };
-        let Content { triangles, rays, eye, expect } = (self.build)(&context);
-        HardCase { id: self.id, title: self.title, triangles, rays, eye, expect }
+        let Content { triangles, rays, eye, expect, grid } = (self.build)(&context);
+        let row = catalogue_row(self.id).expect("a test looks every case up");
+        let (measure, target) = (row.measure, row.target);
+        HardCase { id: self.id, title: self.title, triangles, rays, eye, expect, measure, target, grid }
     }
 }
 
@@ -204,12 +215,17 @@ impl Context {
 impl Content {
     /// A case seen from the origin.
     pub fn new(triangles: Vec<Triangle>, rays: Vec<Ray>, expect: Expectation) -> Self {
-        Self { triangles, rays, eye: [0.0; 3], expect }
+        Self { triangles, rays, eye: [0.0; 3], expect, grid: None }
     }
 
     /// The same with views centred elsewhere.
     pub fn seen_from(self, eye: [f32; 3]) -> Self {
         Self { eye, ..self }
+    }
+
+    /// The same with the voxels it is made for.
+    pub fn on(self, grid: Grid) -> Self {
+        Self { grid: Some(grid), ..self }
     }
 }
 

@@ -36,17 +36,22 @@ pub(super) fn cube(center: [f32; 3], half: f32) -> Vec<Triangle> {
 /// A closed sphere of `rows` by `rows` cells with its poles on the z axis. Corners are computed in
 /// double precision and rounded once, so that neighbours share them.
 pub(super) fn sphere(center: [f32; 3], radius: f64, rows: usize) -> Vec<Triangle> {
+    uv_sphere(center, radius, rows, rows)
+}
+
+/// As [`sphere`], of `rows` by `columns` cells.
+pub(super) fn uv_sphere(center: [f32; 3], radius: f64, rows: usize, columns: usize) -> Vec<Triangle> {
     use std::f64::consts::{PI, TAU};
     let corner = |row: usize, column: usize| -> [f32; 3] {
         let polar = if row == rows { PI } else { PI * row as f64 / rows as f64 };
         let ring = if row == 0 || row == rows { 0.0 } else { polar.sin() };
-        let azimuth = TAU * (column % rows) as f64 / rows as f64;
+        let azimuth = TAU * (column % columns) as f64 / columns as f64;
         let direction = [ring * azimuth.cos(), ring * azimuth.sin(), polar.cos()];
         std::array::from_fn(|axis| (f64::from(center[axis]) + radius * direction[axis]) as f32)
     };
-    let mut triangles = Vec::with_capacity(2 * rows * (rows - 1));
+    let mut triangles = Vec::with_capacity(2 * columns * rows.saturating_sub(1));
     for row in 0..rows {
-        for column in 0..rows {
+        for column in 0..columns {
             let [a, b] = [corner(row, column), corner(row + 1, column)];
             let [c, d] = [corner(row + 1, column + 1), corner(row, column + 1)];
             if row + 1 < rows {

@@ -1,8 +1,10 @@
 //! The hard cases of ray tracing: scenes and rays that break tracers, as data with their truth.
 //!
-//! Every case has a short id (G triangle shape, E edges and vertices, V views, Z depth, C capacity and
-//! bad input, P light transport; variants append a parameter). Coordinates are single precision and the camera
-//! looks along +z. The truth comes from the oracle at run time; where a case's answer is known by
+//! Every case has a short id (G triangle shape, E edges and vertices, V views, Z depth, X voxels,
+//! C capacity and bad input, T transforms, P light transport; variants append a parameter). Coordinates are
+//! single precision, in metres, and the camera looks along +z. [`CATALOGUE`] says of each number what is looked at
+//! and what is demanded of each kind of structure. Bad input that never becomes triangles is a [`HardFile`].
+//! The truth comes from the oracle at run time; where a case's answer is known by
 //! construction it is stated as well, and a test holds the oracle against it.
 //!
 //! A ray depends on (case, seed, index) alone, never on how many rays are asked for, so that a failure
@@ -10,15 +12,24 @@
 
 mod capacity;
 mod case;
+mod catalogue;
+mod departure;
 mod depth;
 mod depth_layers;
 mod edges;
+mod files;
 mod geometry;
+mod gltf_text;
+mod grid;
+mod interfaces;
 mod light;
 mod random;
 mod shape;
+mod transforms;
 mod views;
 mod views_center;
+mod voxel_content;
+mod voxels;
 
 #[cfg(test)]
 mod single_precision;
@@ -27,7 +38,11 @@ mod tests;
 
 pub use capacity::POISONED_DROPPED;
 pub use case::{Answer, Expectation, HardCase, Scale, Triangle};
+pub use catalogue::{CATALOGUE, CatalogueRow, Target, Targets, catalogue_row};
+pub use files::{HardFile, Loading, Refusal, file_ids, files};
+pub use grid::Grid;
 pub use random::Stream;
+pub use transforms::{Transformed, transformed};
 
 use case::Entry;
 use rasray_reference::oracle::Ray;
@@ -41,8 +56,12 @@ fn entries() -> impl Iterator<Item = &'static Entry> {
         views_center::CASES,
         depth::CASES,
         depth_layers::CASES,
+        voxels::CASES,
+        voxel_content::CASES,
         capacity::CASES,
+        transforms::CASES,
         light::CASES,
+        interfaces::CASES,
     ]
     .into_iter()
     .flatten()

@@ -1,6 +1,7 @@
 //! Rays that leave a surface, as light transport makes them.
 
-use super::case::{Answer, Content, Context, Entry, Expectation, Triangle};
+use super::case::{Answer, Content, Context, Entry, Expectation};
+use super::departure::Departure;
 use super::geometry::{quad, sphere};
 use rasray_reference::oracle::Ray;
 
@@ -23,47 +24,6 @@ pub(super) const CASES: &[Entry] = &[
         build: leaving_sphere,
     },
 ];
-
-/// A point inside a triangle as renderers compute it, moved outwards by the bound of its rounding.
-struct Departure {
-    origin: [f32; 3],
-    /// Unit, on the counter-clockwise side.
-    normal: [f64; 3],
-}
-
-impl Departure {
-    fn new(triangle: &Triangle, weights: [f32; 3]) -> Self {
-        // Seven roundings of three products and two sums, and of the weights themselves.
-        let gamma = 7.0 * 2.0_f64.powi(-24);
-        let point: [f32; 3] =
-            std::array::from_fn(|axis| (0..3).map(|i| weights[i] * triangle[i][axis]).sum());
-        let bound: f64 = (0..3)
-            .map(|axis| (0..3).map(|i| f64::from((weights[i] * triangle[i][axis]).abs())).sum::<f64>())
-            .fold(0.0, f64::max)
-            * gamma;
-        let edge = |to: usize| -> [f64; 3] {
-            std::array::from_fn(|axis| f64::from(triangle[to][axis]) - f64::from(triangle[0][axis]))
-        };
-        let (u, v) = (edge(1), edge(2));
-        let cross: [f64; 3] =
-            std::array::from_fn(|a| u[(a + 1) % 3] * v[(a + 2) % 3] - u[(a + 2) % 3] * v[(a + 1) % 3]);
-        let length = cross.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let normal = cross.map(|x| x / length);
-        let distance = bound * normal.iter().map(|x| x.abs()).sum::<f64>();
-        let origin = std::array::from_fn(|axis| {
-            let moved = (f64::from(point[axis]) + normal[axis] * distance) as f32;
-            // One step outwards, so that rounding does not undo the move.
-            if normal[axis] > 0.0 {
-                moved.next_up()
-            } else if normal[axis] < 0.0 {
-                moved.next_down()
-            } else {
-                moved
-            }
-        });
-        Self { origin, normal }
-    }
-}
 
 fn corridor(context: &Context) -> Content {
     // The walls' diagonals cross the plane z = 0 far above and below the path.
@@ -108,12 +68,7 @@ fn leaving_sphere(context: &Context) -> Content {
     let rays = context.rays(|random, _| {
         let primitive = random.below(triangles.len());
         let departure = Departure::new(&triangles[primitive], random.weights(0.05));
-        let direction = random.direction();
-        let cosine: f64 = departure.normal.iter().zip(direction).map(|(n, d)| n * f64::from(d)).sum();
-        let side = if cosine < 0.0 { -1.0 } else { 1.0 };
-        // Well above the surface: neighbours lean away, but their corners are rounded.
-        let outwards: [f32; 3] =
-            std::array::from_fn(|axis| side * direction[axis] + 0.05 * departure.normal[axis] as f32);
+        let outwards = departure.away(random.direction(), 0.05);
         Ray { exclude_primitive: Some(primitive as u32), ..Ray::new(departure.origin, outwards) }
     });
     Content::new(triangles, rays, Expectation::All(Answer::Miss)).seen_from([0.0, 0.0, -6.0])
