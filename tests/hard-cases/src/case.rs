@@ -40,6 +40,8 @@ pub struct HardCase {
     pub eye: [f32; 3],
     /// What is known about the answers.
     pub expect: Expectation,
+    /// How much of it this is.
+    pub scale: Scale,
     /// What is looked at.
     pub measure: &'static str,
     /// What is demanded, by kind of structure.
@@ -191,7 +193,18 @@ impl Entry {
         let Content { triangles, rays, eye, expect, grid } = (self.build)(&context);
         let row = catalogue_row(self.id).expect("a test looks every case up");
         let (measure, target) = (row.measure, row.target);
-        HardCase { id: self.id, title: self.title, triangles, rays, eye, expect, measure, target, grid }
+        HardCase {
+            id: self.id,
+            title: self.title,
+            triangles,
+            rays,
+            eye,
+            expect,
+            scale,
+            measure,
+            target,
+            grid,
+        }
     }
 }
 

@@ -170,7 +170,9 @@ fn from_outside(random: &mut super::Stream, triangle: &Triangle) -> Ray {
 fn outside(context: &Context) -> Content {
     let triangles = posed(context);
     let rays = context.rays(|random, index| from_outside(random, &triangles[index % triangles.len()]));
-    Content::new(triangles, rays, Expectation::All(Answer::Hit)).seen_from([0.1, 0.2, 2.0])
+    // From where no face of either tetrahedron is seen edge-on.
+    let eye = if context.id == "T1" { [0.1, 0.2, 2.0] } else { [0.9, -1.5, 3.5] };
+    Content::new(triangles, rays, Expectation::All(Answer::Hit)).seen_from(eye)
 }
 
 fn flattened(context: &Context) -> Content {

@@ -94,7 +94,7 @@ fn plates(context: &Context) -> Content {
     let (rays, expect) = context.answered(|random, index| {
         let k = index % PLATES;
         // From within the gap before or behind, which is at least 0.3 wide.
-        let height = random.between(0.05, 0.25) * if index / PLATES % 2 == 0 { -1.0 } else { 1.0 };
+        let height = random.between(0.05, 0.25) * if (index / PLATES).is_multiple_of(2) { -1.0 } else { 1.0 };
         at_plate(random, &triangles, 2 * k + index / (2 * PLATES) % 2, height, 0.1)
     });
     Content::new(triangles.clone(), rays, expect).seen_from([31.9, 32.3, 28.2]).on(Grid::UNIT_64)

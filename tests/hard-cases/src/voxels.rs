@@ -46,9 +46,9 @@ fn diagonal(context: &Context) -> Content {
     };
     // Across the diagonal, in every eighth cell.
     let across = |k: usize| -> Triangle {
-        let v = if in_space { [0.1, 0.1, -0.2] } else { [0.0, 0.0, 0.2] };
+        let v = if in_space { [0.3, 0.3, -0.6] } else { [0.0, 0.0, 0.6] };
         let base = along(middle(k), v, -0.5);
-        let side = [0.2, -0.2, 0.0];
+        let side = [0.6, -0.6, 0.0];
         [along(base, side, 1.0), along(base, side, -1.0), along(middle(k), v, 1.0)]
     };
     let mut triangles: Vec<Triangle> = (1..=8).map(|plate| across(STEP * plate - 1)).collect();
@@ -106,7 +106,7 @@ fn between_cells(context: &Context) -> Content {
 fn signed_zeros(context: &Context) -> Content {
     let (rays, expect) = context.answered(|random, index| {
         let (axis, forth) = (index % 3, index / 3 % 2 == 0);
-        let zero = |bit: usize| if index / 6 >> bit & 1 == 0 { 0.0 } else { -0.0 };
+        let zero = |bit: usize| if (index / 6) >> bit & 1 == 0 { 0.0 } else { -0.0 };
         let mut direction = [zero(0), zero(1), zero(2)];
         direction[axis] = if forth { 1.0 } else { -1.0 };
         let mut origin = random.near([32.0; 3], 31.0);

@@ -8,6 +8,11 @@ const SHELL: &str = "both sides of the shell lie within one step";
 const LEAVING: &str = "a ray that leaves a surface meets the samples beside its own";
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
 
+const FAR_PLATES: &str =
+    "plates so far off that they fill a few cells only, all of whose centres are near an edge";
+const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
+const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
+
 /// Cases whose errors fall with the size of a cell as others do, from a higher start.
 pub(super) const ROBUST_LAWS: &[Law] = &[
     Law {
@@ -39,6 +44,31 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
         per_cell: 2.5,
     },
     Law { case: "E2-400", reason: "poles, whose triangles are far narrower than cells", per_cell: 1.5 },
+    Law { case: "E8", reason: "both triangles are open but for the edge that rays meet", per_cell: 2.6 },
+    Law { case: "X2", reason: FAR_PLATES, per_cell: 19.0 },
+    Law { case: "X3", reason: FAR_PLATES, per_cell: 28.0 },
+    Law { case: "X6", reason: "a cube of a few cells, met at its silhouette as well", per_cell: 2.8 },
+    Law { case: "X7", reason: FAR_PLATES, per_cell: 33.0 },
+    Law { case: "X9", reason: FAR_PLATES, per_cell: 2.1 },
+    Law { case: "X10", reason: FAR_PLATES, per_cell: 3.9 },
+    Law {
+        case: "X12",
+        reason: "half of the rays meet a corner, a fiftieth of the triangle in size",
+        per_cell: 38.0,
+    },
+    Law { case: "T1", reason: BORDER, per_cell: 11.0 },
+    Law { case: "T3", reason: BORDER, per_cell: 2.9 },
+    Law { case: "T4", reason: BORDER, per_cell: 5.0 },
+    Law {
+        case: "P1",
+        reason: "spheres inside spheres, seen from outside, half of each at grazing angles",
+        per_cell: 63.0,
+    },
+    Law {
+        case: "P7",
+        reason: "rays that leave a surface at grazing angles meet the cells beside their own",
+        per_cell: 16.0,
+    },
 ];
 
 /// Planes in 16 x 16 cells a face.
@@ -58,6 +88,7 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("V2-5", EDGE_ON, 0.99, 1.0),
     deviation("V2-6", EDGE_ON, 0.99, 1.0),
     deviation("V16", THIN, 0.99, 1.0),
+    deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
 /// Planes in 128 x 128 cells a face.
@@ -74,6 +105,24 @@ pub(super) const ROBUST_128: &[Deviation] = &[
     deviation("V2-5", EDGE_ON, 0.99, 1.0),
     deviation("V2-6", EDGE_ON, 0.99, 1.0),
     deviation("V16", THIN, 0.99, 1.0),
+    deviation("T2", NEEDLE, 0.513, 0.809),
+    deviation("C3-random", DUST, 0.007, 0.011),
+];
+
+/// Planes in 256 x 256 cells a face.
+pub(super) const ROBUST_256: &[Deviation] = &[
+    deviation("G1", THIN, 0.695, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.488, 0.77),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-2", EDGE_ON, 0.149, 0.235),
+    deviation("V2-3", EDGE_ON, 0.497, 0.785),
+    deviation("V2-4", EDGE_ON, 0.99, 1.0),
+    deviation("V2-5", EDGE_ON, 0.99, 1.0),
+    deviation("V2-6", EDGE_ON, 0.99, 1.0),
+    deviation("T2", NEEDLE, 0.504, 0.795),
+    deviation("C3-random", DUST, 0.008, 0.012),
 ];
 
 /// Samples in 16 x 16 cells a face.
@@ -121,6 +170,30 @@ pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("C5", BORDER, 0.395, 0.619),
     deviation("P3", HALF_OPEN, 0.4, 0.626),
     deviation("P5", LEAVING, 0.213, 0.334),
+    deviation("E5", HALF_OPEN, 0.033, 0.053),
+    deviation("E8", HALF_OPEN, 0.024, 0.038),
+    deviation("X1", HALF_OPEN, 0.661, 1.0),
+    deviation("X2", HALF_OPEN, 0.54, 0.852),
+    deviation("X3", HALF_OPEN, 0.243, 0.383),
+    deviation("X6", HALF_OPEN, 0.206, 0.325),
+    deviation("X7", HALF_OPEN, 0.136, 0.214),
+    deviation("X10", BORDER, 0.044, 0.07),
+    deviation("X12", BORDER, 0.225, 0.356),
+    deviation("X13", HALF_OPEN, 0.312, 0.492),
+    deviation("X14", HALF_OPEN, 0.028, 0.044),
+    deviation("X15", HALF_OPEN, 0.494, 0.78),
+    deviation("C3", HALF_OPEN, 0.054, 0.085),
+    deviation("T1", HALF_OPEN, 0.33, 0.52),
+    deviation("T2", NEEDLE, 0.532, 0.84),
+    deviation("T3", BORDER, 0.015, 0.024),
+    deviation("T4", HALF_OPEN, 0.273, 0.431),
+    deviation("P1", LEAVING, 0.614, 0.969),
+    deviation("P2", HALF_OPEN, 0.629, 0.993),
+    deviation("P7", LEAVING, 0.388, 0.612),
+    deviation("P8-1", LEAVING, 0.513, 0.809),
+    deviation("P8-2", LEAVING, 0.605, 0.956),
+    deviation("P8-4", LEAVING, 0.641, 1.0),
+    deviation("P8-8", LEAVING, 0.596, 0.941),
 ];
 
 const fn deviation(

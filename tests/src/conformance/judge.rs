@@ -1,49 +1,85 @@
-use super::{Demand, Measured, Prepared, Row};
+use super::{Demand, Measured, Prepared, Row, comparisons};
+
+/// The probability that any judgement of any row on any case is wrong although every law and every
+/// deviation holds. Each comparison gets an equal share of it (Bonferroni).
+pub const FALSE_ALARM: f64 = 1e-6;
+
+/// Of the interval (Clopper-Pearson) of a measured rate, so that one comparison with one of its ends is wrong
+/// with at most its share of [`FALSE_ALARM`].
+pub fn confidence() -> f64 {
+    1.0 - FALSE_ALARM / comparisons() as f64
+}
 
 /// What of a measurement breaks the row's demand on this case; empty if nothing does.
+///
+/// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
+/// Exact rows have no such room: one wrong answer is a fault.
 pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
     let mut faults = Vec::new();
     let case = &prepared.case;
-    let mut fault =
-        |what: String| faults.push(format!("{} on {} ({}): {what}", row.name, case.id, case.title));
+    let mut fault = |what: String, ray: Option<usize>| {
+        let replay = ray.map_or_else(String::new, |ray| {
+            let command = row.replay_command(case.id, case.scale.seed, ray);
+            // A ray depends on the seed and its index, but aims at the meshes of the tier.
+            let meshes = if case.scale.full { ", with the meshes of the full tier" } else { "" };
+            format!("\n    replay{meshes}: {command}")
+        });
+        faults.push(format!("{} on {} ({}): {what}{replay}", row.name, case.id, case.title));
+    };
     if measured.confusion.non_finite.count > 0 {
-        fault(format!("{} hits have a t that is no number", measured.confusion.non_finite.count));
+        let what = format!("{} hits have a t that is no number", measured.confusion.non_finite.count);
+        fault(what, measured.rejected.first().copied());
     }
-    let rate = measured.errors.value().unwrap_or(0.0);
+    let judged = measured.judged();
+    let rate = judged.value().unwrap_or(0.0);
+    let [low, high] = judged.interval_at(confidence()).unwrap_or([0.0, 1.0]);
+    let first_wrong = measured.wrong.first().copied();
     let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
-    if let Some(deviation) = deviation {
-        if rate < deviation.at_least_rate {
-            fault(format!(
-                "passes unexpectedly: the error rate is {rate:.4}, and the deviation ({}) is at least {}; remove it",
+    if let Some(deviation) = deviation.filter(|_| !row.is_exact()) {
+        if high < deviation.at_least_rate {
+            let what = format!(
+                "passes unexpectedly: the error rate is {rate:.4}, at most {high:.4}, and the deviation ({}) is at least {}; remove it",
                 deviation.reason, deviation.at_least_rate
-            ));
+            );
+            fault(what, None);
         }
-        if rate > deviation.at_most_rate {
-            fault(format!(
-                "the error rate is {rate:.4}, more than the {} of the deviation ({})",
+        if low > deviation.at_most_rate {
+            let what = format!(
+                "the error rate is {rate:.4}, at least {low:.4}: more than the {} of the deviation ({})",
                 deviation.at_most_rate, deviation.reason
-            ));
+            );
+            fault(what, first_wrong);
         }
         return faults;
     }
     match row.demand {
         Demand::Exact { .. } => {
+            if let Some(deviation) = deviation {
+                let what =
+                    format!("a row that finds triangles may not deviate ({}); repair it", deviation.reason);
+                fault(what, None);
+            }
             if let Some(&first) = measured.rejected.first() {
-                fault(format!(
+                let what = format!(
                     "{} of {} rays get a wrong answer; the first: ray {first}, {:?}, the truth is {:?}; {:?}",
                     measured.rejected.len(),
                     case.rays.len(),
                     case.rays[first],
                     prepared.verdicts[first],
                     measured.confusion
-                ));
+                );
+                fault(what, Some(first));
             }
         }
         Demand::Law { resolution, per_cell, laws, .. } => {
             let law = laws.iter().find(|law| law.case == case.id);
             let limit = law.map_or(per_cell, |law| law.per_cell) / f64::from(resolution);
-            if rate > limit {
-                fault(format!("the error rate is {rate:.4}, more than {limit:.4}: {:?}", measured.confusion));
+            if low > limit {
+                let what = format!(
+                    "the error rate is {rate:.4}, at least {low:.4}: more than {limit:.4}: {:?}",
+                    measured.confusion
+                );
+                fault(what, first_wrong);
             }
         }
     }

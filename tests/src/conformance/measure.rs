@@ -1,5 +1,6 @@
 use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, Structure};
 use rasray_metrics::{DeviceHit, HitConfusion, Percentiles, Rate, Truth};
+use rasray_reference::oracle::Verdict;
 
 use super::Prepared;
 use crate::hard_cases::Answer;
@@ -12,6 +13,10 @@ pub struct Measured {
     pub confusion: HitConfusion,
     /// Of the unambiguous rays, the share that was missed, false, or wrong in t beyond the tolerance.
     pub errors: Rate,
+    /// Of the ambiguous rays, the share that got an answer that is not admissible, give or take the tolerance in t.
+    pub inadmissible: Rate,
+    /// The rays that count in [`Measured::judged`], by index.
+    pub wrong: Vec<usize>,
     /// Rays whose answer a structure that finds triangles may not give, by index.
     pub rejected: Vec<usize>,
     /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
@@ -47,8 +52,11 @@ pub fn measure(
     compare(prepared, &hits, depth_tolerance, rounding)
 }
 
-/// Compares answers with the truth.
-pub(super) fn compare(
+/// Compares answers with the truth, as [`measure`] does with a structure's.
+///
+/// # Panics
+/// If there are not as many answers as rays.
+pub fn compare(
     prepared: &Prepared,
     hits: &[Option<DeviceHit>],
     depth_tolerance: f64,
@@ -56,9 +64,16 @@ pub(super) fn compare(
 ) -> Measured {
     let confusion =
         HitConfusion::measure(&prepared.verdicts, hits, depth_tolerance).expect("there is one hit a ray");
-    let mut measured =
-        Measured { confusion, errors: Rate::default(), rejected: Vec::new(), lost: 0, dt_right: None };
-    let mut dt_right = Vec::new();
+    let mut measured = Measured {
+        confusion,
+        errors: Rate::default(),
+        inadmissible: Rate::default(),
+        wrong: Vec::new(),
+        rejected: Vec::new(),
+        lost: 0,
+        dt_right: None,
+    };
+    let (mut dt_right, mut inadmissible) = (Vec::new(), Vec::new());
     for (index, (verdict, hit)) in prepared.verdicts.iter().zip(hits).enumerate() {
         if !prepared.case.accepts(index, verdict, *hit, rounding) {
             measured.rejected.push(index);
@@ -66,7 +81,15 @@ pub(super) fn compare(
         let answer = prepared.case.answer(index);
         let must_hit = matches!(answer, Answer::Hit | Answer::HitAt { .. } | Answer::HitOn { .. });
         measured.lost += usize::from(must_hit && hit.is_none());
-        if verdict.is_ambiguous() || matches!(answer, Answer::Anything { .. }) {
+        if matches!(answer, Answer::Anything { .. }) {
+            continue;
+        }
+        if verdict.is_ambiguous() {
+            measured.inadmissible.total += 1;
+            if !admissible(verdict, hit.as_ref(), depth_tolerance) {
+                measured.inadmissible.count += 1;
+                inadmissible.push(index);
+            }
             continue;
         }
         measured.errors.total += 1;
@@ -82,8 +105,30 @@ pub(super) fn compare(
             }
             _ => true,
         };
-        measured.errors.count += u64::from(wrong);
+        if wrong {
+            measured.errors.count += 1;
+            measured.wrong.push(index);
+        }
+    }
+    if measured.errors.total == 0 {
+        measured.wrong = inadmissible;
     }
     measured.dt_right = Percentiles::of(&dt_right);
     measured
+}
+
+impl Measured {
+    /// The rate that laws bound: that of errors, or of inadmissible answers where every ray of a case is ambiguous
+    /// (surfaces that coincide).
+    pub fn judged(&self) -> Rate {
+        if self.errors.total > 0 { self.errors } else { self.inadmissible }
+    }
+}
+
+/// Whether an ambiguous ray may get this answer, on whatever triangle.
+fn admissible(verdict: &Verdict, hit: Option<&DeviceHit>, depth_tolerance: f64) -> bool {
+    hit.map_or(verdict.miss_allowed, |hit| {
+        let (t, slack) = (f64::from(hit.t), depth_tolerance * f64::from(hit.t).abs());
+        verdict.candidates.iter().any(|one| one.t_low - slack <= t && t <= one.t_high + slack)
+    })
 }

@@ -1,8 +1,16 @@
-//! Conformance of structures: every row (a structure in a configuration) against every hard case.
+//! Conformance of structures: every row (a system with a preset and options) against every hard case.
 //!
 //! A row says what is demanded of it: an exact answer, or a bound of its error rate. Where a row cannot
 //! meet its demand on a case, it carries a [`Deviation`] with the reason and the range that its error
-//! rate must lie in, so that an unexpected pass fails as well.
+//! rate must lie in, so that an unexpected pass fails as well. Rows that find triangles may carry none.
+//!
+//! Another structure needs one row in [`ROWS`], once its system is in the registry: a name, the system, the preset,
+//! options, and [`Demand::Exact`] or [`Demand::Law`]. The tests hold every row without being told; one of
+//! them fails for a preset of the registry that no row stands for. A list of deviations starts empty: the first run
+//! reports every case whose rate is beyond the law, with the rate. `RASRAY_RATES=1` with `--nocapture` prints all rates.
+//!
+//! Rates are judged by their interval, so that all judgements together are wrong with a probability of at
+//! most [`FALSE_ALARM`] where every law holds, whatever the seed.
 
 mod deviations;
 mod judge;
@@ -11,8 +19,8 @@ mod prepare;
 mod rounds;
 mod rows;
 
-pub use judge::judge;
-pub use measure::{Measured, device_hit, measure};
+pub use judge::{FALSE_ALARM, confidence, judge};
+pub use measure::{Measured, compare, device_hit, measure};
 pub use prepare::{Prepared, loadable};
 pub use rounds::trace_in_rounds;
-pub use rows::{Cases, DEEP, Demand, Deviation, Law, ROWS, Row};
+pub use rows::{Cases, DEEP, Demand, Deviation, Law, ROWS, Row, Tier, comparisons};

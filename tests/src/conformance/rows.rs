@@ -1,7 +1,8 @@
-use rasray_abuffer::{ABuffer, Accept, Config, Coverage, March};
-use rasray_ads::{BruteForce, Geometry, Structure};
+use rasray_ads::{Geometry, Structure};
+use rasray_systems::{Preset, Spec};
 
 use super::deviations;
+use crate::hard_cases;
 use crate::harness::Bench;
 
 /// What is demanded of a row.
@@ -77,19 +78,77 @@ impl Cases {
     }
 }
 
-/// A structure in a configuration.
+/// When a row is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tier {
+    /// In every run.
+    Quick,
+    /// Only where `RASRAY_FULL` is 1.
+    Full,
+}
+
+/// A system of the registry with a preset and options.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
-    /// Unique.
+    /// Unique; failures are reported under it.
     pub name: &'static str,
-    /// Makes the structure; its geometry is replaced for each case.
-    pub make: fn(&Bench, &Geometry) -> Box<dyn Structure>,
-    /// Which cases.
+    /// Name of the system.
+    pub system: &'static str,
+    /// Its preset.
+    pub preset: Preset,
+    /// Options over the preset, by name.
+    pub options: &'static [(&'static str, &'static str)],
+    /// When it is held.
+    pub tier: Tier,
+    /// Against which cases.
     pub cases: Cases,
     /// What every case demands.
     pub demand: Demand,
-    /// The cases that are known not to.
+    /// The cases that are known not to meet it. None may be listed for [`Demand::Exact`].
     pub deviations: &'static [Deviation],
+}
+
+impl Row {
+    /// Makes the structure; its geometry is replaced for each case.
+    ///
+    /// # Panics
+    /// If the registry does not know the row's words, or the device refuses.
+    pub fn make(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
+        let options = self.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Spec::new(self.system, self.preset.name(), options)
+            .and_then(|spec| spec.create(bench.device(), geometry, None))
+            .unwrap_or_else(|error| panic!("row {} cannot be made: {error}", self.name))
+    }
+
+    /// How deep hits may be off in the error rate, and how far t may be beyond the oracle's bounds.
+    pub fn tolerances(&self) -> (f64, f64) {
+        match self.demand {
+            Demand::Exact { rounding } => (0.0, rounding),
+            Demand::Law { depth_tolerance, .. } => (depth_tolerance, 0.0),
+        }
+    }
+
+    /// Whether every answer must be right.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.demand, Demand::Exact { .. })
+    }
+
+    /// The command that traces one ray of a case with this row's system and prints what it did.
+    pub fn replay_command(&self, case: &str, seed: u64, ray: usize) -> String {
+        let options: String =
+            self.options.iter().map(|(name, value)| format!(" {}.{name}={value}", self.system)).collect();
+        format!(
+            "rasray compare hard:{case} --systems {} --presets {} --seed {seed} --replay {ray}{options}",
+            self.system,
+            self.preset.name()
+        )
+    }
+}
+
+/// How often a row is judged in all runs together: each law and each end of a deviation is one comparison.
+pub fn comparisons() -> usize {
+    let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();
+    ROWS.iter().map(|row| 2 * cases(row)).sum()
 }
 
 /// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test itself.
@@ -105,71 +164,79 @@ const fn published_law(resolution: u32) -> Demand {
     Demand::Law { resolution, per_cell: 1.92, depth_tolerance: 2e-2, laws: &[] }
 }
 
+const fn mmrt(
+    name: &'static str,
+    preset: Preset,
+    options: &'static [(&'static str, &'static str)],
+    cases: Cases,
+    demand: Demand,
+    deviations: &'static [Deviation],
+) -> Row {
+    Row { name, system: "mmrt", preset, options, tier: Tier::Quick, cases, demand, deviations }
+}
+
 /// All rows.
 pub const ROWS: &[Row] = &[
     Row {
         name: "brute-force",
-        make: brute_force,
+        system: "brute-force",
+        preset: Preset::Robust,
+        options: &[],
+        tier: Tier::Quick,
         cases: Cases::All,
         demand: Demand::Exact { rounding: ROUNDING },
         deviations: &[],
     },
+    mmrt(
+        "mmrt-robust-16",
+        Preset::Robust,
+        &[("resolution", "16")],
+        Cases::Deep,
+        robust_law(16),
+        deviations::ROBUST_16,
+    ),
+    mmrt(
+        "mmrt-robust-64",
+        Preset::Robust,
+        &[("resolution", "64")],
+        Cases::Shallow,
+        robust_law(64),
+        deviations::ROBUST_64,
+    ),
+    mmrt(
+        "mmrt-robust-128",
+        Preset::Robust,
+        &[("resolution", "128")],
+        Cases::Shallow,
+        robust_law(128),
+        deviations::ROBUST_128,
+    ),
     Row {
-        name: "mmrt-robust-16",
-        make: robust::<16>,
-        cases: Cases::Deep,
-        demand: robust_law(16),
-        deviations: deviations::ROBUST_16,
+        tier: Tier::Full,
+        ..mmrt(
+            "mmrt-robust-256",
+            Preset::Robust,
+            &[("resolution", "256")],
+            Cases::Shallow,
+            robust_law(256),
+            deviations::ROBUST_256,
+        )
     },
-    Row {
-        name: "mmrt-robust-64",
-        make: robust::<64>,
-        cases: Cases::Shallow,
-        demand: robust_law(64),
-        deviations: deviations::ROBUST_64,
-    },
-    Row {
-        name: "mmrt-robust-128",
-        make: robust::<128>,
-        cases: Cases::Shallow,
-        demand: robust_law(128),
-        deviations: deviations::ROBUST_128,
-    },
-    Row {
-        name: "mmrt-published-16",
-        make: published::<16>,
-        cases: Cases::Deep,
-        demand: published_law(16),
-        deviations: deviations::PUBLISHED_16,
-    },
-    Row {
-        name: "mmrt-published-128",
-        make: published::<128>,
-        cases: Cases::Shallow,
-        demand: published_law(128),
-        deviations: deviations::PUBLISHED_128,
-    },
+    // Triangle ids instead of attributes, which need a scene.
+    mmrt(
+        "mmrt-published-16",
+        Preset::Published,
+        &[("resolution", "16"), ("payload", "index")],
+        Cases::Deep,
+        published_law(16),
+        deviations::PUBLISHED_16,
+    ),
+    mmrt(
+        "mmrt-published-128",
+        Preset::Published,
+        &[("resolution", "128"), ("payload", "index")],
+        Cases::Shallow,
+        published_law(128),
+        deviations::PUBLISHED_128,
+    ),
 ];
-
-fn brute_force(bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
-    Box::new(BruteForce::new(bench.device(), geometry, None, false).expect("pipelines can be made"))
-}
-
-fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Structure> {
-    Box::new(ABuffer::new(bench.device(), config, geometry, None).expect("the configuration is valid"))
-}
-
-fn robust<const RESOLUTION: u32>(bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
-    abuffer(bench, geometry, Config::robust(RESOLUTION))
-}
-
-/// The published march, acceptance and coverage; ids instead of attributes, which need a scene.
-fn published<const RESOLUTION: u32>(bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
-    let config = Config {
-        march: March::Samples,
-        accept: Accept::Interval,
-        coverage: Coverage::Hardware,
-        ..Config::robust(RESOLUTION)
-    };
-    abuffer(bench, geometry, config)
-}
