@@ -6,7 +6,7 @@ use rasray_ads::{
     StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
 };
 use rasray_gpu::{
-    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
     Requirements, SetLayout,
 };
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
@@ -95,6 +95,16 @@ impl ABuffer {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         config.validate()?;
+        let required = Self::requirements_of(&config).required;
+        if let Some(&feature) = required
+            .iter()
+            .find(|feature| !device.has(**feature) && **feature != Feature::BufferDeviceAddress)
+        {
+            return Err(AdsError::Gpu(GpuError::FeatureNotEnabled {
+                feature,
+                what: "the A-buffer".to_owned(),
+            }));
+        }
         if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
             return Err(AdsError::Option {
                 option: "addressing",
@@ -221,6 +231,20 @@ impl ABuffer {
             near: words(&self.pools.near, "near")?,
         })
     }
+
+    /// Writes all pools back, as [`ABuffer::download`] returned them or changed. Submits and waits: for tests
+    /// and tools. Traces end within their bounds whatever links and depths say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// A pool is larger than what was allocated, or the device failed.
+    pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        device.upload(&self.pools.header, 0, bytes_of(&contents.header))?;
+        device.upload_slice(&self.pools.bounds, 0, &contents.bounds)?;
+        device.upload_slice(&self.pools.lists, 0, &contents.lists)?;
+        device.upload_slice(&self.pools.nodes, 0, &contents.nodes)?;
+        device.upload_slice(&self.pools.data, 0, &contents.data)?;
+        device.upload_slice(&self.pools.near, 0, &contents.near)
+    }
 }
 
 impl Structure for ABuffer {
@@ -317,6 +341,9 @@ impl Structure for ABuffer {
     ) {
         let set = self.pools.set.as_ref();
         self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
+        // Traces count entries that name no node: `status` tells of them as well.
+        recorder.copy(&self.pools.header, 0, &self.pools.header_readback, 0, size_of::<Header>() as u64);
+        recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
     fn record_surfaces(

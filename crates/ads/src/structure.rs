@@ -72,7 +72,7 @@ pub struct BuildStatus {
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
     pub unsorted: u64,
-    /// List entries that named no node; anything but 0 is a fault.
+    /// List entries that named no node, met by the build and by traces since; anything but 0 is a fault.
     pub corrupted: u64,
 }
 

@@ -117,7 +117,8 @@ impl Device {
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
         // SAFETY: distinct bindings of a type every device has, within its limit.
-        let raw = unsafe { core.device.create_descriptor_set_layout(&info, None) }.during(name)?;
+        let raw = unsafe { core.device.create_descriptor_set_layout(&info, None) }
+            .during("vkCreateDescriptorSetLayout", name)?;
         core.name_object(raw, name);
         let inner = SetLayoutInner { core: core.clone(), raw, name: name.to_owned(), storage_buffers };
         Ok(SetLayout { inner: Arc::new(inner) })
@@ -159,11 +160,13 @@ impl Device {
             .descriptor_count(count.max(1))];
         let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
         // SAFETY: one set of a known type.
-        let pool = unsafe { core.device.create_descriptor_pool(&info, None) }.during(name)?;
+        let pool = unsafe { core.device.create_descriptor_pool(&info, None) }
+            .during("vkCreateDescriptorPool", name)?;
         let layouts = [layout.inner.raw];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
         // SAFETY: the pool is fresh and holds what one set of this layout needs.
-        let allocated = unsafe { core.device.allocate_descriptor_sets(&info) }.during(name);
+        let allocated =
+            unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
         let raw = match allocated.as_deref() {
             Ok([raw, ..]) => *raw,
             other => {

@@ -8,7 +8,7 @@ use ash::vk;
 
 use crate::device::Device;
 use crate::device_core::Core;
-use crate::error::{GpuError, Result};
+use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::memory::{Allocation, MemoryLocation};
 
@@ -153,21 +153,13 @@ impl Device {
                 asked: size,
                 limit: core.limits.max_memory_allocation,
                 allocated: self.allocated_bytes(),
+                refused_by: "maxMemoryAllocationSize",
             });
         }
         let info =
             vk::BufferCreateInfo::default().size(size).usage(usage).sharing_mode(vk::SharingMode::EXCLUSIVE);
-        let out_of_memory = |result| match result {
-            vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => GpuError::OutOfDeviceMemory {
-                name: desc.name.to_owned(),
-                asked: size,
-                limit: core.limits.device_local_bytes,
-                allocated: self.allocated_bytes(),
-            },
-            other => GpuError::from_vulkan(other, desc.name),
-        };
         // SAFETY: size and usage are not empty, and the address usage is set only if its feature is enabled.
-        let raw = unsafe { core.device.create_buffer(&info, None) }.map_err(out_of_memory)?;
+        let raw = unsafe { core.device.create_buffer(&info, None) }.during("vkCreateBuffer", desc.name)?;
         core.name_object(raw, desc.name);
         // From here on dropping `inner` destroys the buffer and gives its memory back.
         let mut inner = BufferInner {
@@ -186,7 +178,8 @@ impl Device {
         let (memory, offset, mapped) = (allocation.memory, allocation.offset, allocation.mapped);
         inner.owned = Some(OwnedMemory { allocation: Some(allocation), bytes: requirements.size });
         // SAFETY: the piece fulfils the requirements of the buffer (contract of `Memory`), which is unbound.
-        unsafe { core.device.bind_buffer_memory(raw, memory, offset) }.map_err(out_of_memory)?;
+        unsafe { core.device.bind_buffer_memory(raw, memory, offset) }
+            .during("vkBindBufferMemory", desc.name)?;
         if desc.location != MemoryLocation::Device {
             let pointer = mapped.ok_or_else(|| GpuError::InvalidUse {
                 name: desc.name.to_owned(),

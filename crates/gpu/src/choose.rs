@@ -131,7 +131,7 @@ impl Candidate {
             .map_or_else(|_| "unnamed device".to_owned(), |name| name.to_string_lossy().into_owned());
         // SAFETY: see above.
         let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }
-            .during(&format!("the query of the extensions of {name}"))?
+            .during("vkEnumerateDeviceExtensionProperties", &name)?
             .iter()
             .filter_map(|each| each.extension_name_as_c_str().ok().map(CStr::to_owned))
             .collect();
@@ -151,6 +151,8 @@ impl Candidate {
             // SAFETY: see above; the version was checked.
             unsafe { candidate.inspect_version_1_2(instance) };
         }
+        #[cfg(feature = "fault-injection")]
+        crate::faults::hide(&mut candidate);
         Ok(candidate)
     }
 
@@ -258,7 +260,8 @@ fn choose_family(families: &[vk::QueueFamilyProperties], fixed: Option<u32>) -> 
 /// All devices of an instance.
 pub(crate) fn candidates(instance: &ash::Instance) -> Result<Vec<Candidate>> {
     // SAFETY: the instance is alive.
-    let physical = unsafe { instance.enumerate_physical_devices() }.during("the query of the devices")?;
+    let physical = unsafe { instance.enumerate_physical_devices() }
+        .during("vkEnumeratePhysicalDevices", "the list of devices")?;
     // SAFETY: the devices were just listed by this instance.
     physical.into_iter().map(|physical| unsafe { Candidate::inspect(instance, physical, None) }).collect()
 }

@@ -238,6 +238,12 @@ impl Device {
         self.core.ledger.allocated()
     }
 
+    /// Bytes that the memory source of this device has given out and not taken back, by its own books; `None`
+    /// where it keeps none. It may exceed [`Device::allocated_bytes`] by alignment.
+    pub fn bytes_given_out(&self) -> Option<u64> {
+        self.core.memory.as_ref().and_then(|memory| memory.bytes_given_out())
+    }
+
     /// Largest value of [`Device::allocated_bytes`] so far, or since [`Device::reset_peak_bytes`].
     pub fn peak_bytes(&self) -> u64 {
         self.core.ledger.peak()
@@ -335,5 +341,5 @@ fn make_device(
             // features asked for, and all pointers live until the call returns.
             unsafe { instance.create_device(candidate.physical, &info, None) }
         })
-        .during(&format!("creation of the device {}", candidate.name))
+        .during("vkCreateDevice", &candidate.name)
 }

@@ -115,8 +115,9 @@ impl Core {
         memory.allocate(requirements, location, name).map_err(|error| {
             self.ledger.release(requirements.size);
             match error {
-                GpuError::OutOfDeviceMemory { name, asked, limit, .. } => {
-                    GpuError::OutOfDeviceMemory { name, asked, limit, allocated: self.ledger.allocated() }
+                GpuError::OutOfDeviceMemory { name, asked, limit, refused_by, .. } => {
+                    let allocated = self.ledger.allocated();
+                    GpuError::OutOfDeviceMemory { name, asked, limit, allocated, refused_by }
                 }
                 other => other,
             }

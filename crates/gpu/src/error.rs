@@ -76,7 +76,8 @@ pub enum GpuError {
     },
     /// Memory is exhausted, or the memory limit given for this device would be exceeded.
     #[error(
-        "no memory for `{name}`: {asked} bytes asked for, {limit} bytes are the limit, {allocated} are in use"
+        "no memory for `{name}`, says {refused_by}: {asked} bytes asked for, {limit} bytes are the limit, \
+         {allocated} are in use"
     )]
     OutOfDeviceMemory {
         /// Name of the buffer.
@@ -87,10 +88,24 @@ pub enum GpuError {
         limit: u64,
         /// Bytes in use through this device when it failed.
         allocated: u64,
+        /// Who refused: a Vulkan call, or the name of a limit.
+        refused_by: &'static str,
+    },
+    /// The driver has no device memory left for something else than the memory of a buffer.
+    #[error(
+        "the device ran out of memory in {call} for `{during}`: free memory or give it less work at once"
+    )]
+    DeviceMemoryExhausted {
+        /// The call that reported it.
+        call: &'static str,
+        /// Name of the object or pass.
+        during: String,
     },
     /// The driver has no host memory left.
-    #[error("the driver ran out of host memory during {during}")]
+    #[error("there was no host memory in {call} for `{during}`: free memory or make it smaller")]
     OutOfHostMemory {
+        /// The call that reported it.
+        call: &'static str,
         /// Name of the object or pass.
         during: String,
     },
@@ -135,8 +150,13 @@ pub enum GpuError {
         reason: String,
     },
     /// The device was lost, usually by a fault in a shader or by the watchdog of the system.
-    #[error("the device was lost during {during}: a shader ran too long or touched memory it may not")]
+    #[error(
+        "the device was lost, says {call} for `{during}`: a shader ran too long or touched memory it may not; \
+         create a new device"
+    )]
     DeviceLost {
+        /// The call that reported it.
+        call: &'static str,
         /// Name of the object or pass.
         during: String,
     },
@@ -157,9 +177,11 @@ pub enum GpuError {
         during: String,
     },
     /// Any other failure reported by Vulkan.
-    #[error("Vulkan reported {result} during {during}")]
+    #[error("{call} reported {result} for `{during}`")]
     Vulkan {
-        /// Name of the object, pass or call.
+        /// The call that reported it.
+        call: &'static str,
+        /// Name of the object or pass.
         during: String,
         /// The result code.
         result: vk::Result,
@@ -167,25 +189,26 @@ pub enum GpuError {
 }
 
 impl GpuError {
-    /// The typed error for a result code of Vulkan; `during` names the object, pass or call.
-    pub(crate) fn from_vulkan(result: vk::Result, during: &str) -> Self {
+    /// The typed error for what a call reported; `during` names the object or pass it was made for.
+    pub(crate) fn from_vulkan(result: vk::Result, call: &'static str, during: &str) -> Self {
         let during = during.to_owned();
         match result {
-            vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost { during },
-            vk::Result::ERROR_OUT_OF_HOST_MEMORY => Self::OutOfHostMemory { during },
-            _ => Self::Vulkan { during, result },
+            vk::Result::ERROR_DEVICE_LOST => Self::DeviceLost { call, during },
+            vk::Result::ERROR_OUT_OF_HOST_MEMORY => Self::OutOfHostMemory { call, during },
+            vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => Self::DeviceMemoryExhausted { call, during },
+            _ => Self::Vulkan { call, during, result },
         }
     }
 }
 
 /// Turns a result of ash into one of this crate.
 pub(crate) trait During<T> {
-    /// Names the object, pass or call that failed.
-    fn during(self, what: &str) -> Result<T>;
+    /// Names the call that failed, and the object or pass it was made for.
+    fn during(self, call: &'static str, what: &str) -> Result<T>;
 }
 
 impl<T> During<T> for std::result::Result<T, vk::Result> {
-    fn during(self, what: &str) -> Result<T> {
-        self.map_err(|result| GpuError::from_vulkan(result, what))
+    fn during(self, call: &'static str, what: &str) -> Result<T> {
+        self.map_err(|result| GpuError::from_vulkan(result, call, what))
     }
 }

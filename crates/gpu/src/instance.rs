@@ -24,12 +24,10 @@ pub(crate) struct Instance {
 impl Instance {
     /// Loads Vulkan and creates an instance for version 1.3 (devices of version 1.2 are seen all the same).
     pub(crate) fn create(application: &str, validation: bool) -> Result<Self> {
-        // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
-        let entry = unsafe { ash::Entry::load() }
-            .map_err(|error| GpuError::LoaderMissing { reason: error.to_string() })?;
+        let entry = load()?;
         // SAFETY: global-level command of a loaded library.
         let version = unsafe { entry.try_enumerate_instance_version() }
-            .during("the query of the instance version")?
+            .during("vkEnumerateInstanceVersion", "the version of the loader")?
             .unwrap_or(vk::API_VERSION_1_0);
         if version < vk::API_VERSION_1_2 {
             let found = format!("{}.{}", vk::api_version_major(version), vk::api_version_minor(version));
@@ -80,7 +78,7 @@ impl Instance {
         let raw = unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
             vk::Result::ERROR_INCOMPATIBLE_DRIVER => GpuError::NoDevice,
             vk::Result::ERROR_LAYER_NOT_PRESENT => GpuError::ValidationLayerMissing,
-            other => GpuError::from_vulkan(other, "creation of the instance"),
+            other => GpuError::from_vulkan(other, "vkCreateInstance", &application.to_string_lossy()),
         })?;
         let mut instance = Self { raw, debug_utils, log, messenger: None, _entry: entry };
         if debug_utils {
@@ -88,7 +86,7 @@ impl Instance {
             let info = messenger_info(&instance.log);
             // SAFETY: the extension is enabled, and the log is boxed in the value that destroys the messenger.
             let messenger = unsafe { functions.create_debug_utils_messenger(&info, None) }
-                .during("creation of the validation messenger")?;
+                .during("vkCreateDebugUtilsMessengerEXT", "the messages of the validation layer")?;
             instance.messenger = Some((functions, messenger));
         }
         Ok(instance)
@@ -112,15 +110,29 @@ impl Drop for Instance {
     }
 }
 
+/// The functions of the system's Vulkan loader.
+#[cfg(not(feature = "fault-injection"))]
+fn load() -> Result<ash::Entry> {
+    // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
+    unsafe { ash::Entry::load() }.map_err(|error| GpuError::LoaderMissing { reason: error.to_string() })
+}
+
+/// The functions of the system's Vulkan loader, each behind the schedule of tests.
+#[cfg(feature = "fault-injection")]
+fn load() -> Result<ash::Entry> {
+    crate::faults::entry()
+}
+
 fn has_validation_layer(entry: &ash::Entry) -> Result<bool> {
     // SAFETY: global-level command of a loaded library.
-    let layers = unsafe { entry.enumerate_instance_layer_properties() }.during("the query of the layers")?;
+    let layers = unsafe { entry.enumerate_instance_layer_properties() }
+        .during("vkEnumerateInstanceLayerProperties", "the list of layers")?;
     Ok(layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)))
 }
 
 fn extension_names(entry: &ash::Entry, layer: Option<&CStr>) -> Result<Vec<CString>> {
     // SAFETY: global-level command of a loaded library.
     let extensions = unsafe { entry.enumerate_instance_extension_properties(layer) }
-        .during("the query of the instance extensions")?;
+        .during("vkEnumerateInstanceExtensionProperties", "the list of instance extensions")?;
     Ok(extensions.iter().filter_map(|each| each.extension_name_as_c_str().ok()).map(CStr::to_owned).collect())
 }

@@ -59,6 +59,8 @@ mod choose;
 mod device;
 mod device_core;
 mod error;
+#[cfg(feature = "fault-injection")]
+pub mod faults;
 mod features;
 mod instance;
 mod limits;

@@ -63,6 +63,11 @@ pub unsafe trait Memory: Send + Sync {
     /// # Safety
     /// The piece came from [`Memory::allocate`] of this value, and nothing uses it any more.
     unsafe fn free(&self, allocation: Allocation);
+
+    /// Bytes given out and not taken back, by the books of this source; `None` where it keeps none.
+    fn bytes_given_out(&self) -> Option<u64> {
+        None
+    }
 }
 
 /// The memory source used unless a host brings one: blocks of 16 MiB on the device and 4 MiB on the host, shared
@@ -141,8 +146,9 @@ unsafe impl Memory for PooledMemory {
                 asked: requirements.size,
                 limit: self.device_local_bytes,
                 allocated: 0,
+                refused_by: ALLOCATE,
             },
-            other => GpuError::InvalidUse { name: name.to_owned(), reason: other.to_string() },
+            other => from_allocator(&other, name),
         })?;
         // SAFETY: the handle is only used to bind a buffer to it, and freed with the piece.
         let memory = unsafe { piece.memory() };
@@ -161,6 +167,34 @@ unsafe impl Memory for PooledMemory {
         if let Err(error) = self.lock().free(*piece) {
             tracing::error!("memory could not be given back: {error}");
         }
+    }
+
+    fn bytes_given_out(&self) -> Option<u64> {
+        Some(self.lock().generate_report().total_allocated_bytes)
+    }
+}
+
+const ALLOCATE: &str = "vkAllocateMemory";
+
+/// What the allocator says, as an error of this crate. It passes result codes on as words only.
+fn from_allocator(error: &gpu_allocator::AllocationError, name: &str) -> GpuError {
+    use gpu_allocator::AllocationError as Refusal;
+    let (call, text) = match error {
+        Refusal::FailedToMap(text) => ("vkMapMemory", text.as_str()),
+        Refusal::Internal(text) if text.contains(ALLOCATE) => (ALLOCATE, text.as_str()),
+        other => return GpuError::InvalidUse { name: name.to_owned(), reason: other.to_string() },
+    };
+    let codes = [
+        vk::Result::ERROR_OUT_OF_HOST_MEMORY,
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY,
+        vk::Result::ERROR_TOO_MANY_OBJECTS,
+        vk::Result::ERROR_MEMORY_MAP_FAILED,
+        vk::Result::ERROR_DEVICE_LOST,
+    ];
+    let says = |code: &vk::Result| text.ends_with(&format!("{code:?}")) || text == code.to_string();
+    match codes.into_iter().find(says) {
+        Some(code) => GpuError::from_vulkan(code, call, name),
+        None => GpuError::InvalidUse { name: name.to_owned(), reason: format!("{call} failed: {text}") },
     }
 }
 
@@ -194,6 +228,7 @@ impl Ledger {
                 asked: bytes,
                 limit,
                 allocated: totals.allocated,
+                refused_by: "the memory limit of this device",
             });
         }
         totals.allocated = after;
@@ -229,12 +264,28 @@ mod tests {
     use super::*;
 
     #[test]
+    fn result_codes_are_found_in_the_words_of_the_allocator() {
+        use gpu_allocator::AllocationError as Refusal;
+        let lost = Refusal::Internal("Unexpected error in vkAllocateMemory: ERROR_DEVICE_LOST".to_owned());
+        assert!(matches!(
+            from_allocator(&lost, "nodes"),
+            GpuError::DeviceLost { call: "vkAllocateMemory", during } if during == "nodes"
+        ));
+        let host = Refusal::FailedToMap(vk::Result::ERROR_OUT_OF_HOST_MEMORY.to_string());
+        assert!(matches!(from_allocator(&host, "a"), GpuError::OutOfHostMemory { call: "vkMapMemory", .. }));
+        let unknown = from_allocator(&Refusal::FailedToMap("moon".to_owned()), "nodes").to_string();
+        assert!(unknown.contains("vkMapMemory") && unknown.contains("moon"), "{unknown}");
+        let other = from_allocator(&Refusal::NoCompatibleMemoryTypeFound, "nodes");
+        assert!(matches!(other, GpuError::InvalidUse { .. }));
+    }
+
+    #[test]
     fn the_ledger_keeps_total_peak_and_limit() {
         let ledger = Ledger::new(Some(100));
         assert!(ledger.reserve("first", 60).is_ok());
         let error = ledger.reserve("second", 41).expect_err("the limit is 100");
         assert!(
-            matches!(&error, GpuError::OutOfDeviceMemory { name, asked: 41, limit: 100, allocated: 60 } if name == "second"),
+            matches!(&error, GpuError::OutOfDeviceMemory { name, asked: 41, limit: 100, allocated: 60, .. } if name == "second"),
             "{error:?}"
         );
         assert!(ledger.reserve("third", 40).is_ok());

@@ -125,7 +125,7 @@ impl Device {
         // tests hold them together, and validation checks it).
         let made =
             unsafe { self.core.device.create_compute_pipelines(self.core.pipeline_cache, &[info], None) };
-        inner.raw = first_pipeline(&self.core, made, desc.name)?;
+        inner.raw = first_pipeline(&self.core, made, "vkCreateComputePipelines", desc.name)?;
         self.core.name_object(inner.raw, desc.name);
         Ok(ComputePipeline { inner: Arc::new(inner) })
     }
@@ -204,7 +204,7 @@ impl Device {
             .push_next(&mut rendering);
         // SAFETY: as for compute; the features behind dynamic rendering and the options were checked.
         let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
-        inner.raw = first_pipeline(core, made, desc.name)?;
+        inner.raw = first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)?;
         core.name_object(inner.raw, desc.name);
         Ok(RasterPipeline { inner: Arc::new(inner) })
     }
@@ -245,7 +245,8 @@ impl Device {
         let ranges = if push_constant_bytes == 0 { &[][..] } else { std::slice::from_ref(&range) };
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(ranges);
         // SAFETY: layouts of this device, within its limits.
-        let layout = unsafe { core.device.create_pipeline_layout(&info, None) }.during(name)?;
+        let layout = unsafe { core.device.create_pipeline_layout(&info, None) }
+            .during("vkCreatePipelineLayout", name)?;
         core.name_object(layout, name);
         Ok(PipelineInner {
             core: core.clone(),
@@ -278,6 +279,7 @@ impl Drop for PipelineInner {
 fn first_pipeline(
     core: &Core,
     made: std::result::Result<Vec<vk::Pipeline>, (Vec<vk::Pipeline>, vk::Result)>,
+    call: &'static str,
     name: &str,
 ) -> Result<vk::Pipeline> {
     match made {
@@ -290,7 +292,7 @@ fn first_pipeline(
                 // SAFETY: just made, used by nothing; null is ignored.
                 unsafe { core.device.destroy_pipeline(pipeline, None) };
             }
-            Err(GpuError::from_vulkan(result, name))
+            Err(GpuError::from_vulkan(result, call, name))
         }
     }
 }
@@ -316,7 +318,8 @@ impl<'a> Module<'a> {
         }
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the words are a module at least by their header; the shader compiler vouches for the rest.
-        let raw = unsafe { core.device.create_shader_module(&info, None) }.during(name)?;
+        let raw =
+            unsafe { core.device.create_shader_module(&info, None) }.during("vkCreateShaderModule", name)?;
         core.name_object(raw, name);
         Ok(Self { core, raw })
     }

@@ -17,7 +17,8 @@ use crate::timers::{PassTiming, Timing};
 pub struct SubmitOptions {
     /// Whether and how passes are timed.
     pub timing: Timing,
-    /// How long to wait for the device. With [`Timing::Host`] it holds for each pass by itself.
+    /// How long to wait for the device, at most an hour: every wait has an end. With [`Timing::Host`] it holds for each
+    /// pass by itself.
     pub timeout: Duration,
 }
 
@@ -109,6 +110,12 @@ impl Device {
     }
 }
 
+/// Longest time that anything is waited for.
+const LONGEST_WAIT: Duration = Duration::from_secs(3600);
+
+/// What calls were for that come before the passes of their work are known.
+const NEW_WORK: &str = "new work";
+
 /// A command buffer that is recorded, submitted and waited for, once or repeatedly.
 pub(crate) struct OneTime {
     core: Arc<Core>,
@@ -122,7 +129,7 @@ impl OneTime {
     pub(crate) fn create(device: &Device, timeout: Duration) -> Result<Self> {
         let core = &device.core;
         if !core.is_usable() {
-            return Err(GpuError::Abandoned { during: "new work".to_owned() });
+            return Err(GpuError::Abandoned { during: NEW_WORK.to_owned() });
         }
         if device.raw_queue() == vk::Queue::null() {
             return Err(GpuError::InvalidUse {
@@ -134,27 +141,27 @@ impl OneTime {
             .flags(vk::CommandPoolCreateFlags::TRANSIENT)
             .queue_family_index(core.queue_family);
         // SAFETY: the family exists.
-        let pool =
-            unsafe { core.device.create_command_pool(&info, None) }.during("creation of a command pool")?;
+        let pool = unsafe { core.device.create_command_pool(&info, None) }
+            .during("vkCreateCommandPool", NEW_WORK)?;
         // From here on dropping `work` destroys what was made; null handles are ignored.
         let mut work = Self {
             core: core.clone(),
             pool,
             command: vk::CommandBuffer::null(),
             fence: vk::Fence::null(),
-            timeout,
+            timeout: timeout.min(LONGEST_WAIT),
         };
         let info = vk::CommandBufferAllocateInfo::default()
             .command_pool(pool)
             .level(vk::CommandBufferLevel::PRIMARY)
             .command_buffer_count(1);
         // SAFETY: the pool is fresh.
-        let commands =
-            unsafe { core.device.allocate_command_buffers(&info) }.during("creation of a command buffer")?;
+        let commands = unsafe { core.device.allocate_command_buffers(&info) }
+            .during("vkAllocateCommandBuffers", NEW_WORK)?;
         work.command = commands.first().copied().unwrap_or_default();
         // SAFETY: no conditions.
         work.fence = unsafe { core.device.create_fence(&vk::FenceCreateInfo::default(), None) }
-            .during("creation of a fence")?;
+            .during("vkCreateFence", NEW_WORK)?;
         Ok(work)
     }
 
@@ -167,10 +174,10 @@ impl OneTime {
         let raw = device.raw();
         // SAFETY: no command buffer of the pool is pending, see above.
         unsafe { raw.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty()) }
-            .during("reset of a command pool")?;
+            .during("vkResetCommandPool", NEW_WORK)?;
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the command buffer is in its initial state.
-        unsafe { raw.begin_command_buffer(self.command, &info) }.during("begin of a command buffer")
+        unsafe { raw.begin_command_buffer(self.command, &info) }.during("vkBeginCommandBuffer", NEW_WORK)
     }
 
     /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
@@ -181,7 +188,7 @@ impl OneTime {
             return Err(GpuError::Abandoned { during: during.to_owned() });
         }
         // SAFETY: the command buffer is being recorded.
-        unsafe { raw.end_command_buffer(self.command) }.during(during)?;
+        unsafe { raw.end_command_buffer(self.command) }.during("vkEndCommandBuffer", during)?;
         let commands = [self.command];
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         let start = Instant::now();
@@ -189,29 +196,33 @@ impl OneTime {
             let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
             // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
             // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
-            unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during(during)?;
+            unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during("vkQueueSubmit", during)?;
         }
-        let timeout = u64::try_from(self.timeout.as_nanos()).unwrap_or(u64::MAX - 1).min(u64::MAX - 1);
+        // An hour of nanoseconds fits by far.
+        let timeout = self.timeout.as_nanos() as u64;
         // SAFETY: the fence belongs to the submission above.
-        match unsafe { raw.wait_for_fences(&[self.fence], true, timeout) } {
+        let wait = || unsafe { raw.wait_for_fences(&[self.fence], true, timeout) };
+        match wait() {
             Ok(()) => {}
             Err(vk::Result::TIMEOUT) => {
                 self.core.abandon();
                 let seconds = self.timeout.as_secs_f64();
                 return Err(GpuError::Timeout { pass: during.to_owned(), seconds });
             }
-            Err(vk::Result::ERROR_DEVICE_LOST) => {
-                return Err(GpuError::DeviceLost { during: during.to_owned() });
-            }
-            Err(other) => {
-                // Whether the work still runs is unknown, so nothing it uses may be destroyed.
-                self.core.abandon();
-                return Err(GpuError::from_vulkan(other, during));
+            Err(failed) => {
+                // The wait failed, not the work. Nothing that the work uses may be destroyed while it runs, so it
+                // is waited for once more; a lost device runs nothing any more.
+                let ended = failed == vk::Result::ERROR_DEVICE_LOST
+                    || matches!(wait(), Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
+                if !ended {
+                    self.core.abandon();
+                }
+                return Err(GpuError::from_vulkan(failed, "vkWaitForFences", during));
             }
         }
         let elapsed = start.elapsed();
         // SAFETY: the fence is signalled, and nothing waits for it.
-        unsafe { raw.reset_fences(&[self.fence]) }.during(during)?;
+        unsafe { raw.reset_fences(&[self.fence]) }.during("vkResetFences", during)?;
         Ok(elapsed)
     }
 }

@@ -86,7 +86,8 @@ impl Device {
         let info =
             vk::QueryPoolCreateInfo::default().query_type(vk::QueryType::TIMESTAMP).query_count(2 * capacity);
         // SAFETY: a pool of timestamps has no further conditions.
-        let pool = unsafe { core.device.create_query_pool(&info, None) }.during("creation of timers")?;
+        let pool =
+            unsafe { core.device.create_query_pool(&info, None) }.during("vkCreateQueryPool", "timers")?;
         core.name_object(pool, "timers");
         let labels = Mutex::new(Vec::new());
         Ok(Timers { inner: Arc::new(TimersInner { core: core.clone(), pool, capacity, labels }) })
@@ -110,7 +111,7 @@ impl Timers {
         unsafe {
             inner.core.device.get_query_pool_results(inner.pool, 0, &mut ticks, vk::QueryResultFlags::TYPE_64)
         }
-        .during("reading timestamps")?;
+        .during("vkGetQueryPoolResults", "timers")?;
         let limits = &inner.core.limits;
         let mask =
             if limits.timestamp_valid_bits >= 64 { u64::MAX } else { (1 << limits.timestamp_valid_bits) - 1 };

@@ -125,5 +125,5 @@ impl Device {
 fn host_length(buffer: &Buffer, offset: u64, size: u64) -> Result<usize> {
     buffer.check_range(offset, size)?;
     usize::try_from(size)
-        .map_err(|_| GpuError::OutOfHostMemory { during: format!("download of buffer `{}`", buffer.name()) })
+        .map_err(|_| GpuError::OutOfHostMemory { call: "download", during: buffer.name().to_owned() })
 }

@@ -75,6 +75,10 @@ impl BatchTracer {
         if outcome.counters.not_ready > 0 {
             return Err(TracerError::NotReady { rays: outcome.counters.not_ready });
         }
+        let entries = structure.status()?.corrupted;
+        if entries > 0 {
+            return Err(TracerError::Corrupted { structure: structure.name(), entries });
+        }
         if outcome.counters.unfinished > 0 {
             return Err(TracerError::Unfinished { unfinished: outcome.counters.unfinished, rounds });
         }

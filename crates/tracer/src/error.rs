@@ -35,6 +35,14 @@ pub enum TracerError {
         /// Rounds allowed.
         rounds: u32,
     },
+    /// Traces met entries that name nothing: what is in the structure's memory is not what was built.
+    #[error("{entries} entries of {structure} named nothing while rays were traced: build it again")]
+    Corrupted {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Entries met since the last build.
+        entries: u64,
+    },
     /// Rays met an incomplete structure.
     #[error("{rays} rays were traced through a structure that is not built")]
     NotReady {

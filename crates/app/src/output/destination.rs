@@ -7,6 +7,9 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+/// How the names of unfinished files end.
+const TEMPORARY_SUFFIX: &str = ".tmp";
+
 /// Where a file will be put. Checked when it is made, before any work is done for the file.
 #[derive(Clone, Debug)]
 pub struct Destination {
@@ -54,6 +57,7 @@ impl Destination {
                 format!("create it first: mkdir -p '{}'", folder.display()),
             ));
         }
+        destination.sweep();
         // Only making a file tells whether a file can be made: permissions, read-only file systems
         // and name lengths all show here, before hours of rendering.
         let probe = destination.temporary();
@@ -118,6 +122,8 @@ impl Destination {
 
     fn write_and_rename(&self, temporary: &Path, bytes: &[u8]) -> io::Result<()> {
         let mut file = OpenOptions::new().write(true).create_new(true).open(temporary)?;
+        // Tells other runs that somebody is writing; where a file system has no locks, none of them sweeps.
+        _ = file.try_lock();
         if let Ok(existing) = std::fs::metadata(&self.path) {
             file.set_permissions(existing.permissions())?;
         }
@@ -141,10 +147,38 @@ impl Destination {
 
     /// A name in the same folder that no other run uses.
     fn temporary(&self) -> PathBuf {
+        let mut name = self.temporary_prefix();
+        name.push(format!("{}{TEMPORARY_SUFFIX}", std::process::id()));
+        self.folder().join(name)
+    }
+
+    fn temporary_prefix(&self) -> OsString {
         let mut name = OsString::from(".");
         name.push(self.path.file_name().unwrap_or_default());
-        name.push(format!(".{}.tmp", std::process::id()));
-        self.folder().join(name)
+        name.push(".");
+        name
+    }
+
+    /// Removes what runs that were killed while they wrote this very file have left. A file that somebody still
+    /// writes is locked and stays.
+    fn sweep(&self) {
+        let prefix = self.temporary_prefix();
+        let Ok(entries) = std::fs::read_dir(self.folder()) else { return };
+        for entry in entries.flatten() {
+            let name = entry.file_name();
+            let middle = name
+                .as_encoded_bytes()
+                .strip_prefix(prefix.as_encoded_bytes())
+                .and_then(|rest| rest.strip_suffix(TEMPORARY_SUFFIX.as_bytes()));
+            if !middle.is_some_and(|number| !number.is_empty() && number.iter().all(u8::is_ascii_digit)) {
+                continue;
+            }
+            let Ok(file) = OpenOptions::new().write(true).open(entry.path()) else { continue };
+            if file.try_lock().is_ok() {
+                // Whoever comes second finds nothing to remove.
+                _ = std::fs::remove_file(entry.path());
+            }
+        }
     }
 }
 
@@ -210,6 +244,27 @@ mod tests {
         let long = folder.path().join(format!("{}.png", "x".repeat(300)));
         assert_eq!(Destination::check(&long).expect_err("too long").exit_code(), 2);
         assert!(entries(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_swept_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        // Also one of this process's own number: in containers numbers are used again and again.
+        let own = format!(".a.png.{}.tmp", std::process::id());
+        let kept = [".a.png..tmp", ".a.png.tmp", ".a.png.x1.tmp", ".b.png.7.tmp", "a.png.7.tmp"];
+        for name in kept.into_iter().chain([".a.png.7.tmp", own.as_str()]) {
+            std::fs::write(folder.path().join(name), b"part").expect("a file");
+        }
+        let busy = File::create(folder.path().join(".a.png.8.tmp")).expect("a file");
+        busy.try_lock().expect("a lock");
+        let destination = Destination::check(&folder.path().join("a.png")).expect("writable");
+        let mut expected: Vec<_> = kept.into_iter().chain([".a.png.8.tmp"]).collect();
+        expected.sort_unstable();
+        assert_eq!(entries(folder.path()), expected);
+        destination.write(b"new", &Interrupt::default()).expect("written");
+        drop(busy);
+        Destination::check(&folder.path().join("a.png")).expect("writable");
+        assert!(!entries(folder.path()).contains(&".a.png.8.tmp".to_owned()));
     }
 
     #[cfg(target_os = "linux")]

@@ -7,10 +7,11 @@ use rasray_ads::{QueueHeader, RayQueue};
 use rasray_gpu::Device;
 use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves};
 use rasray_scene::needs::Needs;
+use rasray_tracer::TracerError;
 
 use super::passes::Passes;
 use super::spec_of;
-use super::stage::{Built, Stage, device_error};
+use super::stage::{Built, Stage, device_error, tracer_error};
 use crate::backend::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::report::{Counters, Times};
@@ -86,6 +87,13 @@ pub(super) fn render_pixels(
     let faults = film.read_faults(device).map_err(device_error)?;
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
+    }
+    let corrupted = built.structure.status().map_err(device_error)?.corrupted;
+    if corrupted > 0 {
+        return Err(tracer_error(&TracerError::Corrupted {
+            structure: built.structure.name(),
+            entries: corrupted,
+        }));
     }
     let mut counters = built.counters()?;
     counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);

@@ -26,12 +26,13 @@ pub(super) fn device_error(error: impl std::fmt::Display) -> AppError {
 /// A failed build or trace: lost rays are refused, everything else is the device's.
 pub(super) fn tracer_error(error: &TracerError) -> AppError {
     match error {
-        TracerError::Unfinished { .. } | TracerError::NotReady { .. } | TracerError::Unstable { .. } => {
-            AppError::refused(
-                error.to_string(),
-                "its results are not kept; please report it with the command line",
-            )
-        }
+        TracerError::Unfinished { .. }
+        | TracerError::NotReady { .. }
+        | TracerError::Corrupted { .. }
+        | TracerError::Unstable { .. } => AppError::refused(
+            error.to_string(),
+            "its results are not kept; please report it with the command line",
+        ),
         _ => device_error(error),
     }
 }

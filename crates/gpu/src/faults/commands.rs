@@ -1,0 +1,281 @@
+//! The functions of Vulkan with a schedule around those that can fail.
+
+use std::ffi::{CStr, CString, c_char, c_void};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicPtr, Ordering};
+
+use ash::vk::{self, Handle, Result as Code};
+
+use super::schedule::{note, verdict};
+
+/// The loader's own function and the library it is in, which stays loaded.
+static LOADER: OnceLock<std::result::Result<ash::Entry, String>> = OnceLock::new();
+
+/// The functions of the loader, with `vkGetInstanceProcAddr` replaced.
+pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
+    let loader = LOADER.get_or_init(|| {
+        // SAFETY: the system's Vulkan loader is trusted to be one; its initialisers have no preconditions.
+        unsafe { ash::Entry::load() }.map_err(|error| error.to_string())
+    });
+    loader.as_ref().map_err(Clone::clone)?;
+    let functions = ash::StaticFn { get_instance_proc_addr: instance_function };
+    // SAFETY: the function answers as the loader does, which stays loaded; functions that it leaves out are not used.
+    Ok(unsafe { ash::Entry::from_static_fn(functions) })
+}
+
+/// What the loader has under a name.
+unsafe fn original(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
+    let loader = LOADER.get()?.as_ref().ok()?;
+    // SAFETY: the caller vouches for the instance, and the name is NUL-terminated.
+    unsafe { (loader.static_fn().get_instance_proc_addr)(instance, name.as_ptr()) }
+}
+
+/// The type of a result of a creation: what counts as one kind of object.
+fn kind_of<T>(_: *const T) -> &'static str {
+    std::any::type_name::<T>().rsplit("::").next().unwrap_or("object")
+}
+
+/// Notes objects that a call made; the call may leave null behind.
+unsafe fn note_made<T: Handle + Copy>(made: *mut T, count: u32) {
+    for index in 0..count as usize {
+        // SAFETY: the caller vouches for `count` handles that the call has written.
+        if !unsafe { *made.add(index) }.is_null() {
+            note(kind_of(made), 1);
+        }
+    }
+}
+
+/// Leaves null behind for what was not made, as Vulkan demands of pipelines.
+unsafe fn leave_none<T: Handle>(made: *mut T, count: u32) {
+    for index in 0..count as usize {
+        // SAFETY: the caller vouches for room for `count` handles.
+        unsafe { made.add(index).write(T::from_raw(0)) };
+    }
+}
+
+/// Functions that return `VkResult`: for each a function of the same type that asks the schedule first. Listed are the
+/// codes that the function may return; of those of creation, how many objects are in the last argument.
+macro_rules! fallible {
+    ($($name:ident($($argument:ident: $type:ty),*) [$($code:ident),*] $(makes($made:ident, $count:expr))?;)*) => {
+        /// Names of the functions that can fail.
+        const FALLIBLE: &[&str] = &[$(stringify!($name)),*];
+
+        /// The functions that can fail, by name.
+        fn fallible(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
+            $({
+                /// The loader's function.
+                static ORIGINAL: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
+                #[allow(non_snake_case, unused_variables)]
+                unsafe extern "system" fn $name($($argument: $type),*) -> Code {
+                    let failed = verdict(stringify!($name), &[$(Code::$code),*]);
+                    let is_lost_wait =
+                        failed == Some(Code::ERROR_DEVICE_LOST) && stringify!($name) == "vkWaitForFences";
+                    if let (Some(code), false) = (failed, is_lost_wait) {
+                        // SAFETY: the caller provides room for as many handles.
+                        $(unsafe { leave_none($made, $count) };)?
+                        return code;
+                    }
+                    type Function = unsafe extern "system" fn($($type),*) -> Code;
+                    let original = ORIGINAL.load(Ordering::Acquire);
+                    // SAFETY: this function is handed out only once the loader's of the same name, which has this
+                    // type, is stored.
+                    let original = unsafe { std::mem::transmute::<*mut c_void, Function>(original) };
+                    // SAFETY: the caller keeps the conditions of the function of this name.
+                    let code = unsafe { original($($argument),*) };
+                    $(if code == Code::SUCCESS {
+                        // SAFETY: after success as many handles have been written.
+                        unsafe { note_made($made, $count) };
+                    })?
+                    failed.unwrap_or(code)
+                }
+                if name.to_bytes() == stringify!($name).as_bytes() {
+                    let function: unsafe extern "system" fn($($type),*) -> Code = $name;
+                    // SAFETY: Vulkan hands out functions as pointers without a type.
+                    let untyped = unsafe {
+                        std::mem::transmute::<
+                            unsafe extern "system" fn($($type),*) -> Code,
+                            unsafe extern "system" fn(),
+                        >(function)
+                    };
+                    return Some((&ORIGINAL, Some(untyped)));
+                }
+            })*
+            None
+        }
+    };
+}
+
+/// Functions that destroy: for each a function of the same type that notes it.
+macro_rules! destroying {
+    ($($name:ident[$($parent:ty)?] $object:ty;)*) => {
+        /// Names of the functions that destroy.
+        const DESTROYING: &[&str] = &[$(stringify!($name)),*];
+
+        /// The functions that destroy, by name.
+        fn destroying(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
+            $({
+                static ORIGINAL: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
+                type Function =
+                    unsafe extern "system" fn($($parent,)? $object, *const vk::AllocationCallbacks<'_>);
+                #[allow(non_snake_case)]
+                unsafe extern "system" fn $name(
+                    $(parent: $parent,)?
+                    object: $object,
+                    callbacks: *const vk::AllocationCallbacks<'_>,
+                ) {
+                    if !object.is_null() {
+                        note(kind_of(&raw const object), -1);
+                    }
+                    // SAFETY: handed out only once the loader's function of this name and type is stored.
+                    let original = unsafe {
+                        std::mem::transmute::<*mut c_void, Function>(ORIGINAL.load(Ordering::Acquire))
+                    };
+                    // SAFETY: the caller keeps the conditions of the function of this name.
+                    unsafe { original($({ let parent: $parent = parent; parent },)? object, callbacks) }
+                }
+                if name.to_bytes() == stringify!($name).as_bytes() {
+                    let function: Function = $name;
+                    // SAFETY: Vulkan hands out functions as pointers without a type.
+                    let untyped =
+                        unsafe { std::mem::transmute::<Function, unsafe extern "system" fn()>(function) };
+                    return Some((&ORIGINAL, Some(untyped)));
+                }
+            })*
+            None
+        }
+    };
+}
+
+#[rustfmt::skip]
+fallible! {
+    vkEnumerateInstanceVersion(version: *mut u32) [ERROR_OUT_OF_HOST_MEMORY];
+    vkEnumerateInstanceLayerProperties(count: *mut u32, found: *mut vk::LayerProperties) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkEnumerateInstanceExtensionProperties(layer: *const c_char, count: *mut u32, found: *mut vk::ExtensionProperties) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkCreateInstance(info: *const vk::InstanceCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Instance) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_INITIALIZATION_FAILED] makes(made, 1);
+    vkCreateDebugUtilsMessengerEXT(instance: vk::Instance, info: *const vk::DebugUtilsMessengerCreateInfoEXT<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::DebugUtilsMessengerEXT) [ERROR_OUT_OF_HOST_MEMORY] makes(made, 1);
+    vkEnumeratePhysicalDevices(instance: vk::Instance, count: *mut u32, found: *mut vk::PhysicalDevice) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_INITIALIZATION_FAILED];
+    vkEnumerateDeviceExtensionProperties(physical: vk::PhysicalDevice, layer: *const c_char, count: *mut u32, found: *mut vk::ExtensionProperties) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkCreateDevice(physical: vk::PhysicalDevice, info: *const vk::DeviceCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Device) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_INITIALIZATION_FAILED, ERROR_TOO_MANY_OBJECTS, ERROR_DEVICE_LOST] makes(made, 1);
+    vkSetDebugUtilsObjectNameEXT(device: vk::Device, info: *const vk::DebugUtilsObjectNameInfoEXT<'_>) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkCreateBuffer(device: vk::Device, info: *const vk::BufferCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Buffer) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkAllocateMemory(device: vk::Device, info: *const vk::MemoryAllocateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::DeviceMemory) [ERROR_OUT_OF_DEVICE_MEMORY, ERROR_OUT_OF_HOST_MEMORY, ERROR_TOO_MANY_OBJECTS] makes(made, 1);
+    vkMapMemory(device: vk::Device, memory: vk::DeviceMemory, offset: u64, size: u64, flags: vk::MemoryMapFlags, address: *mut *mut c_void) [ERROR_MEMORY_MAP_FAILED, ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkBindBufferMemory(device: vk::Device, buffer: vk::Buffer, memory: vk::DeviceMemory, offset: u64) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkCreateDescriptorSetLayout(device: vk::Device, info: *const vk::DescriptorSetLayoutCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::DescriptorSetLayout) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkCreateDescriptorPool(device: vk::Device, info: *const vk::DescriptorPoolCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::DescriptorPool) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkAllocateDescriptorSets(device: vk::Device, info: *const vk::DescriptorSetAllocateInfo<'_>, found: *mut vk::DescriptorSet) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_FRAGMENTED_POOL, ERROR_OUT_OF_POOL_MEMORY];
+    vkCreateShaderModule(device: vk::Device, info: *const vk::ShaderModuleCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::ShaderModule) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkCreatePipelineLayout(device: vk::Device, info: *const vk::PipelineLayoutCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::PipelineLayout) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkCreateComputePipelines(device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::ComputePipelineCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Pipeline) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, count);
+    vkCreateGraphicsPipelines(device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::GraphicsPipelineCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Pipeline) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, count);
+    vkCreateQueryPool(device: vk::Device, info: *const vk::QueryPoolCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::QueryPool) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkGetQueryPoolResults(device: vk::Device, pool: vk::QueryPool, first: u32, count: u32, size: usize, data: *mut c_void, stride: u64, flags: vk::QueryResultFlags) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+    vkCreateCommandPool(device: vk::Device, info: *const vk::CommandPoolCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::CommandPool) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkResetCommandPool(device: vk::Device, pool: vk::CommandPool, flags: vk::CommandPoolResetFlags) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkAllocateCommandBuffers(device: vk::Device, info: *const vk::CommandBufferAllocateInfo<'_>, found: *mut vk::CommandBuffer) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkBeginCommandBuffer(command: vk::CommandBuffer, info: *const vk::CommandBufferBeginInfo<'_>) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkEndCommandBuffer(command: vk::CommandBuffer) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkCreateFence(device: vk::Device, info: *const vk::FenceCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
+    vkResetFences(device: vk::Device, count: u32, fences: *const vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
+    vkWaitForFences(device: vk::Device, count: u32, fences: *const vk::Fence, all: vk::Bool32, timeout: u64) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+    vkQueueSubmit(queue: vk::Queue, count: u32, submits: *const vk::SubmitInfo<'_>, fence: vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+}
+
+destroying! {
+    vkDestroyInstance[] vk::Instance;
+    vkDestroyDevice[] vk::Device;
+    vkDestroyDebugUtilsMessengerEXT[vk::Instance] vk::DebugUtilsMessengerEXT;
+    vkDestroyBuffer[vk::Device] vk::Buffer;
+    vkDestroyDescriptorSetLayout[vk::Device] vk::DescriptorSetLayout;
+    vkDestroyDescriptorPool[vk::Device] vk::DescriptorPool;
+    vkDestroyShaderModule[vk::Device] vk::ShaderModule;
+    vkDestroyPipelineLayout[vk::Device] vk::PipelineLayout;
+    vkDestroyPipeline[vk::Device] vk::Pipeline;
+    vkDestroyQueryPool[vk::Device] vk::QueryPool;
+    vkDestroyCommandPool[vk::Device] vk::CommandPool;
+    vkDestroyFence[vk::Device] vk::Fence;
+    vkFreeMemory[vk::Device] vk::DeviceMemory;
+}
+
+/// Functions without a result, of which nothing is to be noted.
+fn harmless(name: &CStr) -> bool {
+    const NAMES: [&str; 12] = [
+        "vkGetPhysicalDeviceProperties",
+        "vkGetPhysicalDeviceProperties2",
+        "vkGetPhysicalDeviceFeatures",
+        "vkGetPhysicalDeviceFeatures2",
+        "vkGetPhysicalDeviceMemoryProperties",
+        "vkGetPhysicalDeviceQueueFamilyProperties",
+        "vkGetDeviceQueue",
+        "vkGetBufferMemoryRequirements",
+        "vkGetBufferDeviceAddress",
+        "vkUpdateDescriptorSets",
+        "vkUnmapMemory",
+        "vkFreeCommandBuffers",
+    ];
+    name.to_str().is_ok_and(|name| name.starts_with("vkCmd") || NAMES.contains(&name))
+}
+
+/// Stands for `vkGetInstanceProcAddr`.
+unsafe extern "system" fn instance_function(
+    instance: vk::Instance,
+    name: *const c_char,
+) -> vk::PFN_vkVoidFunction {
+    // SAFETY: Vulkan's names are NUL-terminated.
+    let name = unsafe { CStr::from_ptr(name) };
+    // SAFETY: the caller vouches for the instance.
+    unsafe { wrapped(instance, name) }
+}
+
+/// The loader's `vkGetDeviceProcAddr`.
+static DEVICE_LOOKUP: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
+
+/// Stands for `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own, which find the device by
+/// the handle they are called with: they serve every device, with layers or without.
+unsafe extern "system" fn device_function(device: vk::Device, name: *const c_char) -> vk::PFN_vkVoidFunction {
+    // SAFETY: this function is handed out only once the loader's is stored, which has this type.
+    let lookup = unsafe {
+        std::mem::transmute::<*mut c_void, vk::PFN_vkGetDeviceProcAddr>(DEVICE_LOOKUP.load(Ordering::Acquire))
+    };
+    // SAFETY: the caller vouches for device and name.
+    let own = unsafe { lookup(device, name) }?;
+    // SAFETY: Vulkan's names are NUL-terminated.
+    let name = unsafe { CStr::from_ptr(name) };
+    if harmless(name) {
+        return Some(own);
+    }
+    let (slot, function) = known(name)?;
+    if slot.load(Ordering::Acquire).is_null() { None } else { function }
+}
+
+/// A function that fails or destroys, and where the loader's own of that name is kept.
+fn known(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunction)> {
+    fallible(name).or_else(|| destroying(name))
+}
+
+/// The function of a name with the schedule around it; `None` for those that this module does not know.
+unsafe fn wrapped(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
+    // SAFETY: the caller vouches for the instance.
+    let own = unsafe { original(instance, name) }?;
+    if name == c"vkGetDeviceProcAddr" {
+        DEVICE_LOOKUP.store(own as *mut c_void, Ordering::Release);
+        // Devices of this instance will ask for these, when the instance may be gone.
+        for name in FALLIBLE.iter().chain(DESTROYING) {
+            let name = CString::new(*name).unwrap_or_default();
+            // SAFETY: as above.
+            if let (Some(own), Some((slot, _))) = (unsafe { original(instance, &name) }, known(&name)) {
+                slot.store(own as *mut c_void, Ordering::Release);
+            }
+        }
+        // SAFETY: Vulkan hands out functions as pointers without a type.
+        return Some(unsafe {
+            std::mem::transmute::<vk::PFN_vkGetDeviceProcAddr, unsafe extern "system" fn()>(device_function)
+        });
+    }
+    if harmless(name) {
+        return Some(own);
+    }
+    let (slot, function) = known(name)?;
+    slot.store(own as *mut c_void, Ordering::Release);
+    function
+}

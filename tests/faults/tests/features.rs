@@ -1,0 +1,153 @@
+//! Devices that lack a feature or have small limits: the same hits, or an error that names what is missing.
+
+use rasray_faults::{Failure, device, device_with, finish, hits, is_full, requirements, spec, specs};
+use rasray_gpu::faults::{with_limits, without};
+use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
+use rasray_systems::Spec;
+
+/// Rays of each comparison.
+const RAYS: u32 = 2000;
+
+/// Bits of the hits of a system.
+fn bits(device: &Device, spec: &Spec) -> Result<Vec<[u32; 4]>, Failure> {
+    let (_, hits) = hits(device, spec, RAYS)?;
+    Ok(hits.iter().map(|hit| bytemuck::cast::<_, [u32; 4]>(*hit)).collect())
+}
+
+fn name(spec: &Spec) -> String {
+    format!("{} {}", spec.system().name, spec.preset().name())
+}
+
+/// Presets of the registry, and pools reached by address.
+fn subjects() -> Vec<Spec> {
+    let mut subjects = specs().expect("registered");
+    let by_address = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("addressing", "address")?));
+    subjects.push(by_address.expect("an option of mmrt"));
+    subjects
+}
+
+#[test]
+fn every_feature_can_be_missing_or_is_missed_by_name() {
+    let device = device().expect("a device");
+    let all = device.enabled();
+    let subjects = subjects();
+    let expected: Vec<_> = subjects.iter().map(|spec| bits(&device, spec).expect("hits")).collect();
+    let found = expected.iter().flatten().filter(|hit| hit[1] != u32::MAX).count();
+    assert!(found > 1000 * subjects.len(), "{found} hits are too few to compare");
+    let (mut compared, mut refused) = (0, 0);
+    for feature in Feature::ALL {
+        let made = without(&[feature], || device_with(requirements()));
+        if Requirements::floor().required.contains(&feature) {
+            let error = made.map(finish).expect_err("the floor is required");
+            assert!(matches!(error, GpuError::NoSuitableDevice { .. }), "{error}");
+            assert!(error.to_string().contains(feature.name()), "{error}");
+            refused += 1;
+            continue;
+        }
+        let lacking = made.expect("a device without what is optional");
+        assert!(!lacking.has(feature));
+        // What was never enabled cannot be missed: such a device is the same as before.
+        let is_same = lacking.enabled() == all && lacking.limits() == device.limits();
+        assert_eq!(is_same, !all.contains(&feature) && feature != Feature::TimestampQueries);
+        for (spec, expected) in subjects.iter().zip(&expected) {
+            if spec.requirements().expect("valid").required.contains(&feature) {
+                let error = hits(&lacking, spec, 1).map(|_| ()).expect_err("it is required").to_string();
+                assert!(error.contains(feature.name()), "{} without {feature}: {error}", name(spec));
+                refused += 1;
+            } else if !is_same || is_full() {
+                let found = bits(&lacking, spec).expect("hits without what is optional");
+                assert_eq!(found, *expected, "{} without {feature}", name(spec));
+                compared += 1;
+            }
+        }
+        assert_eq!(finish(lacking), Vec::<String>::new());
+    }
+    println!("{compared} comparisons, {refused} refusals");
+    assert!(compared > 0 && refused > 3);
+    // A list of hits of another resolution is not the same: the comparison can fail.
+    let coarse = spec("mmrt", "published").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
+    let position = subjects.iter().position(|spec| name(spec) == "mmrt published").expect("registered");
+    assert_ne!(bits(&device, &coarse.expect("an option")).expect("hits"), expected[position]);
+    assert_eq!(finish(device), Vec::<String>::new());
+}
+
+/// A queue without timestamps is timed by the host.
+#[test]
+fn without_timestamps_the_host_times() {
+    let device = without(&[Feature::TimestampQueries], device).expect("a device");
+    assert_eq!(device.best_timing(), rasray_gpu::Timing::Host);
+    let error = device.create_timers(1).map(|_| ()).expect_err("there are no timestamps").to_string();
+    assert!(error.contains("timestamp"), "{error}");
+    assert_eq!(finish(device), Vec::<String>::new());
+}
+
+/// Pools beyond one binding are refused by name, or reached by address with the same hits.
+#[test]
+fn a_small_binding_is_refused_by_name_or_reached_by_address() {
+    // The lists of 6 * 130^2 cells and 4 buckets have 3,244,800 bytes.
+    let descriptor = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("resolution", "128")?));
+    let descriptor = descriptor.expect("an option of mmrt");
+    let address = descriptor.with_option("addressing", "address").expect("an option of mmrt");
+    let whole = device().expect("a device");
+    let expected = bits(&whole, &descriptor).expect("hits");
+    let (mut fitting, mut refused) = (0, 0);
+    let mut exponents = vec![20, 21, 22, 27];
+    if is_full() {
+        exponents = (20..=27).collect();
+    }
+    for exponent in exponents {
+        let small = with_limits(move |limits| limits.max_storage_buffer_range = 1 << exponent, device)
+            .expect("a device");
+        match bits(&small, &descriptor) {
+            Ok(found) => {
+                assert_eq!(found, expected, "2^{exponent} bytes");
+                fitting += 1;
+            }
+            Err(error) => {
+                let Some(GpuError::TooLarge { name, size, limit }) = error.gpu() else { panic!("{error}") };
+                assert!(name.contains("abuffer") && size > limit && *limit == 1 << exponent, "{error}");
+                refused += 1;
+            }
+        }
+        assert_eq!(bits(&small, &address).expect("hits by address"), expected, "2^{exponent} bytes");
+        assert_eq!(finish(small), Vec::<String>::new());
+    }
+    assert!(fitting > 0 && refused > 0, "{fitting} fit, {refused} were refused");
+    assert_eq!(finish(whole), Vec::<String>::new());
+}
+
+/// A limit that is too small, and what the error then says.
+type Small = (fn(&mut Limits), &'static str);
+
+/// Each limit that a pass meets, too small for it: an error that names what was asked for, and no message of the layer.
+#[test]
+fn small_limits_are_errors_with_a_name() {
+    let small: [Small; 8] = [
+        (|limits| limits.max_workgroup_count = [4; 3], "workgroups"),
+        (|limits| limits.max_storage_buffers_per_stage = 4, "storage buffers"),
+        (|limits| limits.max_bound_sets = 2, "sets"),
+        (|limits| limits.max_push_constants = 4, "push constants"),
+        (|limits| limits.max_framebuffer_size = [16, 16], "width"),
+        (|limits| limits.max_memory_allocation = 4096, "maxMemoryAllocationSize"),
+        (|limits| limits.max_storage_buffer_range = 4096, "binding"),
+        (|limits| limits.max_workgroup_count = [u32::MAX; 3], ""),
+    ];
+    let spec = spec("mmrt", "robust").expect("registered");
+    let whole = device().expect("a device");
+    let expected = bits(&whole, &spec).expect("hits");
+    for (change, text) in small {
+        let device = with_limits(change, device).expect("a device");
+        match bits(&device, &spec) {
+            // Limits beyond what is needed change nothing.
+            Ok(found) => assert!(text.is_empty() && found == expected, "no error about {text}"),
+            Err(error) => {
+                let message = error.to_string();
+                assert!(!text.is_empty() && message.contains(text), "`{text}` is not in `{message}`");
+                assert!(error.gpu().is_some(), "{message}");
+            }
+        }
+        assert_eq!(device.allocated_bytes(), 0);
+        assert_eq!(finish(device), Vec::<String>::new());
+    }
+    assert_eq!(finish(whole), Vec::<String>::new());
+}
