@@ -117,6 +117,9 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             last = min(last + 1u, ABUFFER_BUCKETS - 1u);
         }
     }
+    // Bounds that are no numbers must not lead beyond the lists of the cell.
+    first = min(first, ABUFFER_BUCKETS - 1u);
+    last = clamp(last, first, ABUFFER_BUCKETS - 1u);
     for (uint step_index = search.in_bucket ? search.bucket : 0u; step_index <= last - first; step_index++) {
         uint bucket = away ? first + step_index : last - step_index;
         uint link = search.link;

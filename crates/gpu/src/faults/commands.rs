@@ -136,8 +136,9 @@ macro_rules! destroying {
                 if name.to_bytes() == stringify!($name).as_bytes() {
                     let function: Function = $name;
                     // SAFETY: Vulkan hands out functions as pointers without a type.
-                    let untyped =
-                        unsafe { std::mem::transmute::<Function, unsafe extern "system" fn()>(function) };
+                    let untyped = unsafe {
+                        std::mem::transmute::<Function, unsafe extern "system" fn()>(function)
+                    };
                     return Some((&ORIGINAL, Some(untyped)));
                 }
             })*
