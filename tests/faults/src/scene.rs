@@ -1,5 +1,7 @@
 //! A small scene on the device, systems of the registry, and hits through them.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 use rasray_ads::{Hit, Ray, Structure, TraceMode};
 use rasray_gpu::{Device, Timing};
@@ -63,7 +65,7 @@ pub fn rays(scene: &GpuScene, count: u32) -> Vec<Ray> {
             );
             let origin = lower + (upper - lower) * (0.05 + 0.9 * at);
             let (z, turn) =
-                (2.0 * part(index, 0.618_033_988_749_894_9) - 1.0, part(index, 0.414_213_562) * 6.283);
+                (2.0 * part(index, 0.618_033_988_749_894_9) - 1.0, part(index, 0.414_213_562) * TAU);
             let across = (1.0 - z * z).sqrt();
             let direction = [across * turn.cos(), across * turn.sin(), z].map(|value| value as f32);
             Ray::new(origin.as_vec3().to_array(), direction)
