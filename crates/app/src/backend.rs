@@ -1,9 +1,11 @@
 //! The seam between the command and what renders: plain data in, plain data out.
 
 use crate::error::AppError;
+use crate::ray_files::{HitsFile, RaysFile};
 use crate::report::figures::Figures;
-use crate::report::{Counters, Device, Memory, Pass, Run, Times};
+use crate::report::{Counters, Device, Memory, Pass, Run, Spread, Times};
 use crate::systems::SystemConfig;
+use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
@@ -125,6 +127,14 @@ pub struct CompareJob<'a> {
     pub image: bool,
     /// Whether pictures and maps are kept for a page.
     pub figures: bool,
+    /// Timed repetitions of every build and every set, at least 1, after one that warms up.
+    pub repetitions: u32,
+    /// Rays that another program may have made: one more set, named [`FILE_SET`].
+    pub rays_file: Option<RaysFile>,
+    /// Hits found elsewhere, one for each ray of the only set.
+    pub hits_files: Vec<HitsFile>,
+    /// Whether rays, truth and hits are kept for files.
+    pub keep: bool,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
 }
@@ -136,6 +146,59 @@ pub struct Comparison {
     pub runs: Vec<Run>,
     /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
     pub figures: Figures,
+    /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
+    pub kept: Kept,
+}
+
+/// The ray set of a file.
+pub const FILE_SET: &str = "file";
+
+/// What was traced and what was answered.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// World, metres; rays and triangles are relative to it.
+    pub frame_origin: [f64; 3],
+    /// Corners by global triangle id, metres.
+    pub triangles: Vec<[[f32; 3]; 3]>,
+    /// One entry a ray set.
+    pub sets: Vec<KeptSet>,
+}
+
+/// A ray set with all answers to it.
+#[derive(Clone, Debug)]
+pub struct KeptSet {
+    /// Such as `camera`.
+    pub name: String,
+    /// As they were traced.
+    pub rays: Vec<Ray>,
+    /// The oracle's answers, one a ray.
+    pub truth: Vec<TrueHit>,
+    /// The systems' answers.
+    pub answers: Vec<Answers>,
+}
+
+/// The answer of the oracle to a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrueHit {
+    /// In units of the direction's length; infinite for a miss.
+    pub t: f64,
+    /// Global triangle id; `u32::MAX` for a miss.
+    pub primitive: u32,
+    /// Weights of vertices 1 and 2.
+    pub barycentrics: [f64; 2],
+    /// Whether f32 may decide otherwise.
+    pub ambiguous: bool,
+}
+
+/// The answers of a system to a ray set.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    /// System and preset, such as `mmrt-robust`.
+    pub name: String,
+    /// Whether a hit's `a` and `b` are weights of vertices.
+    pub kind: StructureKind,
+    /// One a ray.
+    pub hits: Vec<Hit>,
 }
 
 /// How far the work is.
@@ -179,6 +242,8 @@ pub struct RenderOutput {
     pub passes: Vec<Pass>,
     /// The four figures and the ray rate.
     pub times: Times,
+    /// How far repeated times lie apart, by the name of their median.
+    pub spread: BTreeMap<String, Spread>,
     /// Bytes.
     pub memory: Option<Memory>,
     /// Counts that do not depend on the machine.

@@ -10,6 +10,7 @@ mod error;
 mod interrupt;
 pub mod output;
 mod progress;
+pub mod ray_files;
 mod renderer;
 pub mod report;
 mod scene_source;
@@ -45,8 +46,11 @@ pub fn version_text() -> &'static str {
 ///
 /// Takes over SIGINT and SIGTERM and writes to stdout and stderr; call it once in a process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {
+    let arguments: Vec<_> = arguments.into_iter().collect();
+    let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
+    let line = std::iter::once("rasray".into()).chain(words).collect::<Vec<_>>().join(" ");
     let result = match arguments::parse(arguments) {
-        Ok(command) => execute(command, open),
+        Ok(command) => execute(command, &line, open),
         Err(Refusal::Text(text)) => terminal::print(&text),
         Err(Refusal::Error(error)) => Err(error),
     };
@@ -59,7 +63,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend
     }
 }
 
-fn execute(command: Command, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
+fn execute(command: Command, line: &str, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     terminal::start_logging();
     let interrupt = Interrupt::install().map_err(|error| {
         AppError::device(
@@ -68,8 +72,8 @@ fn execute(command: Command, open: &mut OpenBackend<'_>) -> Result<(), AppError>
         )
     })?;
     match command {
-        Command::Render(given) => commands::render(&given, open, &interrupt),
-        Command::Compare(given) => commands::compare(&given, open, &interrupt),
+        Command::Render(given) => commands::render(&given, line, open, &interrupt),
+        Command::Compare(given) => commands::compare(&given, line, open, &interrupt),
         Command::Info(given) => commands::info(&given, open),
     }
 }

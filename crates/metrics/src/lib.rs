@@ -23,7 +23,7 @@ pub use error::MetricsError;
 pub use flip::{Flip, flip, flip_map};
 pub use hits::{DeviceHit, HitConfusion, Truth, common_hits};
 pub use image::{Image, ImageError};
-pub use rate::Rate;
+pub use rate::{Rate, confidence_of_each};
 pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
 pub use tone::display_values;

@@ -45,6 +45,12 @@ impl Rate {
         ])
     }
 
+    /// Whether the interval is the one-sided bound of a rate that never or always happened, 3 / total at
+    /// 95 %; Clopper-Pearson otherwise.
+    pub fn is_one_sided(&self) -> bool {
+        self.total > 0 && (self.count == 0 || self.count >= self.total)
+    }
+
     /// Whether the 95 % intervals of two rates do not overlap.
     pub fn differs_from(&self, other: &Self) -> bool {
         match (self.interval(), other.interval()) {
@@ -54,9 +60,30 @@ impl Rate {
     }
 }
 
+/// The confidence that each of `rates` intervals must have for all of them to hold together with
+/// `family_confidence`: 1 - (1 - family_confidence) / rates (Bonferroni; independence is not needed).
+/// Absent for no rates and for a confidence outside (0, 1).
+pub fn confidence_of_each(family_confidence: f64, rates: u64) -> Option<f64> {
+    let valid = rates > 0 && 0.0 < family_confidence && family_confidence < 1.0;
+    valid.then(|| 1.0 - (1.0 - family_confidence) / rates as f64)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_family_asks_more_of_each_rate() {
+        assert_eq!(confidence_of_each(0.95, 1), Some(0.95));
+        assert!((confidence_of_each(0.95, 10).expect("valid") - 0.995).abs() < 1e-12);
+        assert_eq!(confidence_of_each(0.95, 0), None);
+        assert_eq!(confidence_of_each(1.0, 3), None);
+        let rate = Rate { count: 3, total: 100 };
+        let [low, high] = rate.interval().expect("something was tried");
+        let each = confidence_of_each(0.95, 10).expect("valid");
+        let [wider_low, wider_high] = rate.interval_at(each).expect("something was tried");
+        assert!(wider_low < low && high < wider_high);
+    }
 
     #[test]
     fn tabulated_interval() {
@@ -93,6 +120,8 @@ mod tests {
         assert_eq!(Rate { count: 0, total: 2 }.interval(), Some([0.0, 1.0]));
         let [low, high] = Rate { count: 1000, total: 1000 }.interval().expect("something was tried");
         assert!((low - 0.997).abs() < 1e-5 && high == 1.0);
+        assert!(Rate { count: 0, total: 2 }.is_one_sided() && Rate { count: 2, total: 2 }.is_one_sided());
+        assert!(!Rate { count: 1, total: 2 }.is_one_sided() && !Rate::default().is_one_sided());
         assert_eq!(Rate::default().interval(), None);
         assert_eq!(Rate { count: 1, total: 2 }.interval_at(1.0), None);
     }

@@ -52,6 +52,8 @@ pub struct Percentiles {
     pub p90: f64,
     /// 99th percentile.
     pub p99: f64,
+    /// 99.9th percentile.
+    pub p999: f64,
     /// Greatest value.
     pub max: f64,
 }
@@ -61,7 +63,14 @@ impl Percentiles {
     pub fn of(values: &[f64]) -> Option<Self> {
         let sorted = sorted(values);
         let at = |fraction| percentile_of_sorted(&sorted, fraction);
-        Some(Self { count: sorted.len(), p50: at(0.5)?, p90: at(0.9)?, p99: at(0.99)?, max: at(1.0)? })
+        Some(Self {
+            count: sorted.len(),
+            p50: at(0.5)?,
+            p90: at(0.9)?,
+            p99: at(0.99)?,
+            p999: at(0.999)?,
+            max: at(1.0)?,
+        })
     }
 }
 
@@ -73,6 +82,10 @@ pub struct Summary {
     pub count: usize,
     /// Middle value.
     pub median: f64,
+    /// First quartile: a quarter of the values is at most this, interpolated as by [`percentile`].
+    pub first_quartile: f64,
+    /// Third quartile; the interquartile range lies between the two.
+    pub third_quartile: f64,
     /// Median distance from the median. (1.4826 times it estimates a normal distribution's sigma.)
     pub median_deviation: f64,
     /// Least value.
@@ -90,6 +103,8 @@ impl Summary {
         Some(Self {
             count: sorted_values.len(),
             median,
+            first_quartile: percentile_of_sorted(&sorted_values, 0.25)?,
+            third_quartile: percentile_of_sorted(&sorted_values, 0.75)?,
             median_deviation: percentile(&distances, 0.5).unwrap_or(0.0),
             min: *sorted_values.first()?,
             max: *sorted_values.last()?,
@@ -106,6 +121,15 @@ mod tests {
         let ramp: Vec<f64> = (0..=100).rev().map(f64::from).collect();
         let p = Percentiles::of(&ramp).expect("not empty");
         assert_eq!((p.count, p.p50, p.p90, p.p99, p.max), (101, 50.0, 90.0, 99.0, 100.0));
+        assert!((p.p999 - 99.9).abs() < 1e-9, "{p:?}");
+        let summary = Summary::of(&ramp).expect("not empty");
+        assert_eq!((summary.first_quartile, summary.third_quartile), (25.0, 75.0));
+        // One value beyond the rest moves the tail and none of the quartiles.
+        let mut tailed = ramp.clone();
+        tailed[0] = 1e9;
+        let moved = Percentiles::of(&tailed).expect("not empty");
+        assert!(moved.p999 > 1e8 && moved.p99 == 99.0, "{moved:?}");
+        assert_eq!(Summary::of(&tailed).expect("not empty").third_quartile, 75.0);
         assert_eq!(percentile(&[1.0, 2.0], 0.25), Some(1.25));
         assert_eq!(percentile(&[1.0, f64::INFINITY, f64::INFINITY], 0.75), Some(f64::INFINITY));
         assert_eq!(Percentiles::of(&[f64::NAN]), None);

@@ -1,5 +1,6 @@
 //! Options of `rasray compare`.
 
+use super::ray_files::RayFileArguments;
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
 use crate::backend::RaySet;
 use crate::structure::{Preset, StructureOptions, SystemName};
@@ -12,11 +13,14 @@ Examples:
   rasray compare cornell --systems mmrt,brute-force
   rasray compare spheres:10k --systems mmrt --presets published,robust --ray-set incoherent,bounce
   rasray compare scene.glb --systems mmrt,brute-force --buckets 8 mmrt.march=samples --report r.json
-  rasray compare cornell --systems mmrt --image --size 256x256 --spp 64 --report r.json
+  rasray compare cornell --systems mmrt --image --size 256x256 --spp 64 --report r.json --html r.html
+  rasray compare scene.glb --systems mmrt --ray-set bounce --save-rays out --save-hits out
+  rasray compare scene.glb --systems mmrt --rays-file out/bounce.rays --hits-file other=other.npy
 
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
-program can decide are counted apart. An option goes to the systems that have it; SYSTEM.OPTION=VALUE
-addresses one. Times of software devices are for ratios on that device.";
+program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
+them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one. Times of software
+devices are for ratios on that device.";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
@@ -34,18 +38,27 @@ pub struct CompareArguments {
     /// How closely the systems follow their papers; each takes part with the presets that it has
     #[arg(long, value_enum, value_delimiter = ',', default_value = "robust")]
     pub presets: Vec<Preset>,
-    /// Where the rays come from
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "incoherent,camera")]
+    /// Where the rays come from [default: incoherent,camera; none with --rays-file]
+    #[arg(long, value_enum, value_delimiter = ',')]
     pub ray_set: Vec<RaySet>,
     /// Rays per set
     #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub rays: u32,
+    /// Times that each build and each set of rays is timed, after once to warm up
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub repetitions: u32,
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,
     /// JSON with everything that was measured
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Page with tables, pictures and graphs, whole in one file
+    #[arg(long, value_name = "FILE")]
+    pub html: Option<PathBuf>,
+    /// Rays for others and from others.
+    #[command(flatten)]
+    pub files: RayFileArguments,
     /// The image and what light does; the size also shapes the camera's rays.
     #[command(flatten)]
     pub frame: FrameArguments,

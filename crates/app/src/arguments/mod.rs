@@ -2,12 +2,14 @@
 
 mod compare;
 mod info;
+mod ray_files;
 mod render;
 mod shared;
 pub mod values;
 
 pub use compare::CompareArguments;
 pub use info::InfoArguments;
+pub use ray_files::{NamedFile, RayFileArguments};
 pub use render::{Aov, RenderArguments};
 pub use shared::{DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, ViewArguments};
 

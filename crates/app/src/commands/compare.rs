@@ -5,22 +5,34 @@ use crate::arguments::CompareArguments;
 use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::report::{Report, table};
+use crate::output::Destination;
+use crate::ray_files::{self, SaveTargets};
+use crate::report::figures::Figures;
+use crate::report::{Report, SceneRecord, html, table};
 use crate::{camera, scene_source, systems, terminal};
+use std::ffi::OsStr;
 
-/// Traces the same rays through several systems and reports speed beside error.
+/// Sets of rays unless told.
+const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
+
+/// Traces the same rays through several systems and reports speed beside error; `line` is the command
+/// as it was typed.
 ///
 /// # Errors
 /// Everything that can be refused without a device is refused before a device is opened.
 pub(crate) fn compare(
     given: &CompareArguments,
+    line: &str,
     open: &mut OpenBackend<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
     let frame = given.frame.frame()?;
     let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
-    let report_target = destination(given.report.as_deref())?;
-    keep_inputs(report_target.as_ref(), &given.scene)?;
+    let ray_sets = ray_sets(given)?;
+    let targets = Targets::check(given, &given.scene)?;
+    let rays_file = given.files.rays_file.as_deref().map(ray_files::load_rays).transpose()?;
+    let hits_files = given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path));
+    let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;
@@ -28,8 +40,8 @@ pub(crate) fn compare(
 
     let mut backend = open(&given.device.choice())?;
     stop_if_requested(interrupt)?;
-    let ray_sets = distinct(&given.ray_set);
-    let wanted = systems.len() * (ray_sets.len() + usize::from(given.image));
+    let sets = ray_sets.len() + usize::from(rays_file.is_some());
+    let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {
         scene: &loaded.scene,
         camera,
@@ -38,23 +50,27 @@ pub(crate) fn compare(
         rays: given.rays,
         frame,
         image: given.image,
-        figures: false,
+        figures: targets.html.is_some(),
+        repetitions: given.repetitions,
+        rays_file,
+        hits_files,
+        keep: targets.save.any(),
         needs: given.reading.needs(&loaded.scene, frame.workload()),
     };
-    let Comparison { runs, .. } = with_progress(interrupt, |progress| backend.compare(&job, progress))?;
+    let Comparison { runs, figures, kept } =
+        with_progress(interrupt, |progress| backend.compare(&job, progress))?;
     let finished = runs.len();
     if finished == 0 && interrupt.requested() {
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));
     }
 
-    let report = Report::new(backend.device(), &loaded, runs);
-    if let Some(place) = &report_target {
-        place.write(report.to_json().as_bytes(), interrupt)?;
-    }
+    let report = Report::new(backend.device(), SceneRecord::of(&loaded), Some(line.to_owned()), runs);
+    ray_files::save(&targets.save, &kept, interrupt)?;
+    targets.write(&report, &figures, interrupt)?;
     terminal::print(&table(&report))?;
     report.runs.iter().try_for_each(check_whole)?;
     if finished < wanted && interrupt.requested() {
-        let kept = if report_target.is_some() { "the report holds them" } else { "no report was asked for" };
+        let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
         return Err(AppError::interrupted(
             format!("stopped after {finished} of {wanted} runs; {kept}"),
             "run again for all of them",
@@ -63,13 +79,63 @@ pub(crate) fn compare(
     Ok(())
 }
 
-/// Each set once, in the order given.
-fn distinct(sets: &[RaySet]) -> Vec<RaySet> {
+/// Where results go.
+pub(super) struct Targets {
+    report: Option<Destination>,
+    html: Option<Destination>,
+    save: SaveTargets,
+}
+
+impl Targets {
+    /// Checks every place before anything is begun.
+    pub(super) fn check(given: &CompareArguments, scene: &OsStr) -> Result<Self, AppError> {
+        let report = destination(given.report.as_deref())?;
+        let html = destination(given.html.as_deref())?;
+        if let (Some(report), Some(html)) = (&report, &html)
+            && report.same_as(html)
+        {
+            return Err(AppError::usage("--report and --html name the same file", "name two files"));
+        }
+        keep_inputs("--report", report.as_ref(), scene)?;
+        keep_inputs("--html", html.as_ref(), scene)?;
+        let save = SaveTargets::check(given.files.save_rays.as_deref(), given.files.save_hits.as_deref())?;
+        Ok(Self { report, html, save })
+    }
+
+    /// Whether a file keeps the runs.
+    fn any(&self) -> bool {
+        self.report.is_some() || self.html.is_some()
+    }
+
+    /// Writes the report and the page where they are wanted.
+    fn write(&self, report: &Report, figures: &Figures, interrupt: &Interrupt) -> Result<(), AppError> {
+        if let Some(place) = &self.report {
+            place.write(report.to_json().as_bytes(), interrupt)?;
+        }
+        if let Some(place) = &self.html {
+            place.write(&html::page(report, figures)?, interrupt)?;
+        }
+        Ok(())
+    }
+}
+
+/// The generated sets that are wanted, each once, in the order given.
+fn ray_sets(given: &CompareArguments) -> Result<Vec<RaySet>, AppError> {
     let mut kept = Vec::new();
-    for set in sets {
+    for set in &given.ray_set {
         if !kept.contains(set) {
             kept.push(*set);
         }
     }
-    kept
+    let from_file = given.files.rays_file.is_some();
+    if kept.is_empty() && !from_file {
+        kept.extend(DEFAULT_SETS);
+    }
+    if !given.files.hits_file.is_empty() && kept.len() + usize::from(from_file) != 1 {
+        return Err(AppError::usage(
+            "--hits-file has the hits of one set of rays, and several are traced",
+            "say which with one --ray-set or with --rays-file",
+        ));
+    }
+    Ok(kept)
 }

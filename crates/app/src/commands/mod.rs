@@ -40,13 +40,14 @@ fn destination(path: Option<&Path>) -> Result<Option<Destination>, AppError> {
     path.map(Destination::check).transpose()
 }
 
-/// Refuses to write a report over the scene that it is about.
-fn keep_inputs(report: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
+/// Refuses to write what `option` asks for over the scene that it is about.
+fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
     let scene = Path::new(scene);
-    match report {
-        Some(report) if scene.is_file() && report.is(scene) => {
-            Err(AppError::usage("--report names the scene file", "name another file, such as report.json"))
-        }
+    match output {
+        Some(output) if scene.is_file() && output.is(scene) => Err(AppError::usage(
+            format!("{option} names the scene file"),
+            "name another file, such as report.json",
+        )),
         _ => Ok(()),
     }
 }

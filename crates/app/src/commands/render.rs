@@ -8,16 +8,17 @@ use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::report::{Report, Run, table};
+use crate::report::{Report, Run, SceneRecord, table};
 use crate::systems::{self, SystemConfig, word};
 use crate::{camera, scene_source, terminal};
 
-/// Renders a scene and writes what was asked for.
+/// Renders a scene and writes what was asked for; `line` is the command as it was typed.
 ///
 /// # Errors
 /// Everything that can be refused without a device is refused before a device is opened.
 pub(crate) fn render(
     given: &RenderArguments,
+    line: &str,
     open: &mut OpenBackend<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
@@ -31,7 +32,7 @@ pub(crate) fn render(
     {
         return Err(AppError::usage("--output and --report name the same file", "name two files"));
     }
-    keep_inputs(report_target.as_ref(), &given.scene)?;
+    keep_inputs("--report", report_target.as_ref(), &given.scene)?;
 
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;
@@ -51,7 +52,7 @@ pub(crate) fn render(
 
     let run = run_of(&system, &frame, &output);
     let whole = check_whole(&run);
-    let report = Report::new(backend.device(), &loaded, vec![run]);
+    let report = Report::new(backend.device(), SceneRecord::of(&loaded), Some(line.to_owned()), vec![run]);
     if let Some(place) = &report_target {
         place.write(report.to_json().as_bytes(), interrupt)?;
     }
@@ -149,6 +150,7 @@ fn run_of(system: &SystemConfig, frame: &Frame, output: &RenderOutput) -> Run {
         bounces: bounces(frame),
         seed: Some(frame.seed),
         times: output.times,
+        spread: output.spread.clone(),
         passes: output.passes.clone(),
         memory: output.memory.clone(),
         counters: output.counters.clone(),

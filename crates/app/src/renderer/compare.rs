@@ -2,33 +2,19 @@
 
 use std::ops::ControlFlow;
 
-use rasray_ads::{Hit, QueueCounters, Ray, TraceMode};
 use rasray_gpu::Device;
-use rasray_reference::oracle::{Accept, Oracle, Verdict};
+use rasray_reference::oracle::{Accept, Oracle};
 use rasray_reference::shading::{PosedScene, View};
-use rasray_systems::Spec;
-use rasray_tracer::BatchTracer;
 
+use super::contestant::Contestant;
 use super::images::compare_images;
-use super::judge::{accuracy, depth_errors, device_hits};
-use super::passes::{Passes, median};
 use super::rays::{RaySource, oracle_ray};
-use super::spec_of;
-use super::stage::{Built, Stage, device_error, tracer_error};
-use crate::backend::{CompareJob, Comparison, OnProgress, Progress, RaySet};
+use super::stage::{Stage, device_error};
+use super::traced_set::{RaysWithTruth, Wanted, compare_set};
+use super::work_maps::work_maps;
+use crate::backend::{CompareJob, Comparison, FILE_SET, OnProgress, Progress};
 use crate::error::AppError;
-use crate::report::{Run, Times};
-use crate::systems::{SystemConfig, word};
-
-/// Timed repetitions of each ray set, after one that warms up and is judged.
-const REPETITIONS: usize = 3;
-
-/// One system of the comparison.
-pub(super) struct Contestant<'a> {
-    pub(super) config: &'a SystemConfig,
-    pub(super) spec: Spec,
-    pub(super) built: Built,
-}
+use crate::systems::word;
 
 /// What images are made from.
 #[derive(Clone, Copy)]
@@ -81,28 +67,46 @@ pub(super) fn compare(
         indices: &indices,
     };
 
-    let mut contestants = Vec::new();
-    for config in &job.systems {
-        let spec = spec_of(config)?.with_counters(true);
-        let built = Built::new(device, &spec, &stage.scene, center, device.best_timing())?;
-        contestants.push(Contestant { config, spec, built });
-    }
-    let total = (contestants.len() * (job.ray_sets.len() + usize::from(job.image))) as u64;
+    let contestants = Contestant::all(device, &stage, &job.systems, center, job.repetitions)?;
+    let sets = job.ray_sets.len() + usize::from(job.rays_file.is_some());
+    let total = (contestants.len() * (sets + usize::from(job.image))) as u64;
     let mut comparison = Comparison::default();
-    for set in &job.ray_sets {
-        let rays = source.rays(*set, job.rays);
+    if job.keep {
+        comparison.kept.frame_origin = origin.to_array();
+        comparison.kept.triangles = triangles(&positions, &indices);
+    }
+    let wanted = Wanted {
+        repetitions: job.repetitions,
+        seed: frame.seed,
+        figures: job.figures,
+        keep: job.keep,
+        given_hits: &job.hits_files,
+    };
+    let generated = job.ray_sets.iter().map(|set| (word(set), source.rays(*set, job.rays)));
+    let given = job.rays_file.as_ref().map(|file| (FILE_SET.to_owned(), file.relative_to(origin.to_array())));
+    for (name, rays) in generated.chain(given) {
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
-        trace_set(device, &contestants, *set, &rays, &verdicts, job, &mut comparison)?;
+        let set = RaysWithTruth { name, rays, verdicts };
+        compare_set(device, &contestants, &set, wanted, |hits| hits, &mut comparison)?;
         let done = comparison.runs.len() as u64;
-        if progress(Progress { task: &word(set), done, total, unit: "runs" }) == ControlFlow::Break(()) {
+        if progress(Progress { task: &set.name, done, total, unit: "runs" }) == ControlFlow::Break(()) {
             return Ok(comparison);
         }
+    }
+    if job.figures {
+        comparison.figures.work = work_maps(device, &stage, &contestants, &source, &comparison.runs)?;
     }
     if job.image {
         let setting = Setting { device, job, stage: &stage, posed: &posed, view: &view };
         compare_images(&setting, &contestants, &mut comparison, progress)?;
     }
     Ok(comparison)
+}
+
+/// The corners of all triangles.
+pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
+    let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
+    indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
 }
 
 /// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so
@@ -112,101 +116,5 @@ fn views_center(stage: &Stage, [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
     std::array::from_fn(|axis| {
         let middle = 0.5 * (f64::from(lower[axis]) + f64::from(upper[axis]));
         (f64::from(eye[axis]) + 0.1 * (middle - f64::from(eye[axis]))) as f32
-    })
-}
-
-/// Traces one set through all systems, alternating, and judges the hits.
-fn trace_set(
-    device: &Device,
-    contestants: &[Contestant<'_>],
-    set: RaySet,
-    rays: &[Ray],
-    verdicts: &[Verdict],
-    job: &CompareJob<'_>,
-    comparison: &mut Comparison,
-) -> Result<(), AppError> {
-    let tracer =
-        BatchTracer::new(device, rays.len().clamp(1, 131_072) as u32).map_err(|e| tracer_error(&e))?;
-    let timing = device.best_timing();
-    let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
-    for repetition in 0..=REPETITIONS {
-        for (contestant, traced) in contestants.iter().zip(&mut traces) {
-            let outcome = tracer
-                .trace(contestant.built.structure.as_ref(), rays, TraceMode::Closest, timing)
-                .map_err(|e| tracer_error(&e))?;
-            if repetition == 0 {
-                traced.hits = outcome.hits;
-                traced.counters = outcome.counters;
-            } else {
-                traced.milliseconds.push(outcome.milliseconds());
-                traced.passes.add(&outcome.passes);
-            }
-        }
-    }
-    for (contestant, traced) in contestants.iter().zip(traces) {
-        let hits = device_hits(&traced.hits);
-        let mut run = run_of_rays(device, contestant, set, rays.len() as u64, traced, job)?;
-        run.accuracy = Some(accuracy(contestant.built.structure.kind(), verdicts, &hits)?);
-        if job.figures {
-            comparison.figures.depth_errors.push(depth_errors(comparison.runs.len(), verdicts, &hits));
-        }
-        comparison.runs.push(run);
-    }
-    Ok(())
-}
-
-/// What one system answered to one set.
-#[derive(Default)]
-struct Traced {
-    hits: Vec<Hit>,
-    counters: QueueCounters,
-    milliseconds: Vec<f64>,
-    passes: Passes,
-}
-
-fn run_of_rays(
-    device: &Device,
-    contestant: &Contestant<'_>,
-    set: RaySet,
-    rays: u64,
-    traced: Traced,
-    job: &CompareJob<'_>,
-) -> Result<Run, AppError> {
-    let trace_ms = median(&traced.milliseconds);
-    let mut counters = contestant.built.counters()?;
-    let per_ray = |sum: u64| (rays > 0).then(|| sum as f64 / rays as f64);
-    counters.nodes_per_ray = per_ray(traced.counters.entries);
-    counters.cells_per_ray = per_ray(traced.counters.cells);
-    counters.tests_per_ray = per_ray(traced.counters.tests);
-    counters.unfinished = Some(traced.counters.unfinished.into());
-    let mut run = base_run(device, contestant)?;
-    run.ray_set = Some(word(&set));
-    run.seed = Some(job.frame.seed);
-    run.times = Times {
-        timer: traced.passes.timer(),
-        build_ms: Some(contestant.built.build_milliseconds),
-        build_host_ms: Some(contestant.built.prepare_milliseconds),
-        trace_ms: Some(trace_ms),
-        rays: Some(rays),
-        mrays_per_s: (trace_ms > 0.0).then(|| rays as f64 / trace_ms / 1.0e3),
-        ..Times::default()
-    };
-    run.passes.extend(traced.passes.report());
-    run.counters = Some(counters);
-    Ok(run)
-}
-
-/// Names, options, build passes and bytes of a system.
-pub(super) fn base_run(device: &Device, contestant: &Contestant<'_>) -> Result<Run, AppError> {
-    let (options, paths) = contestant.built.resolved()?;
-    Ok(Run {
-        system: word(&contestant.config.name),
-        structure: contestant.spec.system().structure.to_owned(),
-        preset: word(&contestant.config.preset),
-        options,
-        paths,
-        passes: contestant.built.passes.report(),
-        memory: Some(contestant.built.memory(device)?),
-        ..Run::default()
     })
 }

@@ -4,14 +4,15 @@ use rasray_metrics as metrics;
 use rasray_reference::integrators::Image;
 use rasray_reference::shading::{PosedScene, View};
 
-use super::compare::{Contestant, Setting, base_run};
+use super::compare::Setting;
+use super::contestant::Contestant;
 use super::render::render_pixels;
 use super::spec_of;
 use super::stage::{Built, device_error};
 use crate::backend::{Comparison, Frame, Integrator, OnProgress};
 use crate::error::AppError;
 use crate::report::figures::{Images, SystemImage};
-use crate::report::{ImageError, Run, Times};
+use crate::report::{ImageError, Run};
 use crate::systems::word;
 
 /// The reference image of a frame; absent for integrators that it does not have.
@@ -41,10 +42,15 @@ fn image_error(
     let error = ImageError {
         flip_mean: Some(error.flip.mean),
         flip_p99: Some(error.flip.p99),
+        flip_max: Some(error.flip.max),
         rmse: Some(error.rmse),
         relmse: Some(error.relmse),
+        relmse_trimmed: Some(error.relmse_trimmed),
+        bias: Some(error.bias),
+        bias_sigma: Some(error.bias_sigma),
         psnr: error.psnr.is_finite().then_some(error.psnr),
         ssim: Some(error.ssim),
+        non_finite: Some(error.non_finite as u64),
     };
     Ok((error, map))
 }
@@ -90,22 +96,17 @@ pub(super) fn compare_images(
     for contestant in contestants {
         // Images are taken as renders are: from a structure built around the camera.
         let spec = spec_of(contestant.config)?;
-        let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), device.best_timing())?;
+        let built = Built::timed(device, &spec, &stage.scene, stage.scene.eye())?;
         let task = format!("image {}", word(&contestant.config.name));
         let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
         }
         let of_camera = Contestant { config: contestant.config, spec, built };
-        let mut run = base_run(device, &of_camera)?;
+        let mut run = of_camera.run(device)?;
         run.seed = Some(frame.seed);
-        run.times = Times {
-            timer: pixels.passes.timer(),
-            build_ms: Some(of_camera.built.build_milliseconds),
-            build_host_ms: Some(of_camera.built.prepare_milliseconds),
-            trace_ms: Some(pixels.passes.total(|label| label.contains("/trace_"))),
-            ..Times::default()
-        };
+        run.times.timer = pixels.passes.timer();
+        run.times.trace_ms = Some(pixels.passes.total(|label| label.contains("/trace_")));
         run.passes.extend(pixels.passes.report());
         run.counters = Some(pixels.counters);
         add(comparison, run, pixels.beauty)?;

@@ -1,6 +1,7 @@
 //! The back end on Vulkan: a device, the systems of the registry, and the two jobs it is given.
 
 mod compare;
+mod contestant;
 mod describe;
 mod images;
 mod judge;
@@ -8,6 +9,8 @@ mod passes;
 mod rays;
 mod render;
 mod stage;
+mod traced_set;
+mod work_maps;
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
 use rasray_systems::Spec;

@@ -1,8 +1,9 @@
 //! Times of passes, gathered over repetitions.
 
 use rasray_gpu::{PassTiming, TimerKind};
+use rasray_metrics::Summary;
 
-use crate::report::{Pass, Timer};
+use crate::report::{Pass, Spread, Timer};
 
 /// All times of each pass, in the order the passes were first seen.
 #[derive(Debug, Default)]
@@ -23,16 +24,21 @@ impl Passes {
         }
     }
 
-    /// Median, shortest and longest time of each pass.
+    /// Median and spread of each pass.
     pub(super) fn report(&self) -> Vec<Pass> {
-        self.times
-            .iter()
-            .map(|(label, times)| {
-                let least = times.iter().copied().fold(f64::INFINITY, f64::min);
-                let most = times.iter().copied().fold(0.0, f64::max);
-                Pass { label: label.clone(), ms_median: median(times), ms_min: least, ms_max: most }
+        let pass = |(label, times): &(String, Vec<f64>)| {
+            let summary = Summary::of(times)?;
+            Some(Pass {
+                label: label.clone(),
+                ms_median: summary.median,
+                ms_min: summary.min,
+                ms_max: summary.max,
+                ms_q1: Some(summary.first_quartile),
+                ms_q3: Some(summary.third_quartile),
+                count: Some(summary.count as u64),
             })
-            .collect()
+        };
+        self.times.iter().filter_map(pass).collect()
     }
 
     /// Milliseconds of all passes whose label passes the filter.
@@ -47,6 +53,17 @@ impl Passes {
             TimerKind::Host => Timer::Host,
         })
     }
+}
+
+/// How far times lie apart; absent for nothing.
+pub(super) fn spread(times: &[f64]) -> Option<Spread> {
+    Summary::of(times).map(|summary| Spread {
+        count: summary.count as u64,
+        min: summary.min,
+        q1: summary.first_quartile,
+        q3: summary.third_quartile,
+        max: summary.max,
+    })
 }
 
 /// The median; 0 of nothing.

@@ -53,6 +53,11 @@ impl RaySource<'_> {
         camera_ray(self.view, self.frame_origin, place)
     }
 
+    /// The camera's ray through a point of the image, pixels from its upper left corner.
+    pub(super) fn through(&self, place: Vec2) -> Ray {
+        from_shading(&camera_ray(self.view, self.frame_origin, place))
+    }
+
     /// Cosine-weighted directions from what camera rays hit exactly.
     fn bounce(&self, count: u32) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count as usize);

@@ -1,5 +1,6 @@
 //! An image: scene to device, structure, waves of samples, readback.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -122,8 +123,7 @@ pub(super) fn render(
     let spec = spec_of(&job.system)?;
     let stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
-    let timing = device.best_timing();
-    let built = Built::new(device, &spec, &stage.scene, stage.scene.eye(), timing)?;
+    let built = Built::timed(device, &spec, &stage.scene, stage.scene.eye())?;
     let pixels = render_pixels(device, &stage, &built, &frame, &job.needs, "render", progress)?;
     let (options, paths) = built.resolved()?;
     let mut memory = built.memory(device)?;
@@ -146,14 +146,15 @@ pub(super) fn render(
         passes,
         times: Times {
             timer: pixels.passes.timer(),
-            build_ms: Some(built.build_milliseconds),
-            build_host_ms: Some(built.prepare_milliseconds),
             trace_ms: Some(pixels.passes.total(is_trace)),
             ..Times::default()
         },
+        spread: BTreeMap::new(),
         memory: Some(memory),
         counters: Some(pixels.counters),
     };
+    built.write_times(&mut output.times);
+    output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
         add_aovs(device, &stage, &built, job, &mut output)?;
     }

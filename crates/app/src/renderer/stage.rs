@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec3;
 use rasray_ads::{AdsError, Structure};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
@@ -11,11 +12,11 @@ use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
 use serde_json::Value;
 
-use super::passes::{Passes, median};
+use super::passes::{Passes, median, spread};
 use crate::error::AppError;
-use crate::report::{Counters, Memory};
+use crate::report::{Counters, Memory, Spread, Times};
 
-/// Builds after the first complete one, for medians.
+/// Builds after the first complete one, for the medians of an image.
 const REPEATED_BUILDS: usize = 3;
 
 /// What a device error is about.
@@ -54,6 +55,19 @@ impl Stage {
     ) -> Result<Self, AppError> {
         let eye = camera.world_from_camera.translation;
         let origin = SceneTables::default_frame_origin(scene, eye);
+        Self::around(device, scene, origin, camera, [width, height], seed, needs)
+    }
+
+    /// As [`Stage::new`], with positions relative to `origin` (world, metres).
+    pub(super) fn around(
+        device: &Device,
+        scene: &Scene,
+        origin: DVec3,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<Self, AppError> {
         let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(device_error)?;
         let view = View { camera: camera.clone(), width, height, seed };
         let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(device_error)?;
@@ -140,24 +154,25 @@ pub(super) struct Built {
     pub(super) structure: Box<dyn Structure>,
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
-    /// Median over repeated builds as the host saw them, milliseconds.
-    pub(super) build_milliseconds: f64,
-    /// The host's own part of that, milliseconds.
-    pub(super) prepare_milliseconds: f64,
+    eye: [f32; 3],
+    /// Of each repeated build, as the host saw it, milliseconds.
+    whole: Vec<f64>,
+    /// The host's own part of each, milliseconds.
+    prepare: Vec<f64>,
 }
 
 impl Built {
-    /// Makes the structure of a spec and builds it as seen from `eye` until complete, then again for
-    /// medians. Where a pool exceeds what one binding can hold and nothing was said of addressing, the
-    /// pools are reached by device address instead.
+    /// Makes the structure of a spec and builds it as seen from `eye` until complete. Where a pool
+    /// exceeds what one binding can hold and nothing was said of addressing, the pools are reached by
+    /// device address instead.
     pub(super) fn new(
         device: &Device,
         spec: &Spec,
         scene: &GpuScene,
         eye: [f32; 3],
-        timing: Timing,
     ) -> Result<Self, AppError> {
-        let (mut structure, mut outcome) = match first_build(device, spec, scene, eye, timing) {
+        let timing = device.best_timing();
+        let (structure, outcome) = match first_build(device, spec, scene, eye, timing) {
             Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
                 tracing::info!(
                     system = spec.system().name,
@@ -170,19 +185,54 @@ impl Built {
             }
             other => other.map_err(AppError::from)?,
         };
-        let regrows = outcome.regrows;
-        let mut passes = Passes::default();
-        let (mut host, mut prepare) = (Vec::new(), Vec::new());
+        Ok(Self {
+            structure,
+            outcome,
+            passes: Passes::default(),
+            eye,
+            whole: Vec::new(),
+            prepare: Vec::new(),
+        })
+    }
+
+    /// As [`Built::new`], with builds repeated for medians.
+    pub(super) fn timed(
+        device: &Device,
+        spec: &Spec,
+        scene: &GpuScene,
+        eye: [f32; 3],
+    ) -> Result<Self, AppError> {
+        let mut built = Self::new(device, spec, scene, eye)?;
         for _ in 0..REPEATED_BUILDS {
-            outcome = build_until_complete(device, structure.as_mut(), eye, timing)
-                .map_err(|e| tracer_error(&e))?;
-            passes.add(&outcome.passes);
-            host.push(outcome.host_milliseconds);
-            prepare.push(outcome.prepare_milliseconds);
+            built.build_again(device)?;
         }
-        outcome.regrows = regrows;
-        let (build_milliseconds, prepare_milliseconds) = (median(&host), median(&prepare));
-        Ok(Self { structure, outcome, passes, build_milliseconds, prepare_milliseconds })
+        Ok(built)
+    }
+
+    /// Builds once more and keeps the times.
+    pub(super) fn build_again(&mut self, device: &Device) -> Result<(), AppError> {
+        let regrows = self.outcome.regrows;
+        let timing = device.best_timing();
+        self.outcome = build_until_complete(device, self.structure.as_mut(), self.eye, timing)
+            .map_err(|e| tracer_error(&e))?;
+        self.outcome.regrows += regrows;
+        self.passes.add(&self.outcome.passes);
+        self.whole.push(self.outcome.host_milliseconds);
+        self.prepare.push(self.outcome.prepare_milliseconds);
+        Ok(())
+    }
+
+    /// Sets the times of the build in a run.
+    pub(super) fn write_times(&self, times: &mut Times) {
+        times.build_ms = Some(median(&self.whole));
+        times.build_host_ms = Some(median(&self.prepare));
+    }
+
+    /// How far the times of repeated builds lie apart, by the names of a report.
+    pub(super) fn spread(&self) -> impl Iterator<Item = (String, Spread)> {
+        [("build_ms", &self.whole), ("build_host_ms", &self.prepare)]
+            .into_iter()
+            .filter_map(|(name, times)| Some((name.to_owned(), spread(times)?)))
     }
 
     /// Options and paths as the structure resolved them.

@@ -1,5 +1,9 @@
 //! The schema `rasray-report/1`. A measurement that was not made is an absent field, never 0.
 
+mod accuracy;
+
+pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -23,12 +27,32 @@ pub struct Report {
     /// Commit that the command was built from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
+    /// The command line as it was typed, words joined by spaces.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub command: Option<String>,
     /// Where it ran.
     pub device: Device,
     /// What it ran on.
     pub scene: SceneRecord,
+    /// What the intervals of all rates hold together; absent where no rate was estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub statistics: Option<Statistics>,
     /// One entry per system, preset and ray set or image.
     pub runs: Vec<Run>,
+}
+
+/// How many rates a report estimates, and what must hold for all of them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Statistics {
+    /// Rates with an interval in this report.
+    pub rates: u64,
+    /// Confidence of every `interval` by itself.
+    pub confidence: f64,
+    /// Confidence that every `family_interval` of the report holds.
+    pub family_confidence: f64,
+    /// Confidence of each `family_interval`: 1 - (1 - `family_confidence`) / `rates` (Bonferroni).
+    pub confidence_of_each: f64,
 }
 
 /// A device.
@@ -94,6 +118,10 @@ pub struct Run {
     /// Times and rate.
     #[serde(flatten)]
     pub times: Times,
+    /// How far repeated times lie apart, by the name of their median: `build_ms`, `build_host_ms`,
+    /// `trace_ms`.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub spread: BTreeMap<String, Spread>,
     /// Every pass that was timed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub passes: Vec<Pass>,
@@ -109,6 +137,25 @@ pub struct Run {
     /// Image against the reference.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub image: Option<ImageError>,
+    /// The hard case that was traced.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hard: Option<HardRecord>,
+}
+
+/// The times of one figure, milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spread {
+    /// Repetitions timed, after one that warms up.
+    pub count: u64,
+    /// Shortest.
+    pub min: f64,
+    /// First quartile.
+    pub q1: f64,
+    /// Third quartile.
+    pub q3: f64,
+    /// Longest.
+    pub max: f64,
 }
 
 /// What measured the times.
@@ -162,6 +209,15 @@ pub struct Pass {
     pub ms_min: f64,
     /// Longest.
     pub ms_max: f64,
+    /// First quartile.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub ms_q1: Option<f64>,
+    /// Third quartile.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub ms_q3: Option<f64>,
+    /// Times measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub count: Option<u64>,
 }
 
 /// Bytes.
@@ -222,60 +278,6 @@ pub struct Counters {
     /// Rays without an answer after the last round.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfinished: Option<u64>,
-}
-
-/// Hits against the oracle; rates are over unambiguous rays.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Accuracy {
-    /// Rays judged.
-    pub rays: u64,
-    /// Rays that no f32 program can decide.
-    pub ambiguous: u64,
-    /// Ambiguous rays whose answer is none of the candidates.
-    pub ambiguous_lost: u64,
-    /// Hits that were not found.
-    pub missed: u64,
-    /// Hits where there is nothing.
-    pub false_hits: u64,
-    /// Hits of another primitive; absent where the structure does not know the primitive.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wrong_primitive: Option<u64>,
-    /// Median of |dt|/t over common hits.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub dt_rel_p50: Option<f64>,
-    /// 99th percentile of |dt|/t.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub dt_rel_p99: Option<f64>,
-    /// Largest |dt|/t.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub dt_rel_max: Option<f64>,
-    /// Answers that are not finite numbers.
-    pub non_finite: u64,
-}
-
-/// Image against the reference.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ImageError {
-    /// Mean of FLIP, in [0, 1].
-    #[serde(default, skip_serializing_if = "absent")]
-    pub flip_mean: Option<f64>,
-    /// 99th percentile of FLIP.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub flip_p99: Option<f64>,
-    /// Root of the mean squared error of linear colours.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub rmse: Option<f64>,
-    /// Relative mean squared error.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub relmse: Option<f64>,
-    /// Decibel; absent also where the images are equal.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub psnr: Option<f64>,
-    /// Structural similarity, 1 for equal images.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub ssim: Option<f64>,
 }
 
 #[cfg(test)]

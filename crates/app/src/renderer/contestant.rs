@@ -1,0 +1,63 @@
+//! The systems of a comparison: each with its structure, built in turns with the others.
+
+use rasray_ads::Counters;
+use rasray_gpu::Device;
+use rasray_systems::Spec;
+
+use super::spec_of;
+use super::stage::{Built, Stage};
+use crate::error::AppError;
+use crate::report::{Run, Times};
+use crate::systems::{SystemConfig, word};
+
+/// One system of a comparison.
+pub(super) struct Contestant<'a> {
+    pub(super) config: &'a SystemConfig,
+    pub(super) spec: Spec,
+    pub(super) built: Built,
+}
+
+impl<'a> Contestant<'a> {
+    /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
+    /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
+    /// machine for a while slows all of them.
+    pub(super) fn all(
+        device: &Device,
+        stage: &Stage,
+        systems: &'a [SystemConfig],
+        center: [f32; 3],
+        repetitions: u32,
+    ) -> Result<Vec<Self>, AppError> {
+        let mut contestants = Vec::new();
+        for config in systems {
+            let spec = spec_of(config)?.with_counters(Counters::Sums);
+            let built = Built::new(device, &spec, &stage.scene, center)?;
+            contestants.push(Self { config, spec, built });
+        }
+        for _ in 0..repetitions {
+            for contestant in &mut contestants {
+                contestant.built.build_again(device)?;
+            }
+        }
+        Ok(contestants)
+    }
+
+    /// A run with names, options, build times and bytes of the system.
+    pub(super) fn run(&self, device: &Device) -> Result<Run, AppError> {
+        let (options, paths) = self.built.resolved()?;
+        let mut times = Times::default();
+        self.built.write_times(&mut times);
+        Ok(Run {
+            system: word(&self.config.name),
+            structure: self.spec.system().structure.to_owned(),
+            preset: word(&self.config.preset),
+            options,
+            paths,
+            times,
+            spread: self.built.spread().collect(),
+            passes: self.built.passes.report(),
+            memory: Some(self.built.memory(device)?),
+            ..Run::default()
+        })
+    }
+}

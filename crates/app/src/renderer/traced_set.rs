@@ -1,0 +1,199 @@
+//! One set of rays: traced through all systems in turns, judged against the truth, and kept where
+//! wanted.
+
+use rasray_ads::{Hit, QueueCounters, Ray, StructureKind, TraceMode};
+use rasray_gpu::Device;
+use rasray_reference::oracle::{Outcome, Verdict};
+use rasray_tracer::BatchTracer;
+
+use super::contestant::Contestant;
+use super::judge::{accuracy, depth_errors, device_hits};
+use super::passes::{Passes, median, spread};
+use super::stage::tracer_error;
+use crate::backend::{Answers, Comparison, KeptSet, TrueHit};
+use crate::error::AppError;
+use crate::ray_files::HitsFile;
+use crate::report::{Run, Times};
+
+/// Most rays that are traced at a time.
+const BATCH: usize = 131_072;
+
+/// Rays with their truth.
+pub(super) struct RaysWithTruth {
+    /// Such as `camera`.
+    pub(super) name: String,
+    /// As the device traces them.
+    pub(super) rays: Vec<Ray>,
+    /// One a ray.
+    pub(super) verdicts: Vec<Verdict>,
+}
+
+/// What is wanted of every set.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    /// Times each set is traced after once to warm up, at least 1.
+    pub(super) repetitions: u32,
+    /// What the rays were drawn with.
+    pub(super) seed: u32,
+    /// Whether histograms are made.
+    pub(super) figures: bool,
+    /// Whether rays, truth and hits are kept.
+    pub(super) keep: bool,
+    /// Hits found elsewhere, judged like a system's.
+    pub(super) given_hits: &'a [HitsFile],
+}
+
+/// What one system answered to one set.
+#[derive(Default)]
+struct Traced {
+    hits: Vec<Hit>,
+    counters: QueueCounters,
+    milliseconds: Vec<f64>,
+    passes: Passes,
+}
+
+/// Traces a set through all systems, in turns, and adds a run for each to the comparison. `name_hits`
+/// gives hits of the device the ids of the truth. Returns the answers of each new run, so named.
+pub(super) fn compare_set(
+    device: &Device,
+    contestants: &[Contestant<'_>],
+    set: &RaysWithTruth,
+    wanted: Wanted<'_>,
+    name_hits: impl Fn(Vec<Hit>) -> Vec<Hit>,
+    comparison: &mut Comparison,
+) -> Result<Vec<Answers>, AppError> {
+    for given in wanted.given_hits {
+        if given.hits.len() != set.rays.len() {
+            return Err(AppError::usage(
+                format!(
+                    "{} has {} hits for the {} rays of {}",
+                    given.name,
+                    given.hits.len(),
+                    set.rays.len(),
+                    set.name
+                ),
+                "give one hit for each ray, in the order of the rays",
+            ));
+        }
+    }
+    let mut answers = Vec::new();
+    for (contestant, mut traced) in
+        contestants.iter().zip(trace_in_turns(device, contestants, set, wanted.repetitions)?)
+    {
+        traced.hits = name_hits(traced.hits);
+        let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
+        let kind = contestant.built.structure.kind();
+        judge(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
+        answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
+        comparison.runs.push(run);
+    }
+    for given in wanted.given_hits {
+        let mut run = Run {
+            system: given.name.clone(),
+            structure: "file".to_owned(),
+            preset: "given".to_owned(),
+            ray_set: Some(set.name.clone()),
+            ..Run::default()
+        };
+        judge(&mut run, StructureKind::Primitive, &set.verdicts, &given.hits, wanted.figures, comparison)?;
+        comparison.runs.push(run);
+    }
+    let others = wanted.given_hits.iter().map(|given| Answers {
+        name: given.name.clone(),
+        kind: StructureKind::Primitive,
+        hits: given.hits.clone(),
+    });
+    let judged = answers.iter().cloned().chain(others).collect();
+    if wanted.keep {
+        comparison.kept.sets.push(KeptSet {
+            name: set.name.clone(),
+            rays: set.rays.clone(),
+            truth: set.verdicts.iter().map(true_hit).collect(),
+            answers,
+        });
+    }
+    Ok(judged)
+}
+
+/// Adds what is right and wrong of the hits.
+fn judge(
+    run: &mut Run,
+    kind: StructureKind,
+    verdicts: &[Verdict],
+    hits: &[Hit],
+    figures: bool,
+    comparison: &mut Comparison,
+) -> Result<(), AppError> {
+    let hits = device_hits(hits);
+    run.accuracy = Some(accuracy(kind, verdicts, &hits)?);
+    if figures {
+        comparison.figures.depth_errors.push(depth_errors(comparison.runs.len(), verdicts, &hits));
+    }
+    Ok(())
+}
+
+fn trace_in_turns(
+    device: &Device,
+    contestants: &[Contestant<'_>],
+    set: &RaysWithTruth,
+    repetitions: u32,
+) -> Result<Vec<Traced>, AppError> {
+    let tracer =
+        BatchTracer::new(device, set.rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let timing = device.best_timing();
+    let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
+    for repetition in 0..=repetitions {
+        for (contestant, traced) in contestants.iter().zip(&mut traces) {
+            let outcome = tracer
+                .trace(contestant.built.structure.as_ref(), &set.rays, TraceMode::Closest, timing)
+                .map_err(|e| tracer_error(&e))?;
+            if repetition == 0 {
+                traced.hits = outcome.hits;
+                traced.counters = outcome.counters;
+            } else {
+                traced.milliseconds.push(outcome.milliseconds());
+                traced.passes.add(&outcome.passes);
+            }
+        }
+    }
+    Ok(traces)
+}
+
+fn run_of(
+    device: &Device,
+    contestant: &Contestant<'_>,
+    set: &RaysWithTruth,
+    traced: &Traced,
+    seed: u32,
+) -> Result<Run, AppError> {
+    let rays = set.rays.len() as u64;
+    let trace_ms = median(&traced.milliseconds);
+    let mut counters = contestant.built.counters()?;
+    let per_ray = |sum: u64| (rays > 0).then(|| sum as f64 / rays as f64);
+    counters.nodes_per_ray = per_ray(traced.counters.entries);
+    counters.cells_per_ray = per_ray(traced.counters.cells);
+    counters.tests_per_ray = per_ray(traced.counters.tests);
+    counters.unfinished = Some(traced.counters.unfinished.into());
+    let mut run = contestant.run(device)?;
+    run.ray_set = Some(set.name.clone());
+    run.seed = Some(seed);
+    run.times = Times {
+        timer: traced.passes.timer(),
+        trace_ms: Some(trace_ms),
+        rays: Some(rays),
+        mrays_per_s: (trace_ms > 0.0).then(|| rays as f64 / trace_ms / 1.0e3),
+        ..run.times
+    };
+    run.spread.extend(spread(&traced.milliseconds).map(|spread| ("trace_ms".to_owned(), spread)));
+    run.passes.extend(traced.passes.report());
+    run.counters = Some(counters);
+    Ok(run)
+}
+
+fn true_hit(verdict: &Verdict) -> TrueHit {
+    let (primitive, t, barycentrics) = match verdict.outcome {
+        Outcome::Hit { primitive, t, barycentrics } => (primitive, t, barycentrics),
+        Outcome::Miss => (rasray_ads::PRIMITIVE_NONE, f64::INFINITY, [0.0; 2]),
+    };
+    TrueHit { t, primitive, barycentrics, ambiguous: verdict.ambiguous }
+}

@@ -1,0 +1,172 @@
+//! How right a run was: hits against the oracle, images against the reference, hard cases against what
+//! is stated of them.
+
+use super::absent;
+use rasray_metrics::Rate;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Hits against the oracle; counts are over unambiguous rays, unless their name says otherwise.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Rays judged.
+    pub rays: u64,
+    /// Rays that no f32 program can decide.
+    pub ambiguous: u64,
+    /// Ambiguous rays whose answer is none of the candidates.
+    pub ambiguous_lost: u64,
+    /// Hits that were not found.
+    pub missed: u64,
+    /// Hits where there is nothing.
+    pub false_hits: u64,
+    /// Hits of another primitive; absent where the structure does not know the primitive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrong_primitive: Option<u64>,
+    /// Hits with a t that the rounding of a careful f32 test does not explain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub t_off: Option<u64>,
+    /// Hits with a finite t that the oracle has as well: those that the next figures are over.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dt_rel_count: Option<u64>,
+    /// Median of |dt|/t over common hits.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p50: Option<f64>,
+    /// 90th percentile of |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p90: Option<f64>,
+    /// 99th percentile of |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p99: Option<f64>,
+    /// 99.9th percentile of |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_p999: Option<f64>,
+    /// Largest |dt|/t.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub dt_rel_max: Option<f64>,
+    /// Answers that are not finite numbers.
+    pub non_finite: u64,
+    /// Rates with their intervals by name: `missed`, `false_hits`, `wrong_primitive`, `t_off`,
+    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`. One that could not have happened is absent.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub rates: BTreeMap<String, RateRecord>,
+}
+
+/// A rate and how sure it is.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RateRecord {
+    /// How often it happened.
+    pub count: u64,
+    /// How often it could have happened, at least 1.
+    pub of: u64,
+    /// `count / of`.
+    pub rate: f64,
+    /// How the intervals were made.
+    pub bound: Bound,
+    /// Where the true rate lies with 95 % confidence.
+    pub interval: [f64; 2],
+    /// The same such that all rates of the report hold together, see [`super::Statistics`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family_interval: Option<[f64; 2]>,
+}
+
+/// How an interval was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bound {
+    /// Clopper and Pearson's, two-sided.
+    ClopperPearson,
+    /// It never or always happened, so that only one side can err: 3 / of at 95 %.
+    OneSided,
+}
+
+impl RateRecord {
+    /// Absent if nothing was tried.
+    pub fn of(rate: Rate) -> Option<Self> {
+        let bound = if rate.is_one_sided() { Bound::OneSided } else { Bound::ClopperPearson };
+        Some(Self {
+            count: rate.count,
+            of: rate.total,
+            rate: rate.value()?,
+            bound,
+            interval: rate.interval()?,
+            family_interval: None,
+        })
+    }
+
+    /// Counts as the metrics know them.
+    pub fn counted(&self) -> Rate {
+        Rate { count: self.count, total: self.of }
+    }
+}
+
+/// Image against the reference. Figures in linear light are over the pixels that are finite; displayed
+/// values are linear ones at exposure 1, clamped to [0, 1], with the sRGB curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImageError {
+    /// Mean over the pixels of LDR-FLIP of displayed values, 67 pixels per degree, in [0, 1].
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_mean: Option<f64>,
+    /// 99th percentile of FLIP over the pixels.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_p99: Option<f64>,
+    /// FLIP of the worst pixel.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub flip_max: Option<f64>,
+    /// Root of the mean of (R - r)^2 over pixels and channels, linear.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub rmse: Option<f64>,
+    /// Mean of (R - r)^2 / (r^2 + 0.01), linear.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub relmse: Option<f64>,
+    /// `relmse` without the greatest 0.1 % of its terms.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub relmse_trimmed: Option<f64>,
+    /// Mean of R - r, linear.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub bias: Option<f64>,
+    /// Standard error of `bias` if pixels err independently.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub bias_sigma: Option<f64>,
+    /// 10 log10(1 / MSE) of displayed values, decibels; absent also where the images are equal.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub psnr: Option<f64>,
+    /// Mean structural similarity of displayed luma, window of 11 x 11 with sigma 1.5; 1 for equal images.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub ssim: Option<f64>,
+    /// Pixels with a channel that is NaN or infinite.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub non_finite: Option<u64>,
+}
+
+/// What a hard case demands and whether it was met.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HardRecord {
+    /// The case.
+    pub id: String,
+    /// What it is.
+    pub title: String,
+    /// What is looked at.
+    pub measure: String,
+    /// What is demanded of structures of this kind.
+    pub target: String,
+    /// Triangles of the case; those that loaders drop included.
+    pub triangles: u64,
+    /// Whether the target was met; absent where one run cannot tell.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub met: Option<bool>,
+    /// Why.
+    pub reason: String,
+    /// Rays whose answer neither oracle nor statement allows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rejected: Option<u64>,
+    /// The first of them, for `--replay`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_rejected: Option<u64>,
+    /// Rays that a watertight test cannot miss and that got no hit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lost: Option<u64>,
+}
