@@ -6,6 +6,7 @@ use crate::report::figures::Figures;
 use crate::report::{Counters, Device, Memory, Pass, Run, Spread, Times};
 use crate::systems::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
+use rasray_hard_cases::HardCase;
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
@@ -139,6 +140,25 @@ pub struct CompareJob<'a> {
     pub needs: Needs,
 }
 
+/// Systems side by side on a hard case.
+#[derive(Clone, Debug)]
+pub struct HardJob<'a> {
+    /// Triangles, rays, eye and what is known of the answers.
+    pub case: &'a HardCase,
+    /// One entry per system and preset.
+    pub systems: &'a [SystemConfig],
+    /// Timed repetitions of every build and of the rays, at least 1, after one that warms up.
+    pub repetitions: u32,
+    /// What the case's rays were drawn with.
+    pub seed: u32,
+    /// Whether figures are kept for a page.
+    pub figures: bool,
+    /// Hits found elsewhere, one for each ray.
+    pub hits_files: &'a [HitsFile],
+    /// Whether rays, truth and hits are kept for files.
+    pub keep: bool,
+}
+
 /// What a comparison gave.
 #[derive(Clone, Debug, Default)]
 pub struct Comparison {
@@ -156,6 +176,8 @@ pub const FILE_SET: &str = "file";
 /// What was traced and what was answered.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
+    /// The hard case that this is about.
+    pub case: Option<String>,
     /// World, metres; rays and triangles are relative to it.
     pub frame_origin: [f64; 3],
     /// Corners by global triangle id, metres.
@@ -311,6 +333,9 @@ pub trait Backend {
         job: &CompareJob<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, AppError>;
+
+    /// Compares systems on a hard case: a run per system and preset, each with its verdict.
+    fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError>;
 
     /// Describes the device.
     fn info(&mut self) -> Result<DeviceDescription, AppError>;

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// Exit code of a complete run.
 pub const EXIT_OK: u8 = 0;
+/// Exit code of a run with `--check` that missed a target.
+pub const EXIT_TARGET: u8 = 1;
 /// Exit code of bad input and of usage errors.
 pub const EXIT_USAGE: u8 = 2;
 /// Exit code of a missing, unsuitable or failing device.
@@ -57,6 +59,14 @@ pub enum AppError {
         /// What to do.
         help: String,
     },
+    /// A hard case's target was not met, and `--check` asked for it. Exit code 1.
+    #[error("{message}")]
+    Target {
+        /// Which.
+        message: String,
+        /// What to do.
+        help: String,
+    },
     /// A signal stopped the run. Exit code 130.
     #[error("{message}")]
     Interrupted {
@@ -99,6 +109,7 @@ impl AppError {
             Self::Usage { .. } | Self::Input { .. } | Self::Scene(_) => EXIT_USAGE,
             Self::Device { .. } => EXIT_DEVICE,
             Self::Refused { .. } => EXIT_REFUSED,
+            Self::Target { .. } => EXIT_TARGET,
             Self::Interrupted { .. } => EXIT_INTERRUPTED,
         }
     }
@@ -111,6 +122,7 @@ impl AppError {
             | Self::Input { help, .. }
             | Self::Device { help, .. }
             | Self::Refused { help, .. }
+            | Self::Target { help, .. }
             | Self::Interrupted { help, .. } => help,
         }
     }
@@ -159,6 +171,8 @@ mod tests {
         assert_eq!(AppError::device("a", "b").exit_code(), 3);
         assert_eq!(AppError::refused("a", "b").exit_code(), 4);
         assert_eq!(AppError::interrupted("a", "b").exit_code(), 130);
+        let target = AppError::Target { message: "a".to_owned(), help: "b".to_owned() };
+        assert_eq!((target.exit_code(), target.help()), (1, "b"));
     }
 
     #[test]

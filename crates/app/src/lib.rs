@@ -18,7 +18,7 @@ pub mod structure;
 pub mod systems;
 mod terminal;
 
-pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_USAGE};
+pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE};
 pub use interrupt::Interrupt;
 pub use scene_source::LoadedScene;
 
@@ -42,7 +42,7 @@ pub fn version_text() -> &'static str {
 }
 
 /// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit
-/// code: 0 done, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped by a signal.
+/// code: 0 done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped by a signal.
 ///
 /// Takes over SIGINT and SIGTERM and writes to stdout and stderr; call it once in a process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {

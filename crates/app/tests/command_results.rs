@@ -92,6 +92,29 @@ fn a_comparison_makes_a_run_per_system_preset_and_ray_set() {
 }
 
 #[test]
+fn a_hard_case_fails_the_check_only_where_a_target_was_missed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| rasray(folder.path(), line);
+    let output = run("compare hard:E5 --systems mmrt,brute-force --rays 17 --seed 3 --report r.json");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let made = report(&folder.path().join("r.json"));
+    assert_eq!((made.scene.name.as_str(), made.runs.len()), ("hard:E5", 2));
+    let hard = made.runs[1].hard.as_ref().expect("a verdict");
+    assert_eq!((hard.met, hard.reason.as_str(), made.runs[1].seed), (Some(false), "17 rays", Some(3)));
+    assert!(made.command.is_some_and(|line| line.starts_with("rasray compare hard:E5")));
+
+    let output = run("compare hard:E5 --systems mmrt,brute-force --check");
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("brute-force"), "{}", stderr(&output));
+    let output = run("compare hard:E5 --systems mmrt --check");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    // A case that is a file needs no device's answers.
+    let output = run("compare hard:C6-end --systems mmrt --check");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("refused"), "{output:?}");
+}
+
+#[test]
 fn a_device_that_is_absent_or_fails_ends_with_3_and_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for device in ["absent", "broken"] {

@@ -21,6 +21,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("broken.glb"), b"glTF but not really").expect("a file");
     std::fs::write(folder.path().join("notes.txt"), b"text").expect("a file");
+    std::fs::write(folder.path().join("short.rays"), b"RASRAY").expect("a file");
     let cases = [
         ("render cornell -o a.jpg", "a.jpg", ".png"),
         ("render cornell -o a", "a: ", ".png"),
@@ -46,6 +47,20 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("compare cornell --systems brute-force --storage dllb", "--storage", "mmrt"),
         ("compare cornell --systems brute-force mmrt.sort=on", "mmrt", "--systems"),
         ("compare cornell --systems mmrt --report missing/r.json", "missing/r.json", "mkdir"),
+        ("compare cornell --systems mmrt --report a --html ./a", "same file", "two files"),
+        ("compare broken.glb --systems mmrt --html broken.glb", "scene file", "report.json"),
+        ("compare cornell --systems mmrt --check", "--check", "hard:E5"),
+        ("compare cornell --systems mmrt --rays-file missing.rays", "missing.rays", "check the name"),
+        ("compare cornell --systems mmrt --rays-file notes.txt", "notes.txt", ".npy"),
+        ("compare cornell --systems mmrt --rays-file short.rays", "short.rays", "write the file again"),
+        ("compare cornell --systems mmrt --hits-file a", "--hits-file", "rasray compare --help"),
+        ("compare cornell --systems mmrt --hits-file a=notes.txt --ray-set eye", "notes.txt", "primitive"),
+        ("compare cornell --systems mmrt --hits-file a=b.npy", "--hits-file", "--ray-set"),
+        ("compare cornell --systems mmrt --save-rays missing", "missing", "mkdir"),
+        ("compare cornell --systems mmrt --repetitions 0", "--repetitions", "--help"),
+        ("compare hard:E5 --systems mmrt --image", "--image", "leave it out"),
+        ("compare hard:E5 --systems mmrt --size 640x360", "--size", "leave it out"),
+        ("compare hard:E5 --systems mmrt --ray-set eye", "--ray-set", "leave it out"),
         ("info cornel", "cornel", "cornell"),
     ];
     for (line, named, fix) in cases {
@@ -63,7 +78,21 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
         .collect();
     left.sort();
-    assert_eq!(left, ["broken.glb", "notes.txt"]);
+    assert_eq!(left, ["broken.glb", "notes.txt", "short.rays"]);
+}
+
+#[test]
+fn a_hard_case_that_is_not_known_lists_those_that_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for line in ["compare hard: --systems mmrt", "compare hard:E99 --systems mmrt"] {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+        let text = String::from_utf8_lossy(&output.stdout);
+        for id in rasray_hard_cases::ids().into_iter().chain(rasray_hard_cases::file_ids()) {
+            assert!(text.lines().any(|line| line.starts_with(&format!("  {id} "))), "{id}: {text}");
+        }
+        assert!(stderr(&output).contains("hard:all"), "{}", stderr(&output));
+    }
 }
 
 #[test]

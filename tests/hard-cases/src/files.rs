@@ -186,6 +186,11 @@ const FILES: &[Entry] = &[
     read("T5-chain", "chain as long as the limit", || nodes(chain(512)), 1, None),
 ];
 
+/// Ids and titles of all files.
+pub(super) fn titles() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().map(|entry| (entry.id, entry.title))
+}
+
 /// Ids of all files.
 pub fn file_ids() -> Vec<&'static str> {
     FILES.iter().map(|entry| entry.id).collect()

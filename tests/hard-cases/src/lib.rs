@@ -72,6 +72,11 @@ pub fn ids() -> Vec<&'static str> {
     entries().map(|entry| entry.id).collect()
 }
 
+/// Ids and titles of all cases and files.
+pub fn titles() -> Vec<(&'static str, &'static str)> {
+    entries().map(|entry| (entry.id, entry.title)).chain(files::titles()).collect()
+}
+
 /// Builds the case with this id; absent if there is none.
 pub fn case(id: &str, scale: Scale) -> Option<HardCase> {
     entries().find(|entry| entry.id == id).map(|entry| entry.build(scale))

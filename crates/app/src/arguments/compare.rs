@@ -16,6 +16,8 @@ Examples:
   rasray compare cornell --systems mmrt --image --size 256x256 --spp 64 --report r.json --html r.html
   rasray compare scene.glb --systems mmrt --ray-set bounce --save-rays out --save-hits out
   rasray compare scene.glb --systems mmrt --rays-file out/bounce.rays --hits-file other=other.npy
+  rasray compare hard: (lists the hard cases)
+  rasray compare hard:all --systems mmrt,brute-force --check
 
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
@@ -26,7 +28,7 @@ devices are for ratios on that device.";
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct CompareArguments {
-    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    /// A file (.gltf .glb .obj .ply), a built-in scene with parameters, or a hard case (hard:E5, hard:all)
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// Options for one system, such as mmrt.march=samples
@@ -41,12 +43,18 @@ pub struct CompareArguments {
     /// Where the rays come from [default: incoherent,camera; none with --rays-file]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub ray_set: Vec<RaySet>,
-    /// Rays per set
-    #[arg(long, value_name = "N", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
-    pub rays: u32,
+    /// Rays per set [default: 200000; 2000 for hard cases]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    pub rays: Option<u32>,
     /// Times that each build and each set of rays is timed, after once to warm up
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub repetitions: u32,
+    /// With a hard case: meshes in the size of the catalogue
+    #[arg(long)]
+    pub full: bool,
+    /// With a hard case: exit code 1 if a target is not met
+    #[arg(long)]
+    pub check: bool,
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,
@@ -74,4 +82,7 @@ pub struct CompareArguments {
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,
+    /// Long names of the options that were typed.
+    #[arg(skip)]
+    pub typed: Vec<String>,
 }

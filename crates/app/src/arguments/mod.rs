@@ -14,7 +14,8 @@ pub use render::{Aov, RenderArguments};
 pub use shared::{DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, ViewArguments};
 
 use crate::error::{AppError, one_line};
-use clap::{Parser, Subcommand, error::ErrorKind};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
 use std::ffi::OsString;
 
 const ABOUT: &str = "Traces rays through structures that the rasterizer builds, on any Vulkan 1.2 device.";
@@ -30,6 +31,7 @@ A scene is a file (.gltf .glb .obj .ply) or a built-in with parameters (cornell,
 
 Exit codes:
   0    done
+  1    compare hard:... --check: a target was not met
   2    bad input or usage
   3    no suitable device, or the device failed
   4    refused to lose data: the result could not be written, or was not complete
@@ -77,8 +79,8 @@ pub enum Refusal {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Refusal> {
     let arguments: Vec<_> = arguments.into_iter().collect();
     let command = arguments.get(1).and_then(|word| word.to_str()).filter(|word| COMMANDS.contains(word));
-    match CommandLine::try_parse_from(&arguments) {
-        Ok(line) => Ok(line.command),
+    match read(&arguments) {
+        Ok(command) => Ok(command),
         Err(error) => Err(match error.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Refusal::Error(AppError::usage(
@@ -88,6 +90,22 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, R
             _ => Refusal::Error(usage_error(&error, "", command)),
         }),
     }
+}
+
+/// Reads the words, and which options are among them.
+fn read(arguments: &[OsString]) -> Result<Command, clap::Error> {
+    let matches = CommandLine::command().try_get_matches_from(arguments)?;
+    let mut command = CommandLine::from_arg_matches(&matches)?.command;
+    if let Command::Compare(given) = &mut command {
+        given.typed = matches.subcommand().map(|(_, own)| typed(own)).unwrap_or_default();
+    }
+    Ok(command)
+}
+
+/// Long names of the options that were typed, not left to their defaults.
+fn typed(matches: &ArgMatches) -> Vec<String> {
+    let on_line = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
+    matches.ids().filter(on_line).map(|id| id.as_str().replace('_', "-")).collect()
 }
 
 /// Turns an answer of the parser into one line of error and one of help; the help names the command

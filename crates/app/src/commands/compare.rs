@@ -1,6 +1,6 @@
 //! `rasray compare`.
 
-use super::{check_whole, destination, keep_inputs, stop_if_requested, with_progress};
+use super::{check_whole, destination, hard, keep_inputs, stop_if_requested, with_progress};
 use crate::arguments::CompareArguments;
 use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
@@ -11,6 +11,9 @@ use crate::report::figures::Figures;
 use crate::report::{Report, SceneRecord, html, table};
 use crate::{camera, scene_source, systems, terminal};
 use std::ffi::OsStr;
+
+/// Rays per set unless told.
+const DEFAULT_RAYS: u32 = 200_000;
 
 /// Sets of rays unless told.
 const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
@@ -26,6 +29,16 @@ pub(crate) fn compare(
     open: &mut OpenBackend<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
+    if let Some(id) = hard::asked_for(&given.scene) {
+        return hard::compare(given, id, line, open, interrupt);
+    }
+    if given.full || given.check {
+        let option = if given.full { "--full" } else { "--check" };
+        return Err(AppError::usage(
+            format!("{option} is an option of hard cases"),
+            "leave it out, or name a hard case such as hard:E5",
+        ));
+    }
     let frame = given.frame.frame()?;
     let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
     let ray_sets = ray_sets(given)?;
@@ -47,7 +60,7 @@ pub(crate) fn compare(
         camera,
         systems,
         ray_sets,
-        rays: given.rays,
+        rays: given.rays.unwrap_or(DEFAULT_RAYS),
         frame,
         image: given.image,
         figures: targets.html.is_some(),
@@ -102,13 +115,28 @@ impl Targets {
         Ok(Self { report, html, save })
     }
 
+    /// Whether a page is wanted, and with it figures.
+    pub(super) fn has_page(&self) -> bool {
+        self.html.is_some()
+    }
+
+    /// Where rays and hits go.
+    pub(super) fn save(&self) -> &SaveTargets {
+        &self.save
+    }
+
     /// Whether a file keeps the runs.
     fn any(&self) -> bool {
         self.report.is_some() || self.html.is_some()
     }
 
     /// Writes the report and the page where they are wanted.
-    fn write(&self, report: &Report, figures: &Figures, interrupt: &Interrupt) -> Result<(), AppError> {
+    pub(super) fn write(
+        &self,
+        report: &Report,
+        figures: &Figures,
+        interrupt: &Interrupt,
+    ) -> Result<(), AppError> {
         if let Some(place) = &self.report {
             place.write(report.to_json().as_bytes(), interrupt)?;
         }

@@ -1,6 +1,7 @@
 //! What each word of the command does.
 
 mod compare;
+mod hard;
 mod info;
 mod render;
 

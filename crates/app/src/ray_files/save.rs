@@ -43,7 +43,9 @@ pub(crate) fn save(targets: &SaveTargets, kept: &Kept, interrupt: &Interrupt) ->
         Destination::check(&folder.join(name))?.write(&bytes, interrupt)
     };
     if let Some(folder) = &targets.rays {
-        write(folder, "triangles.npy".to_owned(), triangles_to_npy(&kept.triangles, origin))?;
+        let name =
+            kept.case.as_ref().map_or("triangles.npy".to_owned(), |case| format!("{case}.triangles.npy"));
+        write(folder, name, triangles_to_npy(&kept.triangles, origin))?;
         for set in &kept.sets {
             write(folder, format!("{}.rays", set.name), write_rays(&set.rays, origin))?;
             write(folder, format!("{}.npy", set.name), rays_to_npy(&set.rays, origin))?;

@@ -3,6 +3,8 @@
 mod compare;
 mod contestant;
 mod describe;
+mod hard;
+mod hard_verdict;
 mod images;
 mod judge;
 mod passes;
@@ -16,7 +18,8 @@ use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
 use rasray_systems::Spec;
 
 use crate::backend::{
-    Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, OnProgress, RenderJob, RenderOutput,
+    Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, HardJob, OnProgress, RenderJob,
+    RenderOutput,
 };
 use crate::error::AppError;
 use crate::report::Device;
@@ -100,6 +103,12 @@ impl Backend for Renderer {
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, AppError> {
         let comparison = compare::compare(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(comparison)
+    }
+
+    fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError> {
+        let comparison = hard::hard(&self.device, job, progress)?;
         self.check_validation()?;
         Ok(comparison)
     }

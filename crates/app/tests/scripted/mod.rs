@@ -5,10 +5,10 @@
 
 use rasray_app::AppError;
 use rasray_app::backend::{
-    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, Feature, OnProgress,
-    Progress, RenderJob, RenderOutput,
+    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, Feature, HardJob,
+    OnProgress, Progress, RenderJob, RenderOutput,
 };
-use rasray_app::report::{Counters, Device, Run, Times};
+use rasray_app::report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -93,6 +93,27 @@ impl Backend for Scripted {
                 });
             }
         }
+        Ok(Comparison { runs, ..Comparison::default() })
+    }
+
+    fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError> {
+        say_ready();
+        // The first system meets its target, the others do not.
+        let run = |(place, system): (usize, &rasray_app::systems::SystemConfig)| Run {
+            system: rasray_app::systems::word(&system.name),
+            preset: rasray_app::systems::word(&system.preset),
+            ray_set: Some(job.case.id.to_owned()),
+            seed: Some(job.seed),
+            hard: Some(HardRecord {
+                id: job.case.id.to_owned(),
+                met: Some(place == 0),
+                reason: format!("{} rays", job.case.rays.len()),
+                ..HardRecord::default()
+            }),
+            ..Run::default()
+        };
+        let runs = job.systems.iter().enumerate().map(run).collect();
+        _ = progress(Progress { task: "hard", done: 1, total: 1, unit: "runs" });
         Ok(Comparison { runs, ..Comparison::default() })
     }
 

@@ -1,0 +1,286 @@
+//! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
+
+use super::compare::Targets;
+use super::{check_whole, stop_if_requested, with_progress};
+use crate::arguments::CompareArguments;
+use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use crate::ray_files::{self, HitsFile};
+use crate::report::{HardRecord, Report, Run, SceneRecord, columns, table};
+use crate::systems::{self, SystemConfig};
+use crate::terminal;
+use rasray_hard_cases::{HardFile, Loading, Scale};
+use rasray_scene::LoadOptions;
+use std::ffi::OsStr;
+
+/// Rays of generated cases unless told.
+const DEFAULT_RAYS: u32 = 2000;
+
+/// Every case.
+const ALL: &str = "all";
+
+/// The id of a hard case, if a scene's name asks for one.
+pub(super) fn asked_for(scene: &OsStr) -> Option<&str> {
+    scene.to_str()?.strip_prefix("hard:")
+}
+
+/// Traces the rays of a hard case, or of all, through several systems and says whether each met what
+/// the case demands; `line` is the command as it was typed.
+///
+/// # Errors
+/// As `rasray compare`. With `--check`, a target that was not met.
+pub(super) fn compare(
+    given: &CompareArguments,
+    id: &str,
+    line: &str,
+    open: &mut OpenBackend<'_>,
+    interrupt: &Interrupt,
+) -> Result<(), AppError> {
+    let ids = ids(id)?;
+    refuse_options_of_scenes(given)?;
+    let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
+    let targets = Targets::check(given, &given.scene)?;
+    let hits_files = hits_files(given, &ids)?;
+    let mut backend = open(&given.device.choice())?;
+    stop_if_requested(interrupt)?;
+
+    let mut whole = Comparison::default();
+    let mut triangles = 0;
+    let mut finished = 0;
+    for id in &ids {
+        if interrupt.requested() {
+            break;
+        }
+        if let Some(file) = rasray_hard_cases::files().find(|file| file.id == *id) {
+            whole.runs.push(read_file(&file)?);
+        } else {
+            let subject = Subject { id, systems: &systems, hits_files: &hits_files, targets: &targets };
+            let (one, count) = trace(given, subject, backend.as_mut(), interrupt)?;
+            ray_files::save(targets.save(), &one.kept, interrupt)?;
+            triangles += count;
+            append(&mut whole, one);
+        }
+        finished += 1;
+    }
+    if finished == 0 {
+        return Err(AppError::interrupted(
+            "stopped before the first case was whole; nothing was written",
+            "",
+        ));
+    }
+    let scene = SceneRecord { name: format!("hard:{id}"), triangles, sha256: None };
+    let report = Report::new(backend.device(), scene, Some(line.to_owned()), whole.runs);
+    targets.write(&report, &whole.figures, interrupt)?;
+    terminal::print(&table(&report))?;
+    report.runs.iter().try_for_each(check_whole)?;
+    if finished < ids.len() {
+        return Err(AppError::interrupted(
+            format!("stopped after {finished} of {} cases", ids.len()),
+            "run again for all of them",
+        ));
+    }
+    if given.check { check_targets(&report.runs) } else { Ok(()) }
+}
+
+/// The ids that are meant.
+fn ids(id: &str) -> Result<Vec<&'static str>, AppError> {
+    let known: Vec<_> = rasray_hard_cases::ids().into_iter().chain(rasray_hard_cases::file_ids()).collect();
+    if id == ALL {
+        return Ok(known);
+    }
+    if let Some(found) = known.iter().find(|known| **known == id) {
+        return Ok(vec![*found]);
+    }
+    let titles = rasray_hard_cases::titles();
+    let rows: Vec<_> = titles.iter().map(|(id, title)| vec![(*id).to_owned(), (*title).to_owned()]).collect();
+    terminal::print(&format!("hard cases\n{}", columns(&rows, 2)))?;
+    let message = if id.is_empty() {
+        "hard: names no case".to_owned()
+    } else {
+        format!("there is no hard case '{id}'")
+    };
+    Err(AppError::usage(message, format!("the {} cases are listed above; hard:{ALL} runs all", known.len())))
+}
+
+/// Refuses what is about scenes, images and generated rays.
+fn refuse_options_of_scenes(given: &CompareArguments) -> Result<(), AppError> {
+    const UNFIT: [&str; 15] = [
+        "image",
+        "ray-set",
+        "rays-file",
+        "camera",
+        "eye",
+        "target",
+        "fov",
+        "environment",
+        "alpha",
+        "needs",
+        "integrator",
+        "size",
+        "spp",
+        "bounces",
+        "ao-distance",
+    ];
+    match given.typed.iter().find(|typed| UNFIT.contains(&typed.as_str())) {
+        Some(option) => Err(AppError::usage(
+            format!("--{option} does not go with a hard case, which has its own triangles, rays and eye"),
+            "leave it out; --rays and --seed choose the rays of generated cases",
+        )),
+        None => Ok(()),
+    }
+}
+
+fn hits_files(given: &CompareArguments, ids: &[&str]) -> Result<Vec<HitsFile>, AppError> {
+    if ids.len() > 1 && !given.files.hits_file.is_empty() {
+        return Err(AppError::usage(
+            "--hits-file has the hits of one case, and all are run",
+            "name the case",
+        ));
+    }
+    given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path)).collect()
+}
+
+/// A case with what it is traced through.
+#[derive(Clone, Copy)]
+struct Subject<'a> {
+    id: &'a str,
+    systems: &'a [SystemConfig],
+    hits_files: &'a [HitsFile],
+    targets: &'a Targets,
+}
+
+/// Traces one case; returns its triangles as well.
+fn trace(
+    given: &CompareArguments,
+    subject: Subject<'_>,
+    backend: &mut dyn Backend,
+    interrupt: &Interrupt,
+) -> Result<(Comparison, u64), AppError> {
+    let seed = given.frame.seed;
+    let rays = given.rays.unwrap_or(DEFAULT_RAYS) as usize;
+    let scale = Scale { rays, seed: seed.into(), full: given.full };
+    let case = rasray_hard_cases::case(subject.id, scale).ok_or_else(|| {
+        AppError::usage(
+            format!("there is no hard case '{}'", subject.id),
+            "'rasray compare hard:' lists them",
+        )
+    })?;
+    let job = HardJob {
+        case: &case,
+        systems: subject.systems,
+        repetitions: given.repetitions,
+        seed,
+        figures: subject.targets.has_page(),
+        hits_files: subject.hits_files,
+        keep: subject.targets.save().any(),
+    };
+    let comparison = with_progress(interrupt, |progress| backend.hard(&job, progress))?;
+    Ok((comparison, case.triangles.len() as u64))
+}
+
+/// Adds the runs of a case, and its figures with their runs counted on.
+fn append(whole: &mut Comparison, one: Comparison) {
+    let before = whole.runs.len();
+    let errors = one.figures.depth_errors.into_iter().map(|mut errors| {
+        errors.run += before;
+        errors
+    });
+    whole.figures.depth_errors.extend(errors);
+    whole.runs.extend(one.runs);
+}
+
+/// Loads a file that must be refused, or read as stated.
+fn read_file(file: &HardFile) -> Result<Run, AppError> {
+    let folder = std::env::temp_dir().join(format!("rasray-{}-{}", std::process::id(), file.id));
+    let place = folder.join(file.name);
+    let failed = |error: std::io::Error| {
+        AppError::input(
+            &place,
+            format!("cannot be written: {error}"),
+            "set TMPDIR to a folder for temporary files",
+        )
+    };
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    let loaded =
+        std::fs::write(&place, &file.bytes).map(|()| rasray_scene::load(&place, &LoadOptions::default()));
+    // What is left behind there does no harm.
+    _ = std::fs::remove_dir_all(&folder);
+    let loaded = loaded.map_err(failed)?;
+    let reason = match &loaded {
+        // The folder's name says nothing to anybody.
+        Err(error) => format!(
+            "refused: {}",
+            error.to_string().replace(&*folder.to_string_lossy(), "").trim_start_matches('/')
+        ),
+        Ok(scene) => format!("read, with {} warnings", scene.warnings.len()),
+    };
+    let wanted = match file.loading {
+        Loading::Refused(_) => "refused with a typed error",
+        Loading::Read { .. } => "read as stated",
+    };
+    Ok(Run {
+        system: "loader".to_owned(),
+        structure: "scene".to_owned(),
+        preset: "file".to_owned(),
+        ray_set: Some(file.id.to_owned()),
+        hard: Some(HardRecord {
+            id: file.id.to_owned(),
+            title: file.title.to_owned(),
+            measure: file.measure.to_owned(),
+            target: wanted.to_owned(),
+            triangles: 0,
+            met: Some(file.loading.describes(&loaded)),
+            reason,
+            ..HardRecord::default()
+        }),
+        ..Run::default()
+    })
+}
+
+/// Says which targets were not met.
+fn check_targets(runs: &[Run]) -> Result<(), AppError> {
+    let missed: Vec<_> = runs
+        .iter()
+        .filter_map(|run| Some((run, run.hard.as_ref().filter(|hard| hard.met == Some(false))?)))
+        .map(|(run, hard)| format!("{} by {} {}", hard.id, run.system, run.preset))
+        .collect();
+    match missed.as_slice() {
+        [] => Ok(()),
+        missed => Err(AppError::Target {
+            message: format!("{} targets were not met: {}", missed.len(), missed.join(", ")),
+            help: "the table above says why; --replay INDEX shows what became of a ray".to_owned(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(met: Option<bool>) -> Run {
+        let hard = HardRecord { id: "E5".to_owned(), met, ..Default::default() };
+        Run { system: "mmrt".to_owned(), hard: Some(hard), ..Default::default() }
+    }
+
+    #[test]
+    fn only_a_target_that_was_not_met_fails_the_check() {
+        assert!(check_targets(&[run(Some(true)), run(None), Run::default()]).is_ok());
+        let error = check_targets(&[run(Some(true)), run(Some(false))]).expect_err("one was not met");
+        assert_eq!(error.exit_code(), 1);
+        assert!(
+            error.to_string().contains("1 targets") && error.to_string().contains("E5 by mmrt"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn files_of_the_catalogue_are_refused_as_stated_and_another_demand_is_not_met() {
+        let mut file = rasray_hard_cases::files().next().expect("a file");
+        let hard = read_file(&file).expect("a temporary file").hard.expect("a verdict");
+        assert_eq!(hard.met, Some(true), "{hard:?}");
+        file.loading = Loading::Read { triangles: 1, warning: None };
+        let hard = read_file(&file).expect("a temporary file").hard.expect("a verdict");
+        assert_eq!(hard.met, Some(false), "{hard:?}");
+    }
+}

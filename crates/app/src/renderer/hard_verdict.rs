@@ -1,0 +1,133 @@
+//! From counts to a verdict: whether a run met what a hard case demands of its kind of structure.
+
+use rasray_ads::StructureKind;
+use rasray_hard_cases::{HardCase, Target};
+use rasray_metrics::Rate;
+use serde_json::Value;
+
+use crate::report::HardRecord;
+
+/// What of a run's answers neither oracle nor statement allows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Judged {
+    pub(super) rays: u64,
+    /// Rays that got a hit.
+    pub(super) hits: u64,
+    pub(super) non_finite: u64,
+    /// Rays that a watertight test cannot miss and that got no hit.
+    pub(super) lost: u64,
+    /// Answers that are not allowed.
+    pub(super) rejected: u64,
+    pub(super) first_rejected: Option<u64>,
+    /// Of those, hits.
+    pub(super) rejected_hits: u64,
+    /// Of those, hits outside of the range of t that is all that is stated.
+    pub(super) out_of_range: u64,
+}
+
+/// What a report says of a run on a case; `resolution` is the run's option of that name.
+pub(super) fn hard_record(
+    case: &HardCase,
+    kind: StructureKind,
+    judged: &Judged,
+    resolution: Option<&Value>,
+) -> HardRecord {
+    let target = match kind {
+        StructureKind::Primitive => case.target.primitives,
+        StructureKind::Fragment => case.target.fragments,
+    };
+    let (met, reason) = verdict(target, kind, judged, resolution.and_then(Value::as_f64));
+    HardRecord {
+        id: case.id.to_owned(),
+        title: case.title.to_owned(),
+        measure: case.measure.to_owned(),
+        target: target.to_string(),
+        triangles: case.triangles.len() as u64,
+        met,
+        reason,
+        rejected: Some(judged.rejected),
+        first_rejected: judged.first_rejected,
+        lost: Some(judged.lost),
+    }
+}
+
+/// Whether the target was met, absent where one run cannot tell, and why.
+fn verdict(
+    target: Target,
+    kind: StructureKind,
+    judged: &Judged,
+    resolution: Option<f64>,
+) -> (Option<bool>, String) {
+    let Judged { rays, hits, non_finite, lost, rejected, rejected_hits, out_of_range, .. } = *judged;
+    let rate = Rate { count: rejected, total: rays };
+    let share = match (rate.value(), rate.interval()) {
+        (Some(value), Some([low, high])) => {
+            format!(
+                "{rejected} of {rays} answers are wrong ({value:.2e}, with 95 % in {low:.2e} to {high:.2e})"
+            )
+        }
+        _ => "there are no rays".to_owned(),
+    };
+    if non_finite > 0 {
+        return (Some(false), format!("{non_finite} hits have a t that is no number"));
+    }
+    match target {
+        // What a fragment structure leaves out is not what such a case is about.
+        Target::Exact if kind == StructureKind::Fragment => {
+            (Some(rejected_hits == 0), format!("{rejected_hits} of {hits} hits are wrong"))
+        }
+        Target::NoneMissed | Target::Exact => (Some(rejected == 0), format!("{share}; {lost} rays are lost")),
+        Target::Law => {
+            let law = match (resolution, rate.value()) {
+                (Some(resolution), Some(value)) => {
+                    format!("; times the {resolution} cells a side that is {:.3}", value * resolution)
+                }
+                _ => String::new(),
+            };
+            (None, format!("{share}{law}; a law shows over several resolutions"))
+        }
+        Target::Lost => (Some(true), format!("{lost} of {rays} rays are lost, as documented")),
+        Target::Counted => (None, format!("{hits} of {rays} rays hit; both answers are legal")),
+        Target::Finite => (
+            Some(out_of_range == 0),
+            format!("all hits are finite; {out_of_range} lie outside of the stated range of t"),
+        ),
+        _ => (None, share),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn met(target: Target, kind: StructureKind, judged: Judged) -> Option<bool> {
+        verdict(target, kind, &judged, Some(64.0)).0
+    }
+
+    #[test]
+    fn a_wrong_answer_breaks_the_target_that_it_is_about_and_no_other() {
+        use StructureKind::{Fragment, Primitive};
+        let right = Judged { rays: 100, hits: 60, ..Judged::default() };
+        let miss = Judged { rejected: 1, lost: 1, first_rejected: Some(7), ..right };
+        let false_hit = Judged { rejected: 1, rejected_hits: 1, ..right };
+        let out = Judged { out_of_range: 1, ..false_hit };
+        let broken = Judged { non_finite: 1, ..false_hit };
+        for (target, kind, by_miss, by_hit, by_range) in [
+            (Target::NoneMissed, Primitive, Some(false), Some(false), Some(false)),
+            (Target::Exact, Primitive, Some(false), Some(false), Some(false)),
+            (Target::Exact, Fragment, Some(true), Some(false), Some(false)),
+            (Target::Law, Fragment, None, None, None),
+            (Target::Lost, Fragment, Some(true), Some(true), Some(true)),
+            (Target::Counted, Primitive, None, None, None),
+            (Target::Finite, Primitive, Some(true), Some(true), Some(false)),
+        ] {
+            assert_ne!(met(target, kind, right), Some(false), "{target}");
+            assert_eq!(met(target, kind, miss), by_miss, "{target}");
+            assert_eq!(met(target, kind, false_hit), by_hit, "{target}");
+            assert_eq!(met(target, kind, out), by_range, "{target}");
+            assert_eq!(met(target, kind, broken), Some(false), "{target}");
+        }
+        let law = verdict(Target::Law, Fragment, &miss, Some(64.0)).1;
+        assert!(law.contains("1 of 100") && law.contains("0.640"), "{law}");
+    }
+}
