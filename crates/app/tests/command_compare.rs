@@ -1,0 +1,110 @@
+//! The built command on a device: what it saves can be traced again, and what others find is judged.
+
+use rasray_app::report::{Accuracy, Report};
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn rasray(folder: &Path, line: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rasray"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the command starts")
+}
+
+/// Runs a comparison that must succeed and returns its report.
+fn compared(folder: &Path, line: &str) -> Report {
+    let output = rasray(folder, &format!("{line} --repetitions 1 --report r.json"));
+    assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&std::fs::read(folder.join("r.json")).expect("a report")).expect("the schema")
+}
+
+fn accuracy(report: &Report, run: usize) -> &Accuracy {
+    report.runs[run].accuracy.as_ref().expect("rays are judged")
+}
+
+/// Where the records of a `.npy` file of version 1 begin.
+fn records(bytes: &[u8]) -> usize {
+    10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]))
+}
+
+#[test]
+fn rays_and_hits_go_out_and_come_back_and_a_wrong_hit_is_found() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let line = "compare cornell --systems mmrt,brute-force --ray-set bounce --rays 400 --size 16x9";
+    let first = compared(path, &format!("{line} --save-rays . --save-hits ."));
+    assert_eq!((first.runs.len(), accuracy(&first, 1).missed), (2, 0));
+    assert!(first.statistics.is_some_and(|statistics| statistics.rates > 5));
+
+    // The same rays from the file get the same answers, bit for bit.
+    let line = "compare cornell --systems mmrt,brute-force --rays-file bounce.rays --save-hits .";
+    compared(path, line);
+    for name in ["oracle", "mmrt-robust", "brute-force-robust"] {
+        let read = |set: &str| std::fs::read(path.join(format!("{set}.{name}.npy"))).expect("hits");
+        assert_eq!(read("bounce"), read("file"), "{name}");
+    }
+
+    // The oracle's own answers, rounded to f32, have no fault.
+    let line = "compare cornell --systems brute-force --rays-file bounce.rays --hits-file other=other.npy";
+    let truth = std::fs::read(path.join("bounce.oracle.npy")).expect("the oracle's answers");
+    std::fs::write(path.join("other.npy"), &truth).expect("a file");
+    let right = compared(path, line);
+    assert_eq!((right.runs[1].system.as_str(), right.runs[1].times.trace_ms), ("other", None));
+    let judged = accuracy(&right, 1);
+    assert_eq!((judged.missed, judged.false_hits, judged.wrong_primitive), (0, 0, Some(0)));
+    assert_eq!((judged.t_off, judged.non_finite), (Some(0), 0));
+
+    // Records are t (8 bytes), triangle (4), u, v (8 each) and whether the ray is ambiguous.
+    let start = records(&truth);
+    let sure_hit = truth[start..]
+        .chunks_exact(29)
+        .position(|record| record[8..12] != [0xFF; 4] && record[28] == 0)
+        .expect("a sure hit");
+    let place = start + 29 * sure_hit;
+    for (change, missed, wrong, off) in [
+        (&[(8, 0xFF), (9, 0xFF), (10, 0xFF), (11, 0xFF)][..], 1, 0, 0),
+        (&[(8, truth[place + 8] ^ 1)][..], 0, 1, 0),
+        (&[(6, truth[place + 6] ^ 0x10)][..], 0, 0, 1),
+    ] {
+        let mut wrong_hits = truth.clone();
+        for (offset, byte) in change {
+            wrong_hits[place + offset] = *byte;
+        }
+        std::fs::write(path.join("other.npy"), wrong_hits).expect("a file");
+        let report = compared(path, line);
+        let judged = accuracy(&report, 1);
+        let counts = (judged.missed, judged.wrong_primitive, judged.t_off);
+        assert_eq!(counts, (missed, Some(wrong), Some(off)), "{change:?}");
+    }
+
+    // Hits for other rays, and rays that are cut short.
+    std::fs::write(path.join("short.rays"), &std::fs::read(path.join("bounce.rays")).expect("rays")[..1000])
+        .expect("a file");
+    for line in [
+        "compare cornell --systems brute-force --ray-set eye --rays 7 --hits-file other=other.npy",
+        "compare cornell --systems brute-force --rays-file short.rays",
+    ] {
+        assert_eq!(rasray(path, line).status.code(), Some(2), "{line}");
+    }
+}
+
+#[test]
+fn a_page_has_figures_and_a_hard_case_its_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let line = "compare cornell --systems mmrt,brute-force --ray-set camera --rays 300 --size 16x9";
+    let report = compared(path, &format!("{line} --spp 1 --image --html r.html"));
+    assert_eq!(report.runs.len(), 5);
+    let image = report.runs[3].image.expect("an image");
+    assert!(image.flip_mean.is_some_and(|mean| mean < 0.05), "{image:?}");
+    let page = std::fs::read_to_string(path.join("r.html")).expect("a page");
+    assert!(page.contains("data:image/png"), "pictures are in the page");
+    let spread = report.runs[0].spread["trace_ms"];
+    assert!(spread.count == 1 && spread.min == spread.max && spread.q1 == spread.q3, "{spread:?}");
+
+    let report = compared(path, "compare hard:E5 --systems mmrt,brute-force --rays 300 --check");
+    let met = |run: usize| report.runs[run].hard.as_ref().and_then(|hard| hard.met);
+    assert_eq!((met(0), met(1)), (None, Some(true)));
+    assert_eq!(report.scene.name, "hard:E5");
+}
