@@ -2,6 +2,7 @@
 
 pub mod conformance;
 pub mod harness;
+pub mod image_truth;
 pub mod invariance;
 pub mod random;
 pub mod shapes;

@@ -1,0 +1,87 @@
+//! Directional albedo of the material model by quadrature: the radiance of a plane under a white sky.
+//!
+//! Written from the formulas of `docs/shading.md`, "Reflection and transmission", in f64 and without any
+//! sampling, so that it shares nothing with the integrators but the formulas.
+
+use std::f64::consts::PI;
+
+/// Steps of the polar angle and of half the azimuth.
+const STEPS: [usize; 2] = [800, 400];
+
+/// A diffuse base under a dielectric coat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plastic {
+    /// Of the base, in [0, 1].
+    pub base_color: f64,
+    /// Perceptual roughness, in [0.03, 1].
+    pub roughness: f64,
+    /// Index of refraction.
+    pub ior: f64,
+}
+
+fn schlick(f0: f64, cosine: f64) -> f64 {
+    f0 + (1.0 - f0) * (1.0 - cosine).powi(5)
+}
+
+/// Mean over the upper hemisphere of `value(i . n, o . h, lobe)` weighted with the cosine, where `lobe` is D G over
+/// four cosines.
+fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    let alpha_squared = roughness.powi(4);
+    let sine_o = (1.0 - cosine_o * cosine_o).sqrt();
+    let shadow = |cosine: f64| (cosine * cosine * (1.0 - alpha_squared) + alpha_squared).sqrt();
+    let mut sum = 0.0;
+    for polar in 0..STEPS[0] {
+        let theta = 0.5 * PI * (polar as f64 + 0.5) / STEPS[0] as f64;
+        let (sine_i, cosine_i) = theta.sin_cos();
+        for azimuth in 0..STEPS[1] {
+            let phi = PI * (azimuth as f64 + 0.5) / STEPS[1] as f64;
+            let between = cosine_o * cosine_i + sine_o * sine_i * phi.cos();
+            // |o + i|^2 = 2 + 2 o.i, so the half vector's cosines need no vector.
+            let length = (2.0 + 2.0 * between).sqrt();
+            let (facet, normal) = ((1.0 + between) / length, (cosine_o + cosine_i) / length);
+            let slope = normal * normal * (alpha_squared - 1.0) + 1.0;
+            let distribution = alpha_squared / (PI * slope * slope);
+            let visibility = 0.5 / (cosine_i * shadow(cosine_o) + cosine_o * shadow(cosine_i));
+            sum += value(cosine_i, facet, distribution * visibility) * cosine_i * sine_i;
+        }
+    }
+    // Half of the azimuth stands for both halves.
+    sum * 2.0 * (0.5 * PI / STEPS[0] as f64) * (PI / STEPS[1] as f64)
+}
+
+/// Share of a white sky that a metal of this base colour shows under the cosine `cosine_o`.
+pub fn metal_albedo(base_color: f64, roughness: f64, cosine_o: f64) -> f64 {
+    integrate(cosine_o, roughness, |_, facet, lobe| schlick(base_color, facet) * lobe)
+}
+
+/// The same of a plastic.
+pub fn plastic_albedo(plastic: Plastic, cosine_o: f64) -> f64 {
+    let f0 = ((plastic.ior - 1.0) / (plastic.ior + 1.0)).powi(2);
+    let through = |cosine: f64| 1.0 - schlick(f0, cosine);
+    integrate(cosine_o, plastic.roughness, |cosine_i, facet, lobe| {
+        plastic.base_color / PI * through(cosine_o) * through(cosine_i) + schlick(f0, facet) * lobe
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_base_without_coat_shows_its_colour() {
+        // The quadrature itself: a constant lobe integrates to pi.
+        assert!((integrate(0.7, 0.5, |_, _, _| 1.0 / PI) - 1.0).abs() < 1e-5);
+    }
+
+    #[test]
+    fn smooth_facets_lose_nothing_and_rough_ones_lose_what_they_scatter_twice() {
+        let smooth = metal_albedo(1.0, 0.3, 0.9);
+        assert!(smooth > 0.98 && smooth < 1.0, "{smooth}");
+        let rough = metal_albedo(1.0, 1.0, 0.5);
+        assert!(rough > 0.4 && rough < 0.8, "{rough}");
+        for cosine in [0.1, 0.5, 1.0] {
+            let plastic = Plastic { base_color: 1.0, roughness: 0.6, ior: 1.5 };
+            assert!(plastic_albedo(plastic, cosine) < 1.0);
+        }
+    }
+}

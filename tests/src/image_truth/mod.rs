@@ -1,0 +1,20 @@
+//! Images whose values are known in closed form, and the statistics that hold a rendered image against
+//! them. What is checked, and how to run it again, is in `docs/image-truth.md`.
+
+mod albedo;
+mod closed_forms;
+mod estimate;
+mod scenes;
+mod stage;
+
+pub use albedo::{Plastic, metal_albedo, plastic_albedo};
+pub use closed_forms::{
+    beside_sphere, convex_occlusion, enclosure, interface_transmission, normal_reflectance,
+    parallel_rectangles, perpendicular_rectangles, polygon_irradiance,
+};
+pub use estimate::{CHECK_LIMIT, Estimate, SIGMAS, assert_refused, assert_truth};
+pub use scenes::{
+    box_around, box_faces, diffuse, glass, glowing, looking, octahedron_sphere, parallel, scene_of, square,
+    unlit,
+};
+pub use stage::{Picture, Stage, System, full_tier};

@@ -1,0 +1,37 @@
+//! Rendered images against closed forms: `docs/image-truth.md`.
+
+mod albedo;
+mod corridor;
+mod form_factors;
+mod furnace;
+mod glass;
+mod gltf;
+mod leaks;
+mod polygon_light;
+
+use rasray_tests::image_truth::System;
+
+/// Cells a side of the A-buffer where it is held against closed forms.
+const RESOLUTION: u32 = 64;
+
+/// Brute force and the A-buffer.
+const SYSTEMS: [System; 2] = [System::BruteForce, System::MmrtRobust(RESOLUTION)];
+
+/// `exact` for brute force, `fragments` for the A-buffer.
+fn by_system<T>(system: System, exact: T, fragments: T) -> T {
+    if system == System::BruteForce { exact } else { fragments }
+}
+
+/// What a structure may be off, relative, in an image whose samples depend on `traces` traces: nothing, or
+/// the share of wrong rays that the conformance rows allow.
+fn law(system: System, traces: u32) -> f64 {
+    match system {
+        System::BruteForce => 0.0,
+        System::MmrtRobust(resolution) => 0.64 / f64::from(resolution) * f64::from(traces),
+    }
+}
+
+/// The same in all channels.
+fn grey(value: f64) -> [f64; 3] {
+    [value; 3]
+}

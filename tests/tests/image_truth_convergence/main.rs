@@ -1,0 +1,36 @@
+//! How the error of rendered images falls, what of it is not noise, and how it is stated:
+//! `docs/image-truth.md`.
+
+mod coupled;
+mod metrics;
+mod slope;
+
+use glam::DVec3;
+use rasray_reference::shading::{PosedScene, View};
+use rasray_scene::{Camera, Scene};
+use rasray_tests::image_truth::Stage;
+
+/// Pixels a side.
+const SIZE: u32 = 24;
+const SAMPLES: u32 = 4;
+const BOUNCES: u32 = 4;
+
+fn cornell() -> (Scene, Camera) {
+    let scene = rasray_scene::builtin::cornell();
+    let camera = scene.cameras[0].clone();
+    (scene, camera)
+}
+
+/// The same view on the CPU.
+fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f32; 3]> {
+    let view = View { camera: camera.clone(), width: SIZE, height: SIZE, samples: SAMPLES, seed };
+    let posed = PosedScene::new(scene, origin).expect("the scene is whole");
+    posed.render_path(&view, BOUNCES).expect("the image has pixels").pixels
+}
+
+/// What the device shows.
+fn rendered(stage: &Stage<'_>) -> Vec<[f32; 3]> {
+    let picture = stage.render(&stage.path(BOUNCES), 0..SAMPLES);
+    assert_eq!(picture.non_finite, 0);
+    picture.pixels
+}
