@@ -14,6 +14,9 @@ use std::time::Duration;
 /// Set for the process that writes one file again and again: the file.
 const WRITE: &str = "RASRAY_TEST_WRITE";
 
+/// Set beside it for a writer that does not take care.
+const IN_PLACE: &str = "RASRAY_TEST_WRITE_IN_PLACE";
+
 /// Bytes of the file that is written again and again.
 const LENGTH: usize = 24 << 20;
 
@@ -40,46 +43,72 @@ fn places_that_take_no_file_end_with_2_before_anything_is_rendered() {
     }
 }
 
-/// Writes the same file whole, of one content and of another, until it is killed.
+/// Writes the same file, of one content and of another, until it is killed: as the command does, or in place.
 #[test]
 fn as_writer() {
     let Some(path) = std::env::var_os(WRITE) else { return };
-    let destination = Destination::check(Path::new(&path)).expect("writable");
+    let path = Path::new(&path);
+    let in_place = std::env::var_os(IN_PLACE).is_some();
     for fill in [b'a', b'b'].into_iter().cycle() {
-        destination.write(&vec![fill; LENGTH], &Interrupt::default()).expect("written");
+        let bytes = vec![fill; LENGTH];
+        if in_place {
+            std::fs::write(path, &bytes).expect("written");
+        } else {
+            let destination = Destination::check(path).expect("writable");
+            destination.write(&bytes, &Interrupt::default()).expect("written");
+        }
     }
+}
+
+/// What killed writers left under the name of their file, and beside it.
+#[derive(Debug, Default)]
+struct Remains {
+    /// Files that are not whole, or of two contents.
+    torn: usize,
+    /// Further files after a kill.
+    beside: usize,
+    /// Further files after the next check of the place.
+    kept: usize,
+}
+
+/// Kills writers at different times, until `enough`.
+fn kill_writers(in_place: bool, enough: impl Fn(&Remains) -> bool) -> Remains {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.exr");
+    std::fs::write(&path, vec![b'o'; LENGTH]).expect("an old file");
+    let mut remains = Remains::default();
+    for round in 0..60_u64 {
+        let mut writer = Command::new(std::env::current_exe().expect("this program"));
+        writer.args(["as_writer", "--exact", "--nocapture", "--test-threads=1"]).env(WRITE, &path);
+        if in_place {
+            writer.env(IN_PLACE, "1");
+        }
+        let mut child = writer.stdout(std::process::Stdio::null()).spawn().expect("the writer starts");
+        std::thread::sleep(Duration::from_millis(30 + 11 * round));
+        child.kill().expect("a child that runs");
+        child.wait().expect("its end");
+        let bytes = std::fs::read(&path).expect("the file is there at any time");
+        let is_whole = bytes.len() == LENGTH && bytes.iter().all(|byte| *byte == bytes[0]);
+        remains.torn += usize::from(!is_whole);
+        remains.beside += entries(folder.path()).len() - 1;
+        Destination::check(&path).expect("writable");
+        remains.kept += entries(folder.path()).len() - 1;
+        if enough(&remains) {
+            return remains;
+        }
+    }
+    panic!("60 writers were killed, hardly one while it wrote: {remains:?}");
 }
 
 /// SIGKILL cannot be handled: what counts is that a whole file, old or new, is all that its name ever shows, and that
 /// what was left beside it goes with the next run.
 #[test]
 fn a_writer_that_is_killed_leaves_the_old_file_or_the_new_one() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("a.exr");
-    std::fs::write(&path, vec![b'o'; LENGTH]).expect("an old file");
-    let mut within = 0;
-    for round in 0..40_u64 {
-        let mut child = Command::new(std::env::current_exe().expect("this program"))
-            .args(["as_writer", "--exact", "--nocapture", "--test-threads=1"])
-            .env(WRITE, &path)
-            .stdout(std::process::Stdio::null())
-            .spawn()
-            .expect("the writer starts");
-        std::thread::sleep(Duration::from_millis(30 + 11 * round));
-        child.kill().expect("a child that runs");
-        child.wait().expect("its end");
-        let bytes = std::fs::read(&path).expect("the file is there at any time");
-        assert_eq!(bytes.len(), LENGTH, "round {round}");
-        assert!(bytes.iter().all(|byte| *byte == bytes[0]), "round {round}: the file is of two writers");
-        let left = entries(folder.path()).len() - 1;
-        within += usize::from(left > 0);
-        Destination::check(&path).expect("writable");
-        assert_eq!(entries(folder.path()), ["a.exr"], "round {round}: what was left stays");
-        if within == 3 {
-            return;
-        }
-    }
-    panic!("only {within} of 40 writers were killed while they wrote: this test shows nothing");
+    let remains = kill_writers(false, |remains| remains.beside >= 3 || remains.torn > 0);
+    assert_eq!((remains.torn, remains.kept), (0, 0), "{remains:?}");
+    // A writer that writes in place is found out.
+    let remains = kill_writers(true, |remains| remains.torn > 0);
+    assert!(remains.torn > 0);
 }
 
 fn output() -> RenderOutput {

@@ -13,12 +13,15 @@ pub use scene::{hits, rays, spec, specs, stage};
 
 use rasray_gpu::{Device, DeviceDesc, Feature, GpuError, Requirements};
 
-/// What the command asks of a device.
+/// The device floor, and as options what any system of the registry wants beyond it.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
-    requirements.optional.push((Feature::FragmentStoresAndAtomics, "structures built by the rasterizer"));
     requirements.optional.push((Feature::BufferDeviceAddress, "pools beyond the binding limit"));
-    requirements
+    for wanted in specs().iter().flatten().filter_map(|spec| spec.requirements().ok()) {
+        let required = wanted.required.into_iter().map(|feature| (feature, "a system of the registry"));
+        requirements.optional.extend(required.chain(wanted.optional));
+    }
+    requirements.merge(&Requirements::default())
 }
 
 /// A device with these requirements, under validation.

@@ -6,7 +6,7 @@ use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
 use rasray_systems::Spec;
 
 /// Rays of each comparison.
-const RAYS: u32 = 2000;
+const RAYS: u32 = 1000;
 
 /// Bits of the hits of a system.
 fn bits(device: &Device, spec: &Spec) -> Result<Vec<[u32; 4]>, Failure> {
@@ -33,7 +33,7 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     let subjects = subjects();
     let expected: Vec<_> = subjects.iter().map(|spec| bits(&device, spec).expect("hits")).collect();
     let found = expected.iter().flatten().filter(|hit| hit[1] != u32::MAX).count();
-    assert!(found > 1000 * subjects.len(), "{found} hits are too few to compare");
+    assert!(found > 400 * subjects.len(), "{found} hits are too few to compare");
     let (mut compared, mut refused) = (0, 0);
     for feature in Feature::ALL {
         let made = without(&[feature], || device_with(requirements()));
@@ -91,7 +91,7 @@ fn a_small_binding_is_refused_by_name_or_reached_by_address() {
     let whole = device().expect("a device");
     let expected = bits(&whole, &descriptor).expect("hits");
     let (mut fitting, mut refused) = (0, 0);
-    let mut exponents = vec![20, 21, 22, 27];
+    let mut exponents = vec![21, 22];
     if is_full() {
         exponents = (20..=27).collect();
     }
