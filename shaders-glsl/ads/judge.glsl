@@ -9,19 +9,16 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// The verdict (TEST_*) on a triangle met within [t_low, t_high]; t and t_error are 0 where it is not met.
-uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
-    out float t_error) {
+// The verdict (TEST_*) on a triangle with these corners met within [t_low, t_high]; t and t_error are 0 where it
+// is not met.
+uint judge_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
+    out vec2 barycentrics, out float t_error) {
     t = 0.0;
     barycentrics = vec2(0.0);
     t_error = 0.0;
     if (primitive == ray.exclude_primitive) {
         return TEST_EXCLUDED;
     }
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
     if (!triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
         return TEST_BESIDE;
     }
@@ -40,13 +37,23 @@ uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
+// The same with the corners of the geometry.
+uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
+    out float t_error) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return judge_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
+}
+
 // Judges a triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.
 // True if it did.
-bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict = judge_triangle(ray, best, primitive, t_low, t_high, t, barycentrics, t_error);
+    uint verdict = judge_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
     trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;
@@ -54,6 +61,15 @@ bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit
     trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
     best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     return true;
+}
+
+// The same with the corners of the geometry.
+bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return test_corners(ray, primitive, a, b, c, t_low, t_high, best);
 }
 
 #endif

@@ -6,6 +6,7 @@
 
 #define STRUCTURE_BRUTE 1
 #define STRUCTURE_ABUFFER 2
+#define STRUCTURE_BVH 3
 
 #if STRUCTURE == STRUCTURE_BRUTE
 #include "brute/trace.glsl"
@@ -24,6 +25,15 @@
 #ifdef SURFACES_ENABLED
 #include "abuffer/surface.glsl"
 #define STRUCTURE_SURFACE_AT abuffer_surface_at
+#endif
+#elif STRUCTURE == STRUCTURE_BVH
+#include "bvh/trace.glsl"
+#define StructureRef BvhRef
+#define STRUCTURE_TRACE_CLOSEST bvh_trace_closest
+#define STRUCTURE_TRACE_OCCLUDED bvh_trace_occluded
+#ifdef SURFACES_ENABLED
+#include "bvh/surface.glsl"
+#define STRUCTURE_SURFACE_AT bvh_surface_at
 #endif
 #else
 #error "STRUCTURE names no structure: add it to contract/select.glsl"

@@ -6,6 +6,7 @@ use std::mem::offset_of;
 
 use rasray_abuffer::{Config, Header, Payload, plan};
 use rasray_ads::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
+use rasray_bvh as bvh;
 use rasray_gpu_scene::layout as scene;
 use rasray_integrators::{AovPixel, FilmFaults, FilmPixel, PathState};
 use rasray_shaders_glsl::layout::layouts;
@@ -192,7 +193,7 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 17] = [
+    const SHARED: [&str; 20] = [
         "Ray",
         "Hit",
         "TraceState",
@@ -204,6 +205,9 @@ fn records_are_the_same_in_all_modules() {
         "QueueHeader",
         "AbufferHeader",
         "AbufferNode",
+        "BvhHeader",
+        "BvhNode",
+        "BvhRecord",
         "Frame",
         "Material",
         "TextureRef",
@@ -252,12 +256,32 @@ fn records_of_the_abuffer() {
     }
 }
 
+#[test]
+fn records_of_the_bvh() {
+    let modules =
+        [&shaders::BVH_BUILD_8_RECORDS, &shaders::BVH_BUILD_10_TOPOLOGY, &shaders::BVH_TRACE_CLOSEST];
+    check_layout!(modules, bvh::Header as "BvhHeader" {
+        status, root, triangle_count, node_capacity, record_capacity, scratch_capacity, order_offset,
+        order_stride, lower, spare_lower, cells_per_metre, corrupted, nodes_address, records_address,
+        scratch_address, spare_address,
+    });
+    check_layout!([&shaders::BVH_BUILD_10_TOPOLOGY, &shaders::BVH_TRACE_CLOSEST], bvh::Node as "BvhNode" {
+        lower_0, child_0, upper_0, child_1, lower_1, parent, upper_1, spare,
+    });
+    check_layout!(modules, bvh::Record as "BvhRecord" { a, b, c, primitive });
+}
+
 /// With device addresses the header is reached by a pointer, which only the own reader follows.
 #[test]
 fn records_reached_by_address_are_the_same() {
     let direct = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST);
     let by_address = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_ADDRESS);
     for name in ["AbufferHeader", "AbufferNode"] {
+        assert_eq!(direct[name], by_address[name], "{name}");
+    }
+    let direct = read_by_us(&shaders::BVH_TRACE_CLOSEST);
+    let by_address = read_by_us(&shaders::BVH_TRACE_CLOSEST_ADDRESS);
+    for name in ["BvhHeader", "BvhNode", "BvhRecord"] {
         assert_eq!(direct[name], by_address[name], "{name}");
     }
 }

@@ -2,6 +2,7 @@
 
 use rasray_abuffer::{ABuffer, Config, Payload};
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, TestVerdict, TraceMode};
+use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::Timing;
 use rasray_reference::oracle::Verdict;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
@@ -35,12 +36,25 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
     Box::new(structure)
 }
 
-/// Brute force and both presets, with the work that is recorded; budgets are small, so that rays pause.
+fn bvh(
+    bench: &Bench,
+    geometry: &Geometry,
+    counters: Counters,
+    work_budget: Option<u32>,
+) -> Box<dyn Structure> {
+    let config = rasray_bvh::Config { counters, work_budget, ..rasray_bvh::Config::new(Builder::Sah) };
+    let mut structure = Bvh::new(bench.device(), config, geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    Box::new(structure)
+}
+
+/// Brute force, a tree and both presets, with the work that is recorded; budgets are small, so that rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
     let work_budget = Some(40);
     let brute = BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made");
     vec![
         Box::new(brute),
+        bvh(bench, geometry, counters, work_budget),
         abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
         abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
     ]

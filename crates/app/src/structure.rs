@@ -10,6 +10,8 @@ use serde_json::{Map, Value};
 pub enum SystemName {
     /// A-buffers on the faces of a cube and on the camera's view
     Mmrt,
+    /// A bounding volume hierarchy with two children a node: the yardstick
+    Bvh,
     /// Every triangle tested against every ray: the judge, slow on purpose
     BruteForce,
 }
@@ -81,6 +83,16 @@ pub enum Coverage {
 pub enum Views {
     /// Six faces around the centre
     Cube,
+}
+
+/// Who makes a structure, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Builder {
+    /// A tree by the surface area heuristic, on the host
+    Sah,
+    /// A tree by Morton codes, on the device
+    Lbvh,
 }
 
 /// How shaders reach a structure's memory.
@@ -156,6 +168,14 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub views: Option<Views>,
+    /// Who makes the structure, and how
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub builder: Option<Builder>,
+    /// With --builder sah: most triangles of a leaf
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leaf: Option<u32>,
     /// How shaders reach the structure's memory
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -209,6 +229,7 @@ mod tests {
         same_words::<Accept>();
         same_words::<Coverage>();
         same_words::<Views>();
+        same_words::<Builder>();
         same_words::<Addressing>();
         same_words::<Switch>();
     }

@@ -2,6 +2,7 @@
 //! over [`SYSTEMS`] and make structures through [`Spec`]; nothing else names a structure.
 
 mod brute_force;
+mod bvh;
 mod error;
 mod mmrt;
 mod option;

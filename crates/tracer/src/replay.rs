@@ -92,7 +92,7 @@ impl Replay {
         let count = |kind| self.steps.iter().filter(|step| step.kind() == kind).count() as u32;
         RayWork {
             cells: count(StepKind::Cell),
-            entries: count(StepKind::Entry),
+            entries: count(StepKind::Entry) + count(StepKind::Node),
             tests: count(StepKind::Test),
             rounds: count(StepKind::Round),
         }

@@ -175,8 +175,23 @@ const fn mmrt(
     Row { name, system: "mmrt", preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
+const fn bvh(name: &'static str, builder: &'static [(&'static str, &'static str)]) -> Row {
+    Row {
+        name,
+        system: "bvh",
+        preset: Preset::Robust,
+        options: builder,
+        tier: Tier::Quick,
+        cases: Cases::All,
+        demand: Demand::Exact { rounding: ROUNDING },
+        deviations: &[],
+    }
+}
+
 /// All rows.
 pub const ROWS: &[Row] = &[
+    bvh("bvh-sah", &[("builder", "sah")]),
+    bvh("bvh-lbvh", &[("builder", "lbvh")]),
     Row {
         name: "brute-force",
         system: "brute-force",

@@ -38,6 +38,7 @@ pub const LAWS: &[Law] = &[
     same("builder", &["raster", "binning", "sah", "lbvh"]),
     same("buckets", &["1", "2", "8", "32"]),
     same("inline", &["on", "off"]),
+    same("leaf", &["1", "16"]),
     same("page", &["1", "2", "4", "8"]),
     same("skip", &["on", "off"]),
     same("sort", &["on", "off"]),

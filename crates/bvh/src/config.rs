@@ -1,0 +1,100 @@
+//! Options of the BVH.
+
+use rasray_ads::{AdsError, Counters};
+use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
+
+/// Who makes the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builder {
+    /// The host, by the surface area heuristic: slow to build, fast to trace.
+    Sah,
+    /// The device, by Morton codes: fast to build, slower to trace.
+    Lbvh,
+}
+
+impl Builder {
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sah => "sah",
+            Self::Lbvh => "lbvh",
+        }
+    }
+}
+
+/// How shaders reach the pools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addressing {
+    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
+    Descriptor,
+    /// Device addresses in the header; needs `bufferDeviceAddress`.
+    Address,
+}
+
+/// Everything that may be chosen. Nothing of it changes a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Config {
+    /// Who makes the tree.
+    pub builder: Builder,
+    /// Most triangles of a leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic decides below that.
+    pub leaf: u32,
+    /// How pools are reached.
+    pub addressing: Addressing,
+    /// How much rays record of their work: nodes read and triangles tested.
+    pub counters: Counters,
+    /// Work units (nodes read and triangles tested) a ray may spend in one dispatch, 1 or more; the shared
+    /// default where absent.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// The defaults with a builder.
+    pub fn new(builder: Builder) -> Self {
+        Self {
+            builder,
+            leaf: 4,
+            addressing: Addressing::Descriptor,
+            counters: Counters::Off,
+            work_budget: None,
+        }
+    }
+
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// The first option out of range.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let refuse = |option, value: u32, expected| {
+            Err(AdsError::Option { option, value: value.to_string(), expected })
+        };
+        if !(1..=BVH_LEAF_LIMIT).contains(&self.leaf) {
+            return refuse("leaf", self.leaf, "1 to 16 triangles a leaf");
+        }
+        match self.work_budget {
+            Some(0) => refuse("work budget", 0, "1 unit or more a dispatch, or rays make no progress"),
+            _ => Ok(()),
+        }
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
+        let mut options = vec![("builder", self.builder.name().to_owned())];
+        if self.builder == Builder::Sah {
+            options.push(("leaf", self.leaf.to_string()));
+        }
+        options
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        let builder = match self.builder {
+            Builder::Sah => "host",
+            Builder::Lbvh => "device",
+        };
+        let addressing = match self.addressing {
+            Addressing::Descriptor => "descriptor",
+            Addressing::Address => "address",
+        };
+        vec![("builder", builder.to_owned()), ("addressing", addressing.to_owned())]
+    }
+}

@@ -1,0 +1,114 @@
+//! Sizes of the pools: plain arithmetic, no device.
+
+use rasray_ads::{AdsError, PoolSize, Sizes};
+use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_UNION};
+
+use crate::{Builder, Config, Header, Node, Record};
+
+/// Name of the structure in errors.
+pub(crate) const NAME: &str = "bvh";
+
+/// Words a triangle takes in the scratch pool of a build on the host before the order of the leaves: its box.
+pub(crate) const BOX_WORDS: u64 = 6;
+
+/// Words of the scratch pool.
+fn scratch_words(builder: Builder, triangles: u64) -> u64 {
+    match builder {
+        Builder::Sah => (BOX_WORDS + 1) * triangles,
+        Builder::Lbvh => {
+            let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
+            4 * triangles + (u64::from(BVH_DIGIT_VALUES) + 1) * chunks + 6 * unions(triangles)
+        }
+    }
+}
+
+/// Boxes in each level of unions above the triangles, up to the one that is a single box.
+pub(crate) fn union_levels(triangles: u64) -> impl Iterator<Item = u64> {
+    let above = |count: &u64| (*count > 1).then(|| count.div_ceil(BVH_UNION.into()));
+    std::iter::successors(Some(triangles), above).skip(1)
+}
+
+fn unions(triangles: u64) -> u64 {
+    union_levels(triangles).sum()
+}
+
+/// What a tree over `triangles` triangles allocates. Every inner node has two children, so there is one fewer
+/// than there are leaves at most.
+///
+/// # Errors
+/// An option is out of range, or there are more triangles than a leaf's 27 bits can name.
+pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    if triangles >= 1 << BVH_LEAF_SHIFT {
+        return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles });
+    }
+    let pool = |name, elements, bytes: usize| PoolSize { name, elements, element_bytes: bytes as u64 };
+    Ok(Sizes {
+        pools: vec![
+            pool("header", 1, size_of::<Header>()),
+            pool("nodes", triangles.saturating_sub(1), size_of::<Node>()),
+            pool("records", triangles, size_of::<Record>()),
+            pool("scratch", scratch_words(config.builder, triangles), size_of::<u32>()),
+        ],
+    })
+}
+
+/// Bytes of the page's formula for counted nodes and triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FormulaBytes {
+    /// What traces read: header 96, 64 a node, 40 a triangle.
+    pub traced: u64,
+    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1028 for
+    /// every 256 of them, and 24 a union of four boxes, unions of unions included, each rounded up.
+    pub scratch: u64,
+}
+
+impl FormulaBytes {
+    /// Sum of both parts.
+    pub fn total(&self) -> u64 {
+        self.traced + self.scratch
+    }
+}
+
+/// The page's formula. It does not look at [`plan`], so that the two check each other.
+pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaBytes {
+    let scratch = match builder {
+        Builder::Sah => 28 * triangles,
+        Builder::Lbvh => {
+            let (mut boxes, mut level) = (0, triangles);
+            while level > 1 {
+                level = level.div_ceil(4);
+                boxes += level;
+            }
+            16 * triangles + 1028 * triangles.div_ceil(256) + 24 * boxes
+        }
+    };
+    FormulaBytes { traced: 96 + 64 * nodes + 40 * triangles, scratch }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plan_equals_formula() {
+        for builder in [Builder::Sah, Builder::Lbvh] {
+            for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
+                let sizes = plan(&Config::new(builder), triangles).expect("options are in range");
+                let formula = formula_bytes(builder, triangles - 1, triangles);
+                assert_eq!(sizes.bytes(), formula.total(), "{builder:?} {triangles}");
+                assert_ne!(sizes.bytes(), formula_bytes(builder, triangles, triangles).total());
+            }
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_named_is_refused() {
+        let config = Config::new(Builder::Sah);
+        assert!(plan(&config, 0).is_ok());
+        assert!(plan(&config, 1 << 27).unwrap_err().to_string().contains("records"));
+        assert!(plan(&Config { leaf: 17, ..config }, 1).unwrap_err().to_string().contains("leaf is 17"));
+        assert!(plan(&Config { leaf: 0, ..config }, 1).is_err());
+        assert!(plan(&Config { work_budget: Some(0), ..config }, 1).is_err());
+    }
+}

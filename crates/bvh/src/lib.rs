@@ -1,0 +1,23 @@
+//! Bounding volume hierarchies: the yardstick that structures in image space are held against, behind the
+//! same contract and with the same triangle test, so that hits are identical and only speed differs.
+//!
+//! Two builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected
+//! cost by surface area on the host, [`Builder::Lbvh`] sorts triangles along a Morton curve on the device
+//! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012). See
+//! `docs/systems/bvh.md` for passes, bytes, options, limits and departures.
+//!
+//! [`Bvh`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+
+mod build;
+mod config;
+mod header;
+mod host;
+mod layout;
+mod structure;
+mod validate;
+
+pub use config::{Addressing, Builder, Config};
+pub use header::{Header, Node, Record};
+pub use layout::{FormulaBytes, formula_bytes, plan};
+pub use structure::Bvh;
+pub use validate::{Contents, Fault, Shape, well_formed};

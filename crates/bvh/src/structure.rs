@@ -1,0 +1,389 @@
+//! The BVH as a structure.
+
+use bytemuck::{bytes_of, pod_read_unaligned};
+use rasray_ads::{
+    AdsError, BuildStatus, Check, Counters, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+};
+use rasray_gpu::{
+    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
+    Requirements, SetLayout,
+};
+use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
+use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+
+use crate::build::{Build, Target, trace_modules};
+use crate::host::{self, Box3};
+use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
+use crate::{Addressing, Builder, Config, Contents, Header, Node, Record};
+
+/// Bindings of the structure's set: header, nodes, records, scratch.
+const BINDINGS: u32 = 4;
+
+/// Rounds that a trace records at most. Each costs two dispatches, also where no ray is left.
+const MOST_ROUNDS: u32 = 64;
+
+/// A bounding volume hierarchy with two children a node.
+#[derive(Debug)]
+pub struct Bvh {
+    config: Config,
+    geometry: Geometry,
+    build: Build,
+    kernels: TraceKernels,
+    layout: SetLayout,
+    sizes: Sizes,
+    pools: Pools,
+    /// What the host made for the next build.
+    prepared: Option<Prepared>,
+    /// Inner nodes of the last build recorded.
+    nodes: u64,
+}
+
+/// Root and number of inner nodes of a tree in the pools.
+#[derive(Clone, Copy, Debug)]
+struct Prepared {
+    root: u32,
+    nodes: u64,
+}
+
+/// Buffers of one size.
+#[derive(Debug)]
+struct Pools {
+    header_source: Buffer,
+    header_readback: Buffer,
+    header: Buffer,
+    nodes: Buffer,
+    records: Buffer,
+    scratch: Buffer,
+    set: Option<BindingSet>,
+}
+
+impl Pools {
+    fn new(
+        device: &Device,
+        layout: &SetLayout,
+        addressing: Addressing,
+        sizes: &Sizes,
+    ) -> Result<Self, AdsError> {
+        let buffer = |name: &str, size: u64, location| {
+            device.create_buffer(&BufferDesc {
+                name: &format!("bvh {name}"),
+                size,
+                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
+                location,
+            })
+        };
+        let pool = |name: &'static str| {
+            let size = sizes.pools.iter().find(|pool| pool.name == name);
+            buffer(name, size.map_or(0, |pool| pool.elements * pool.element_bytes), MemoryLocation::Device)
+        };
+        let header_bytes = size_of::<Header>() as u64;
+        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
+        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
+        let (header, nodes) = (pool("header")?, pool("nodes")?);
+        let (records, scratch) = (pool("records")?, pool("scratch")?);
+        let set = match addressing {
+            Addressing::Descriptor => {
+                Some(device.create_binding_set(layout, "bvh", &[&header, &nodes, &records, &scratch])?)
+            }
+            Addressing::Address => None,
+        };
+        Ok(Self { header_source, header_readback, header, nodes, records, scratch, set })
+    }
+}
+
+impl Bvh {
+    /// Makes pipelines and pools for the triangles of `geometry`. `scene` is needed for alpha masks and
+    /// surfaces.
+    ///
+    /// # Errors
+    /// An option is out of range or needs what the device does not provide; out of memory; a pool exceeds
+    /// what one binding can hold (then use device addresses).
+    pub fn new(
+        device: &Device,
+        config: Config,
+        geometry: &Geometry,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        let sizes = plan(&config, geometry.triangle_count().into())?;
+        if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
+            return Err(AdsError::Option {
+                option: "addressing",
+                value: "address".to_owned(),
+                expected: "the device has no bufferDeviceAddress; use `descriptor`",
+            });
+        }
+        let bindings = match config.addressing {
+            Addressing::Descriptor => BINDINGS,
+            Addressing::Address => 0,
+        };
+        let layout = device.create_set_layout("bvh", bindings)?;
+        let build = Build::new(device, &config, geometry, &layout)?;
+        let modules = trace_modules(&config, scene)?;
+        let kernels = TraceKernels::new(
+            device,
+            geometry,
+            &TraceKernelsDesc {
+                closest: modules.closest,
+                occluded: modules.occluded,
+                surfaces: modules.surfaces,
+                structure_layout: &layout,
+                constants: &[],
+                counters: config.counters,
+                work_budget: config.work_budget,
+                scene,
+            },
+        )?;
+        let pools = Pools::new(device, &layout, config.addressing, &sizes)?;
+        let geometry = geometry.clone();
+        Ok(Self { config, geometry, build, kernels, layout, sizes, pools, prepared: None, nodes: 0 })
+    }
+
+    /// What a device must and may offer for a configuration.
+    pub fn requirements_of(config: &Config) -> Requirements {
+        let mut requirements = Requirements::floor();
+        if config.addressing == Addressing::Address {
+            requirements.required.push(Feature::BufferDeviceAddress);
+        }
+        requirements
+    }
+
+    /// The configuration it was made with.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The header as the last build left it. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    pub fn header(&self) -> Result<Header, GpuError> {
+        let bytes = self.pools.header_readback.read(0, size_of::<Header>() as u64)?;
+        Ok(pod_read_unaligned(&bytes))
+    }
+
+    /// Downloads the tree, for checks. Submits and waits: for tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
+        let header = device.download_as::<Header>(&self.pools.header, 0, 1)?[0];
+        let triangles = header.triangle_count as usize;
+        Ok(Contents {
+            header,
+            nodes: device.download_as::<Node>(&self.pools.nodes, 0, self.nodes as usize)?,
+            records: device.download_as::<Record>(&self.pools.records, 0, triangles)?,
+        })
+    }
+
+    fn address(&self) -> u64 {
+        match self.config.addressing {
+            Addressing::Descriptor => 0,
+            Addressing::Address => self.pools.header.address().unwrap_or(0),
+        }
+    }
+
+    fn target(&self) -> Target<'_> {
+        Target {
+            geometry: &self.geometry,
+            set: self.pools.set.as_ref(),
+            address: self.address(),
+            header_source: &self.pools.header_source,
+            header: &self.pools.header,
+            header_readback: &self.pools.header_readback,
+        }
+    }
+
+    /// The tree that the device builds over this many triangles.
+    fn on_device(triangles: u64) -> Prepared {
+        let root = match triangles {
+            0 => BVH_NONE,
+            1 => BVH_LEAF,
+            _ => 0,
+        };
+        Prepared { root, nodes: triangles.saturating_sub(1) }
+    }
+
+    /// The header that the next build starts from.
+    fn first_header(&self, root: u32) -> Header {
+        let [lower, upper] = self.geometry.bounds();
+        let address = |buffer: &Buffer| match self.config.addressing {
+            Addressing::Descriptor => [0; 2],
+            Addressing::Address => {
+                let address = buffer.address().unwrap_or(0);
+                [address as u32, (address >> 32) as u32]
+            }
+        };
+        let triangles = self.geometry.triangle_count();
+        // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
+        let (order_offset, order_stride) = match self.config.builder {
+            Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
+            Builder::Lbvh => (1, 2),
+        };
+        Header {
+            root,
+            triangle_count: triangles,
+            node_capacity: self.sizes.elements("nodes") as u32,
+            record_capacity: self.sizes.elements("records") as u32,
+            scratch_capacity: self.sizes.elements("scratch") as u32,
+            order_offset,
+            order_stride,
+            lower,
+            cells_per_metre: cells_per_metre([lower, upper]),
+            nodes_address: address(&self.pools.nodes),
+            records_address: address(&self.pools.records),
+            scratch_address: address(&self.pools.scratch),
+            ..Header::default()
+        }
+    }
+}
+
+/// Cells of the Morton grid a metre, the same along all axes so that cells are cubes.
+fn cells_per_metre([lower, upper]: Box3) -> [f32; 3] {
+    let extent = (0..3).fold(0.0_f32, |extent, axis| extent.max(upper[axis] - lower[axis]));
+    // Kept normal: what does not fit is clamped to the grid, which costs quality and no hit.
+    let cells = (BVH_CODE_CELLS / extent.max(f32::MIN_POSITIVE)).clamp(f32::MIN_POSITIVE, f32::MAX);
+    [cells; 3]
+}
+
+impl Structure for Bvh {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn kind(&self) -> StructureKind {
+        StructureKind::Primitive
+    }
+
+    fn requirements(&self) -> Requirements {
+        Self::requirements_of(&self.config)
+    }
+
+    fn counters(&self) -> Counters {
+        self.kernels.counters()
+    }
+
+    fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
+    fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        self.pools = Pools::new(device, &self.layout, self.config.addressing, sizes)?;
+        self.sizes = sizes.clone();
+        self.prepared = None;
+        Ok(())
+    }
+
+    fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        let sizes = plan(&self.config, geometry.triangle_count().into())?;
+        if sizes != self.sizes {
+            self.resize(device, &sizes)?;
+        }
+        self.geometry = geometry.clone();
+        self.prepared = None;
+        Ok(())
+    }
+
+    fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {
+        if self.config.builder != Builder::Sah {
+            return Ok(());
+        }
+        self.prepared = None;
+        let triangles = self.geometry.triangle_count() as usize;
+        self.pools.header_source.write(0, bytes_of(&self.first_header(BVH_NONE)))?;
+        device.submit(|recorder| self.build.record_boxes(recorder, &self.target()))?;
+        let boxes = device.download_as::<Box3>(&self.pools.scratch, 0, triangles)?;
+        let tree = host::build(&boxes, self.config.leaf);
+        device.upload_slice(&self.pools.nodes, 0, &tree.nodes)?;
+        let order_at = size_of::<Box3>() * triangles;
+        device.upload_slice(&self.pools.scratch, order_at as u64, &tree.order)?;
+        self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64 });
+        Ok(())
+    }
+
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+        let prepared = match self.config.builder {
+            // The triangles may have moved since, so a tree serves one build.
+            Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
+            Builder::Lbvh => Self::on_device(self.geometry.triangle_count().into()),
+        };
+        self.nodes = prepared.nodes;
+        self.pools.header_source.write(0, bytes_of(&self.first_header(prepared.root)))?;
+        self.build.record(recorder, &self.target());
+        Ok(())
+    }
+
+    fn status(&self) -> Result<BuildStatus, GpuError> {
+        let header = self.header()?;
+        Ok(BuildStatus {
+            complete: header.status & STATUS_COMPLETE != 0,
+            pools: vec![PoolStatus {
+                name: "nodes",
+                demand: self.nodes,
+                capacity: header.node_capacity.into(),
+            }],
+            unsorted: 0,
+            corrupted: header.corrupted.into(),
+        })
+    }
+
+    fn check(&self, status: &BuildStatus) -> Check {
+        if status.complete {
+            return Check::Complete;
+        }
+        // Only after a resize to other sizes than those of the triangles.
+        plan(&self.config, self.geometry.triangle_count().into()).map_or(Check::Complete, Check::Grow)
+    }
+
+    fn rounds(&self) -> u32 {
+        // Each triangle is tested once, each node entered once, and after pauses each child left once.
+        let units = 4 * u64::from(self.geometry.triangle_count());
+        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+        (units / budget + 2).min(MOST_ROUNDS.into()) as u32
+    }
+
+    fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        let set = self.pools.set.as_ref();
+        self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
+    }
+
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
+        let set = self.pools.set.as_ref();
+        if self.kernels.record_surfaces(recorder, &self.geometry, set, self.address(), queue, count) {
+            Ok(())
+        } else {
+            Err(AdsError::NoScene { structure: self.name() })
+        }
+    }
+
+    fn report(&self) -> Result<StructureReport, GpuError> {
+        let triangles = u64::from(self.geometry.triangle_count());
+        let mut slack = 0;
+        let mut bytes_by_part = Vec::new();
+        for pool in &self.sizes.pools {
+            let used = if pool.name == "nodes" { self.nodes.min(pool.elements) } else { pool.elements };
+            bytes_by_part.push((pool.name, used * pool.element_bytes));
+            slack += (pool.elements - used) * pool.element_bytes;
+        }
+        bytes_by_part.push(("slack", slack));
+        Ok(StructureReport {
+            options: self.config.options(),
+            paths: self.config.paths(),
+            bytes_by_part,
+            formula_bytes: formula_bytes(self.config.builder, self.nodes, triangles).total(),
+            stored: Some(triangles),
+        })
+    }
+}

@@ -1,0 +1,34 @@
+//! Bounding volume hierarchies: the yardstick.
+
+use rasray_bvh::{Addressing, Builder, Bvh, Config};
+
+use crate::option::Given;
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "bvh",
+    structure: "bvh",
+    presets: &[Preset::Robust],
+    options: &["builder", "leaf", "addressing"],
+    requirements: |spec| Ok(Bvh::requirements_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| Ok(Box::new(Bvh::new(device, config(spec)?, geometry, scene)?)),
+};
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let mut config = Config { counters: spec.counters(), ..Config::new(Builder::Sah) };
+    for given in Given::all(spec) {
+        match given.name {
+            "builder" => config.builder = given.choice(&[("sah", Builder::Sah), ("lbvh", Builder::Lbvh)])?,
+            "leaf" => config.leaf = given.number()?,
+            "addressing" => {
+                config.addressing = given
+                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
+            }
+            _ => return Err(given.unknown()),
+        }
+    }
+    config.validate()?;
+    Ok(config)
+}

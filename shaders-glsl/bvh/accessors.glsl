@@ -1,0 +1,111 @@
+// What: the tree's pools, and the only place that knows how they are reached: through the descriptors
+// of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// Reads, writes: header, nodes, records, scratch. Every access checks the capacity.
+#ifndef BVH_ACCESSORS_GLSL
+#define BVH_ACCESSORS_GLSL
+
+#include "bvh/types.glsl"
+
+#ifndef STRUCTURE_SET
+#define STRUCTURE_SET 1
+#endif
+
+// Where a tree is. Unused with descriptors.
+struct BvhRef {
+    uvec2 header;
+};
+
+#ifdef ADDRESSING_ADDRESS
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhHeaderAddress { BvhHeader header; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhNodeAddress { BvhNode nodes[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhRecordAddress { BvhRecord records[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BvhScratchAddress { uint words[]; };
+#define BVH_HEADER(s) BvhHeaderAddress(s.header).header
+#define BVH_NODES(s) BvhNodeAddress(BVH_HEADER(s).nodes_address).nodes
+#define BVH_RECORDS(s) BvhRecordAddress(BVH_HEADER(s).records_address).records
+#define BVH_SCRATCH(s) BvhScratchAddress(BVH_HEADER(s).scratch_address).words
+#else
+layout(set = STRUCTURE_SET, binding = 0, scalar) buffer BvhHeaderBuffer { BvhHeader bvh_header; };
+layout(set = STRUCTURE_SET, binding = 1, scalar) buffer BvhNodeBuffer { BvhNode bvh_nodes[]; };
+layout(set = STRUCTURE_SET, binding = 2, scalar) buffer BvhRecordBuffer { BvhRecord bvh_records[]; };
+layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint bvh_scratch_words[]; };
+#define BVH_HEADER(s) bvh_header
+#define BVH_NODES(s) bvh_nodes
+#define BVH_RECORDS(s) bvh_records
+#define BVH_SCRATCH(s) bvh_scratch_words
+#endif
+
+// A node. A number past the end is counted and answers a node whose boxes no ray meets.
+BvhNode bvh_node(BvhRef s, uint node) {
+    if (node >= BVH_HEADER(s).node_capacity) {
+        atomicAdd(BVH_HEADER(s).corrupted, 1u);
+        const vec3 far = vec3(3.0e38);
+        return BvhNode(far, BVH_NONE, -far, BVH_NONE, far, BVH_NONE, -far, 0u);
+    }
+    return BVH_NODES(s)[node];
+}
+
+// The child that a link names.
+uint bvh_child(BvhRef s, uint link) {
+    uint node = link >> 1u;
+    if (node >= BVH_HEADER(s).node_capacity) {
+        return BVH_NONE;
+    }
+    return (link & 1u) == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
+}
+
+// A triangle. A number past the end is counted and answers a triangle without area.
+BvhRecord bvh_record(BvhRef s, uint record) {
+    if (record >= BVH_HEADER(s).record_capacity) {
+        atomicAdd(BVH_HEADER(s).corrupted, 1u);
+        return BvhRecord(vec3(0.0), vec3(0.0), vec3(0.0), PRIMITIVE_NONE);
+    }
+    return BVH_RECORDS(s)[record];
+}
+
+void bvh_set_record(BvhRef s, uint record, BvhRecord value) {
+    if (record < BVH_HEADER(s).record_capacity) {
+        BVH_RECORDS(s)[record] = value;
+    }
+}
+
+// Sets both children of a node. Boxes are left as they are.
+void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
+    if (node < BVH_HEADER(s).node_capacity) {
+        BVH_NODES(s)[node].child_0 = child_0;
+        BVH_NODES(s)[node].child_1 = child_1;
+    }
+}
+
+void bvh_set_parent(BvhRef s, uint node, uint link) {
+    if (node < BVH_HEADER(s).node_capacity) {
+        BVH_NODES(s)[node].parent = link;
+    }
+}
+
+// Sets the box of the child that a link names.
+void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
+    uint node = link >> 1u;
+    if (node >= BVH_HEADER(s).node_capacity) {
+        return;
+    }
+    if ((link & 1u) == 0u) {
+        BVH_NODES(s)[node].lower_0 = lower;
+        BVH_NODES(s)[node].upper_0 = upper;
+    } else {
+        BVH_NODES(s)[node].lower_1 = lower;
+        BVH_NODES(s)[node].upper_1 = upper;
+    }
+}
+
+uint bvh_scratch(BvhRef s, uint word) {
+    return word < BVH_HEADER(s).scratch_capacity ? BVH_SCRATCH(s)[word] : 0u;
+}
+
+void bvh_set_scratch(BvhRef s, uint word, uint value) {
+    if (word < BVH_HEADER(s).scratch_capacity) {
+        BVH_SCRATCH(s)[word] = value;
+    }
+}
+
+#endif

@@ -1,0 +1,14 @@
+// What: declares the tree complete. Everything has its exact size before the build is recorded.
+// Reads: header. Writes: header.status.
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/build.glsl"
+
+layout(local_size_x = 1) in;
+
+void main() {
+    uint triangles = BVH_HEADER(bvh_built).triangle_count;
+    bool fits = triangles <= BVH_HEADER(bvh_built).record_capacity && triangles <= BVH_HEADER(bvh_built).node_capacity + 1u
+        && triangles == geometry_triangle_count();
+    BVH_HEADER(bvh_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+}

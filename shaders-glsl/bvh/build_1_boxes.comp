@@ -1,0 +1,21 @@
+// What: the box of every triangle, for the part of the build that the host does.
+// Reads: geometry. Writes: scratch.
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/build.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+void main() {
+    uint primitive = bvh_invocation();
+    if (primitive >= geometry_triangle_count()) {
+        return;
+    }
+    vec3 lower;
+    vec3 upper;
+    bvh_triangle_box(primitive, lower, upper);
+    for (uint axis = 0u; axis < 3u; axis++) {
+        bvh_set_scratch(bvh_built, 6u * primitive + axis, floatBitsToUint(lower[axis]));
+        bvh_set_scratch(bvh_built, 6u * primitive + 3u + axis, floatBitsToUint(upper[axis]));
+    }
+}

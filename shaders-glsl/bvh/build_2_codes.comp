@@ -1,0 +1,32 @@
+// What: the Morton code of the middle of every triangle's box, 10 bits an axis.
+// Reads: geometry, header. Writes: scratch (keys).
+// Source: Lauterbach et al. 2009.
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/build.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+// Spreads 10 bits so that two zeros follow each.
+uint spread(uint bits) {
+    bits = (bits | (bits << 16u)) & 0x030000FFu;
+    bits = (bits | (bits << 8u)) & 0x0300F00Fu;
+    bits = (bits | (bits << 4u)) & 0x030C30C3u;
+    return (bits | (bits << 2u)) & 0x09249249u;
+}
+
+void main() {
+    uint primitive = bvh_invocation();
+    if (primitive >= BVH_HEADER(bvh_built).triangle_count) {
+        return;
+    }
+    vec3 lower;
+    vec3 upper;
+    bvh_triangle_box(primitive, lower, upper);
+    vec3 middle = 0.5 * lower + 0.5 * upper - BVH_HEADER(bvh_built).lower;
+    vec3 cells = clamp(middle * BVH_HEADER(bvh_built).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
+    uvec3 cell = uvec3(cells);
+    uint code = spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u);
+    bvh_set_scratch(bvh_built, bvh_keys(0u) + 2u * primitive, code);
+    bvh_set_scratch(bvh_built, bvh_keys(0u) + 2u * primitive + 1u, primitive);
+}

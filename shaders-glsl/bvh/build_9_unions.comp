@@ -1,0 +1,31 @@
+// What: the union of every four boxes of one level, as a box of the next; the triangles are level 0.
+// Reads: records, scratch (unions). Writes: scratch (unions).
+#version 460
+#include "contract/extensions.glsl"
+#include "bvh/unions.glsl"
+
+layout(local_size_x = BVH_GROUP_SIZE) in;
+
+void main() {
+    uint place = bvh_invocation();
+    uint below_offset = 0u;
+    uint below_count = BVH_HEADER(bvh_built).triangle_count;
+    for (uint level = 0u; level < bvh_step; level++) {
+        below_offset = union_offset(level, below_offset, below_count);
+        below_count = union_count(below_count);
+    }
+    if (place >= union_count(below_count)) {
+        return;
+    }
+    vec3 lower = vec3(uintBitsToFloat(0x7F800000u));
+    vec3 upper = -lower;
+    uint end = min(BVH_UNION * (place + 1u), below_count);
+    for (uint below = BVH_UNION * place; below < end; below++) {
+        union_include(bvh_step, below_offset, below, lower, upper);
+    }
+    uint word = union_offset(bvh_step, below_offset, below_count) + 6u * place;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        bvh_set_scratch(bvh_built, word + axis, floatBitsToUint(lower[axis]));
+        bvh_set_scratch(bvh_built, word + 3u + axis, floatBitsToUint(upper[axis]));
+    }
+}

@@ -1,0 +1,44 @@
+// Numbers that the BVH's shaders and crate share. Only `#define NAME number` may stand here.
+#ifndef BVH_CONSTANTS_GLSL
+#define BVH_CONSTANTS_GLSL
+
+// The link of the root: it has no parent. Also the child reference of a tree without triangles.
+#define BVH_NONE 0xFFFFFFFFu
+
+// In a child reference: a leaf. Its lower bits are the first record, and above them the number of
+// records less one.
+#define BVH_LEAF 0x80000000u
+#define BVH_LEAF_SHIFT 27u
+
+// Most triangles of a leaf.
+#define BVH_LEAF_LIMIT 16u
+
+// Subtrees a ray remembers; forgotten ones are found again through the links to parents.
+#define BVH_STACK 16u
+
+// How far a box is widened, times the largest coordinate of its corners relative to the ray's origin:
+// 64 units of rounding. The watertight test accepts a ray up to 16 units beside a triangle, and the box
+// test itself is off by fewer than 16.
+#define BVH_BOX_MARGIN 0.0000038146973
+
+// The smallest component a direction is treated as having, relative to its largest: 2^-60.
+#define BVH_DIRECTION_FLOOR 0.00000000000000000086736174
+
+// Bits an axis of a Morton code, and cells an axis.
+#define BVH_CODE_CELLS 1024.0
+
+// Bits of a digit of the radix sort, digits, and keys that one invocation sorts.
+#define BVH_DIGIT_BITS 8u
+#define BVH_DIGIT_VALUES 256u
+#define BVH_DIGITS 4u
+#define BVH_SORT_CHUNK 256u
+
+// Boxes whose union is stored as one, and levels of such unions that 2^27 triangles need.
+#define BVH_UNION 4u
+#define BVH_UNION_LEVELS 15u
+
+// Threads in a workgroup of the build's passes, and of the pass that is one workgroup.
+#define BVH_GROUP_SIZE 64u
+#define BVH_SCAN_SIZE 256u
+
+#endif

@@ -1,0 +1,13 @@
+// What: the surface at a hit of the tree: a primitive with barycentrics.
+// Reads: the scene. Writes: nothing.
+#ifndef BVH_SURFACE_GLSL
+#define BVH_SURFACE_GLSL
+
+#include "scene/surface.glsl"
+#include "bvh/accessors.glsl"
+
+Surface bvh_surface_at(BvhRef s, Ray ray, Hit hit) {
+    return scene_surface(ray, hit.t, hit.primitive, vec2(hit.a, hit.b));
+}
+
+#endif

@@ -1,0 +1,53 @@
+// What: boxes of runs of records, put together from unions of 4, 16, 64 ... of them.
+// Reads: records, scratch (unions). Writes: nothing.
+#ifndef BVH_UNIONS_GLSL
+#define BVH_UNIONS_GLSL
+
+#include "bvh/build.glsl"
+
+// Boxes of the level above this many.
+uint union_count(uint below) {
+    return (below + BVH_UNION - 1u) / BVH_UNION;
+}
+
+// First word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no words.
+uint union_offset(uint level, uint offset, uint count) {
+    return level == 0u ? bvh_unions() : offset + 6u * count;
+}
+
+// Widens a box by one of a level.
+void union_include(uint level, uint offset, uint place, inout vec3 lower, inout vec3 upper) {
+    if (level == 0u) {
+        BvhRecord record = bvh_record(bvh_built, place);
+        lower = min(lower, min(record.a, min(record.b, record.c)));
+        upper = max(upper, max(record.a, max(record.b, record.c)));
+        return;
+    }
+    uint word = offset + 6u * place;
+    for (uint axis = 0u; axis < 3u; axis++) {
+        lower[axis] = min(lower[axis], uintBitsToFloat(bvh_scratch(bvh_built, word + axis)));
+        upper[axis] = max(upper[axis], uintBitsToFloat(bvh_scratch(bvh_built, word + 3u + axis)));
+    }
+}
+
+// The box of the records from `begin` to before `end`: at each level what does not fill a union of the next.
+void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
+    lower = vec3(uintBitsToFloat(0x7F800000u));
+    upper = -lower;
+    uint offset = 0u;
+    uint count = BVH_HEADER(bvh_built).triangle_count;
+    for (uint level = 0u; level < BVH_UNION_LEVELS && begin < end; level++) {
+        for (; begin % BVH_UNION != 0u && begin < end; begin++) {
+            union_include(level, offset, begin, lower, upper);
+        }
+        for (; end % BVH_UNION != 0u && begin < end; end--) {
+            union_include(level, offset, end - 1u, lower, upper);
+        }
+        begin /= BVH_UNION;
+        end /= BVH_UNION;
+        offset = union_offset(level, offset, count);
+        count = union_count(count);
+    }
+}
+
+#endif

@@ -1,0 +1,201 @@
+//! Every tree that is built is downloaded and checked node by node.
+
+use rasray_ads::Structure;
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, well_formed};
+use rasray_gpu::Timing;
+use rasray_hard_cases as hard_cases;
+use rasray_hard_cases::Scale;
+use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
+use rasray_tests::conformance::loadable;
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+/// Triangles of a hard case up to which every run builds it.
+const LARGEST: usize = 5_000;
+
+/// Bits of a code and of a place, of which each level of a tree by Morton codes uses one at least.
+const LBVH_LEVELS: usize = 62;
+
+fn scattered(count: usize, seed: u64, size: f32) -> Vec<Triangle> {
+    let mut random = Random::new(seed);
+    (0..count)
+        .map(|_| {
+            let center = random.point(-5.0, 5.0);
+            std::array::from_fn(|_| {
+                let offset = random.point(-size, size);
+                std::array::from_fn(|axis| center[axis] + offset[axis])
+            })
+        })
+        .collect()
+}
+
+fn tree(bench: &Bench, config: Config) -> Bvh {
+    Bvh::new(bench.device(), config, &bench.geometry(&[]), None).expect("the options are valid")
+}
+
+fn build(bench: &Bench, config: Config, triangles: &[Triangle]) -> Contents {
+    rebuild(bench, &mut tree(bench, config), triangles)
+}
+
+/// Builds over other triangles.
+fn rebuild(bench: &Bench, bvh: &mut Bvh, triangles: &[Triangle]) -> Contents {
+    bvh.set_geometry(bench.device(), &bench.geometry(triangles)).expect("the pools fit");
+    build_until_complete(bench.device(), bvh, [0.0; 3], Timing::None).expect("the build completes");
+    let contents = bvh.download(bench.device()).expect("the tree can be downloaded");
+    let report = bvh.report().expect("the header is readable");
+    let slack = report.bytes_by_part.iter().find(|(name, _)| *name == "slack").map_or(0, |(_, bytes)| *bytes);
+    assert_eq!(
+        report.bytes() - slack,
+        report.formula_bytes,
+        "{:?}, {} triangles",
+        bvh.config(),
+        triangles.len()
+    );
+    contents
+}
+
+/// Checks the tree, and that its records are the triangles, bit for bit.
+fn checked(contents: &Contents, triangles: &[Triangle], what: &str) -> Shape {
+    let shape = well_formed(contents).unwrap_or_else(|fault| panic!("{what}: {fault}"));
+    assert_eq!(contents.records.len(), triangles.len(), "{what}");
+    for record in &contents.records {
+        assert_eq!(record.corners(), triangles[record.primitive as usize], "{what}");
+    }
+    assert_eq!(contents.header.corrupted, 0);
+    shape
+}
+
+fn all_trees_of(builder: Builder) {
+    let bench = Bench::new();
+    let twins = vec![[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]; 700];
+    let points = vec![[[0.25; 3]; 3]; 65];
+    let mut room = sphere([0.5, 0.5, 0.5], 0.25, 20);
+    room.extend(closed_box([-3.0; 3], [3.0; 3]));
+    let full = std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1");
+    let mut scenes = vec![
+        ("nothing".to_owned(), Vec::new()),
+        ("the same triangle 700 times".to_owned(), twins),
+        ("points".to_owned(), points),
+        ("a sphere in a room".to_owned(), room),
+        ("20,000 triangles".to_owned(), scattered(20_000, 3, 0.1)),
+    ];
+    for count in [1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 255, 256, 257, 1000] {
+        scenes.push((format!("{count} triangles"), scattered(count, count as u64, 1.0)));
+    }
+    for id in hard_cases::ids() {
+        let case = hard_cases::case(id, Scale::QUICK).expect("the id is in the catalogue");
+        let kept = loadable(&case.triangles).iter().map(|&index| case.triangles[index as usize]).collect();
+        let kept: Vec<Triangle> = kept;
+        if full || kept.len() <= LARGEST {
+            scenes.push((id.to_owned(), kept));
+        }
+    }
+    let config = Config::new(builder);
+    let mut by_descriptor = tree(&bench, config);
+    let mut by_address = tree(&bench, Config { addressing: Addressing::Address, ..config });
+    for (index, (name, triangles)) in scenes.iter().enumerate() {
+        let mut trees = vec![&mut by_descriptor];
+        // Every scene in the full tier, every third otherwise: modules differ only in how pools are reached.
+        if full || index % 3 == 0 {
+            trees.push(&mut by_address);
+        }
+        for bvh in trees {
+            let shape = checked(&rebuild(&bench, bvh, triangles), triangles, name);
+            if builder == Builder::Lbvh {
+                assert_eq!(shape.leaves, triangles.len(), "{name}");
+                assert!(shape.levels <= LBVH_LEVELS, "{name}: {} levels", shape.levels);
+            }
+        }
+    }
+}
+
+#[test]
+fn trees_by_surface_area_are_sound() {
+    all_trees_of(Builder::Sah);
+}
+
+#[test]
+fn trees_by_morton_codes_are_sound() {
+    all_trees_of(Builder::Lbvh);
+}
+
+#[test]
+fn a_tree_is_the_same_every_time() {
+    let bench = Bench::new();
+    let triangles = scattered(3000, 8, 0.2);
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let config = Config::new(builder);
+        let (first, second) = (build(&bench, config, &triangles), build(&bench, config, &triangles));
+        assert!(first.records == second.records, "{builder:?}");
+        let known =
+            |contents: &Contents| contents.nodes.iter().map(|n| (n.children(), n.parent)).collect::<Vec<_>>();
+        assert!(known(&first) == known(&second), "{builder:?}");
+    }
+}
+
+#[test]
+fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
+    let bench = Bench::new();
+    // Fine and coarse triangles side by side: Morton codes do not see sizes.
+    let mut triangles = sphere([1.5, 0.5, 0.5], 0.25, 30);
+    triangles.extend(closed_box([-3.0; 3], [3.0; 3]));
+    triangles.extend(scattered(300, 9, 1.0));
+    let shape =
+        |config| checked(&build(&bench, config, &triangles), &triangles, "a sphere among large triangles");
+    let (sah, lbvh) = (shape(Config::new(Builder::Sah)), shape(Config::new(Builder::Lbvh)));
+    assert!(sah.cost < lbvh.cost, "{sah:?} {lbvh:?}");
+    assert!(sah.leaves < triangles.len());
+    let single = shape(Config { leaf: 1, ..Config::new(Builder::Sah) });
+    assert_eq!(single.leaves, triangles.len());
+}
+
+/// Shows that each check can fail.
+#[test]
+fn damaged_trees_are_noticed() {
+    let bench = Bench::new();
+    let triangles = scattered(300, 10, 0.2);
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let sound = build(&bench, Config::new(builder), &triangles);
+        let damaged = |damage: fn(&mut Contents)| {
+            let mut contents = sound.clone();
+            damage(&mut contents);
+            well_formed(&contents).expect_err("the damage is noticed")
+        };
+        let fault = damaged(|c| c.nodes[1].lower_0[2] = c.nodes[1].lower_0[2].next_up());
+        assert!(matches!(fault, Fault::Bounds { .. }), "{fault}");
+        let fault = damaged(|c| c.nodes[0].upper_1[0] += 1.0);
+        assert!(matches!(fault, Fault::Bounds { link: 1, .. }), "{fault}");
+        let fault = damaged(|c| c.nodes[2].parent ^= 1);
+        assert!(matches!(fault, Fault::Parent { node: 2, .. }), "{fault}");
+        let fault = damaged(|c| c.nodes[0].child_0 = c.nodes.len() as u32);
+        assert!(matches!(fault, Fault::Dangling { .. }), "{fault}");
+        let fault = damaged(|c| c.records[5] = c.records[6]);
+        assert!(matches!(fault, Fault::Bounds { .. } | Fault::Triangles { .. }), "{fault}");
+        let fault = damaged(|c| c.records[5].primitive = 7);
+        assert!(matches!(fault, Fault::Triangles { .. }), "{fault}");
+        let fault = damaged(|c| {
+            let leaf = c.nodes.iter().position(|n| n.child_0 & BVH_LEAF != 0).expect("there are leaves");
+            let records = c.records.len() as u32;
+            c.nodes[leaf].child_0 = BVH_LEAF | (records - 1);
+        });
+        assert!(matches!(fault, Fault::Bounds { .. } | Fault::Leaves { .. }), "{fault}");
+    }
+}
+
+#[test]
+fn a_tree_of_the_host_is_asked_for_and_serves_one_build() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scattered(20, 11, 0.2));
+    let mut bvh = Bvh::new(bench.device(), Config::new(Builder::Sah), &geometry, None).expect("valid");
+    for _ in 0..2 {
+        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, [0.0; 3]));
+        let error = recorded.expect("the device works").value.expect_err("nothing was prepared");
+        assert!(error.to_string().contains("prepare_build"), "{error}");
+        bvh.prepare_build(bench.device()).expect("the device works");
+        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, [0.0; 3]));
+        recorded.expect("the device works").value.expect("it was prepared");
+        assert!(bvh.status().expect("readable").complete);
+    }
+}
