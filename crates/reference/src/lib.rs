@@ -3,6 +3,7 @@
 pub mod integrators;
 pub mod oracle;
 pub mod shading;
+pub mod views;
 
 #[cfg(test)]
 mod testing;

@@ -82,7 +82,17 @@ impl Bvh {
 
     /// Calls `triangle(slot, cutoff)` for every triangle that the ray may touch before the cutoff,
     /// which the callee may lower.
-    pub fn visit(&self, test: &ContactTest, mut triangle: impl FnMut(usize, &mut f64)) {
+    pub fn visit(&self, test: &ContactTest, triangle: impl FnMut(usize, &mut f64)) {
+        self.visit_nodes(test, |_, _, _| (), triangle);
+    }
+
+    /// As [`Bvh::visit`], and calls `node(number, least t, triangles)` for every node entered before.
+    pub fn visit_nodes(
+        &self,
+        test: &ContactTest,
+        mut node_entered: impl FnMut(usize, f64, usize),
+        mut triangle: impl FnMut(usize, &mut f64),
+    ) {
         let mut cutoff = f64::INFINITY;
         let inverse = test.direction.map(|d| 1.0 / d);
         let entry = |node: usize| test.entry(&self.nodes[node].bounds, &inverse);
@@ -92,6 +102,7 @@ impl Bvh {
                 continue;
             }
             let node = &self.nodes[index];
+            node_entered(index, t, node.count);
             if node.count > 0 {
                 for &slot in &self.slots[node.first..node.first + node.count] {
                     triangle(slot, &mut cutoff);

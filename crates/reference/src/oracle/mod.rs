@@ -15,6 +15,7 @@ mod coverage;
 mod error;
 pub mod exact;
 mod ray;
+mod replay;
 mod verdict;
 
 #[cfg(test)]
@@ -22,6 +23,7 @@ mod tests;
 
 pub use error::OracleError;
 pub use ray::Ray;
+pub use replay::{OracleReplay, TestClass, TestedTriangle, VisitedNode};
 pub use verdict::{Candidate, Occlusion, Outcome, Verdict};
 
 use bvh::Bvh;

@@ -1,0 +1,212 @@
+//! Everything the oracle does for one ray, in words.
+
+use std::fmt;
+
+use super::contact::{Contact, ContactTest};
+use super::exact::{self, Point};
+use super::{Oracle, Outcome, Ray, Verdict};
+
+/// What a triangle is to a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TestClass {
+    /// A hit that every careful single-precision test finds.
+    Certain,
+    /// A hit in exact arithmetic that single precision may miss.
+    Uncertain,
+    /// No hit in exact arithmetic; single precision may report one.
+    Possible,
+    /// The ray passes through the triangle outside of its own range.
+    OutOfRange,
+    /// The ray lies in the triangle's plane: no hit, though single precision may report one.
+    InPlane,
+    /// Behind a certain hit.
+    Behind,
+    /// Excluded by the ray.
+    Excluded,
+    /// Refused by the alpha test.
+    Transparent,
+    /// The ray passes beside the triangle.
+    Beside,
+}
+
+/// One triangle that the oracle tested.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TestedTriangle {
+    /// Running index of the triangle.
+    pub primitive: u32,
+    /// Signs of the exact edge determinants, each edge named by the vertex opposite; inside where no two
+    /// differ strictly.
+    pub signs: [i32; 3],
+    /// What it is to the ray.
+    pub class: TestClass,
+    /// t of the plane, and the interval that single precision may report; `None` where the ray passes beside
+    /// by more than rounding.
+    pub t: Option<[f64; 3]>,
+}
+
+/// A node of the hierarchy that the ray entered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VisitedNode {
+    /// Number of the node, the root being 0.
+    pub node: usize,
+    /// Lower bound of every t in it.
+    pub t: f64,
+    /// Triangles of a leaf; 0 for an inner node.
+    pub triangles: usize,
+}
+
+/// What [`Oracle::closest`] does for one ray.
+#[derive(Clone, Debug)]
+pub struct OracleReplay {
+    /// The ray.
+    pub ray: Ray,
+    /// Nodes in the order of visits; empty where all triangles are tested one by one.
+    pub nodes: Vec<VisitedNode>,
+    /// Triangles in the order of tests, those that the ray passes beside left out.
+    pub tests: Vec<TestedTriangle>,
+    /// Triangles tested that the ray passes beside by more than rounding.
+    pub beside: usize,
+    /// The answer.
+    pub verdict: Verdict,
+}
+
+impl Oracle<'_> {
+    /// [`Oracle::closest`] of one ray with everything it looked at. The signs are computed without a filter.
+    pub fn replay(&self, ray: &Ray) -> OracleReplay {
+        let verdict = self.closest(ray);
+        let mut replay = OracleReplay { ray: *ray, nodes: Vec::new(), tests: Vec::new(), beside: 0, verdict };
+        let Some(test) = ContactTest::new(ray) else { return replay };
+        let mut cutoff = f64::INFINITY;
+        let mut nodes = Vec::new();
+        let mut look = |slot: usize, cutoff: &mut f64| {
+            let (tested, contact) = self.look_at(ray, &test, slot, *cutoff);
+            if tested.class == TestClass::Beside {
+                replay.beside += 1;
+                return;
+            }
+            if let (TestClass::Certain, Some(contact)) = (tested.class, contact) {
+                *cutoff = cutoff.min(contact.t_high);
+            }
+            replay.tests.push(tested);
+        };
+        match &self.bvh {
+            Some(bvh) => bvh.visit_nodes(
+                &test,
+                |node, t, triangles| nodes.push(VisitedNode { node, t, triangles }),
+                &mut look,
+            ),
+            None => (0..self.triangles.len()).for_each(|slot| look(slot, &mut cutoff)),
+        }
+        replay.nodes = nodes;
+        replay
+    }
+
+    fn look_at(
+        &self,
+        ray: &Ray,
+        test: &ContactTest,
+        slot: usize,
+        cutoff: f64,
+    ) -> (TestedTriangle, Option<Contact>) {
+        let (primitive, triangle) = (self.primitives[slot], &self.triangles[slot]);
+        let signs = exact_signs(test, triangle);
+        let inside = !(signs.contains(&1) && signs.contains(&-1));
+        let contact = test.contact(triangle);
+        let class = if ray.exclude_primitive == Some(primitive) {
+            TestClass::Excluded
+        } else if signs == [0; 3] {
+            TestClass::InPlane
+        } else {
+            match &contact {
+                Some(contact) if contact.t_low > cutoff => TestClass::Behind,
+                Some(contact)
+                    if self.accept.is_some_and(|accept| !accept(primitive, contact.barycentrics)) =>
+                {
+                    TestClass::Transparent
+                }
+                Some(contact) if contact.certain => TestClass::Certain,
+                Some(contact) if contact.hit => TestClass::Uncertain,
+                Some(_) => TestClass::Possible,
+                None if inside => TestClass::OutOfRange,
+                None => TestClass::Beside,
+            }
+        };
+        let t = contact.map(|contact| [contact.t, contact.t_low, contact.t_high]);
+        (TestedTriangle { primitive, signs, class, t }, contact)
+    }
+}
+
+/// Signs of the three edge determinants of a triangle, each without rounding.
+fn exact_signs(test: &ContactTest, triangle: &[[f32; 3]; 3]) -> [i32; 3] {
+    let points: [Point; 3] = triangle.map(|vertex| vertex.map(f64::from));
+    [0, 1, 2].map(|opposite: usize| {
+        let (a, b) = (points[(opposite + 1) % 3], points[(opposite + 2) % 3]);
+        let value =
+            exact::edge_determinant(test.direction, test.origin, a, b) * test.direction[test.axis_z].signum();
+        i32::from(value > 0.0) - i32::from(value < 0.0)
+    })
+}
+
+impl fmt::Display for TestClass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Certain => "hit",
+            Self::Uncertain => "hit that single precision may miss",
+            Self::Possible => "no hit, but single precision may report one",
+            Self::OutOfRange => "outside of the ray's range",
+            Self::InPlane => "the ray lies in its plane",
+            Self::Behind => "behind a certain hit",
+            Self::Excluded => "excluded by the ray",
+            Self::Transparent => "transparent",
+            Self::Beside => "passed beside",
+        })
+    }
+}
+
+impl fmt::Display for TestedTriangle {
+    /// One line.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = |value: i32| match value {
+            1 => '+',
+            -1 => '-',
+            _ => '0',
+        };
+        let [a, b, c] = self.signs.map(sign);
+        write!(f, "triangle {}: edges {a}{b}{c}, {}", self.primitive, self.class)?;
+        match self.t {
+            Some([t, low, high]) => write!(f, ", t {t} ({low} to {high})"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for OracleReplay {
+    /// Nodes, tested triangles, the answer; one line each.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "oracle: {} nodes, {} triangles passed beside", self.nodes.len(), self.beside)?;
+        for VisitedNode { node, t, triangles } in &self.nodes {
+            match triangles {
+                0 => writeln!(f, "  node {node}, t from {t}")?,
+                _ => writeln!(f, "  node {node}, t from {t}, {triangles} triangles")?,
+            }
+        }
+        for tested in &self.tests {
+            writeln!(f, "    {tested}")?;
+        }
+        match self.verdict.outcome {
+            Outcome::Hit { primitive, t, .. } => write!(f, "hit: triangle {primitive}, t {t}")?,
+            Outcome::Miss => write!(f, "miss")?,
+        }
+        if !self.verdict.ambiguous {
+            return writeln!(f);
+        }
+        let candidates: Vec<String> = self
+            .verdict
+            .candidates
+            .iter()
+            .map(|candidate| format!("triangle {}", candidate.primitive))
+            .chain(self.verdict.miss_allowed.then(|| "miss".to_owned()))
+            .collect();
+        writeln!(f, "; ambiguous, single precision may answer {}", candidates.join(", "))
+    }
+}
