@@ -136,6 +136,8 @@ pub struct CompareJob<'a> {
     pub hits_files: Vec<HitsFile>,
     /// Whether rays, truth and hits are kept for files.
     pub keep: bool,
+    /// Instead of comparing: the ray of each set that is replayed step by step, counted from 0.
+    pub replay: Option<u32>,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
 }
@@ -157,6 +159,8 @@ pub struct HardJob<'a> {
     pub hits_files: &'a [HitsFile],
     /// Whether rays, truth and hits are kept for files.
     pub keep: bool,
+    /// Instead of comparing: the ray that is replayed step by step, counted from 0.
+    pub replay: Option<u32>,
 }
 
 /// What a comparison gave.
@@ -168,6 +172,8 @@ pub struct Comparison {
     pub figures: Figures,
     /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
     pub kept: Kept,
+    /// The replay of one ray in words, where [`CompareJob::replay`] asked for it.
+    pub replay: Option<String>,
 }
 
 /// The ray set of a file.

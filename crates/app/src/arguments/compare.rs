@@ -18,6 +18,7 @@ Examples:
   rasray compare scene.glb --systems mmrt --rays-file out/bounce.rays --hits-file other=other.npy
   rasray compare hard: (lists the hard cases)
   rasray compare hard:all --systems mmrt,brute-force --check
+  rasray compare cornell --systems mmrt --presets published --ray-set incoherent --replay 17
 
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
@@ -55,6 +56,9 @@ pub struct CompareArguments {
     /// With a hard case: exit code 1 if a target is not met
     #[arg(long)]
     pub check: bool,
+    /// Show step by step what every system and the oracle do for one ray of the set, instead of comparing
+    #[arg(long, value_name = "INDEX", conflicts_with_all = ["image", "report", "html", "hits_file", "save_rays", "save_hits"])]
+    pub replay: Option<u32>,
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,

@@ -68,10 +68,14 @@ pub(crate) fn compare(
         rays_file,
         hits_files,
         keep: targets.save.any(),
+        replay: given.replay,
         needs: given.reading.needs(&loaded.scene, frame.workload()),
     };
-    let Comparison { runs, figures, kept } =
+    let Comparison { runs, figures, kept, replay } =
         with_progress(interrupt, |progress| backend.compare(&job, progress))?;
+    if let Some(text) = replay {
+        return terminal::print(&text);
+    }
     let finished = runs.len();
     if finished == 0 && interrupt.requested() {
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));

@@ -57,6 +57,9 @@ pub(super) fn compare(
         } else {
             let subject = Subject { id, systems: &systems, hits_files: &hits_files, targets: &targets };
             let (one, count) = trace(given, subject, backend.as_mut(), interrupt)?;
+            if let Some(text) = &one.replay {
+                terminal::print(text)?;
+            }
             ray_files::save(targets.save(), &one.kept, interrupt)?;
             triangles += count;
             append(&mut whole, one);
@@ -68,6 +71,9 @@ pub(super) fn compare(
             "stopped before the first case was whole; nothing was written",
             "",
         ));
+    }
+    if given.replay.is_some() {
+        return Ok(());
     }
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, sha256: None };
     let report = Report::new(backend.device(), scene, Some(line.to_owned()), whole.runs);
@@ -174,6 +180,7 @@ fn trace(
         figures: subject.targets.has_page(),
         hits_files: subject.hits_files,
         keep: subject.targets.save().any(),
+        replay: given.replay,
     };
     let comparison = with_progress(interrupt, |progress| backend.hard(&job, progress))?;
     Ok((comparison, case.triangles.len() as u64))

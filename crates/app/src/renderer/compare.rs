@@ -9,6 +9,7 @@ use rasray_reference::shading::{PosedScene, View};
 use super::contestant::Contestant;
 use super::images::compare_images;
 use super::rays::{RaySource, oracle_ray};
+use super::replay::{ReplaySetting, replay_sets};
 use super::stage::{Stage, device_error};
 use super::traced_set::{RaysWithTruth, Wanted, compare_set};
 use super::work_maps::work_maps;
@@ -67,9 +68,16 @@ pub(super) fn compare(
         indices: &indices,
     };
 
+    let generated = job.ray_sets.iter().map(|set| (word(set), source.rays(*set, job.rays)));
+    let given = job.rays_file.as_ref().map(|file| (FILE_SET.to_owned(), file.relative_to(origin.to_array())));
+    let sets = generated.chain(given);
+    if let Some(index) = job.replay {
+        let setting = ReplaySetting { device, stage: &stage, oracle: &oracle, center };
+        return replay_sets(&setting, &job.systems, sets, index);
+    }
     let contestants = Contestant::all(device, &stage, &job.systems, center, job.repetitions)?;
-    let sets = job.ray_sets.len() + usize::from(job.rays_file.is_some());
-    let total = (contestants.len() * (sets + usize::from(job.image))) as u64;
+    let count = job.ray_sets.len() + usize::from(job.rays_file.is_some());
+    let total = (contestants.len() * (count + usize::from(job.image))) as u64;
     let mut comparison = Comparison::default();
     if job.keep {
         comparison.kept.frame_origin = origin.to_array();
@@ -82,9 +90,7 @@ pub(super) fn compare(
         keep: job.keep,
         given_hits: &job.hits_files,
     };
-    let generated = job.ray_sets.iter().map(|set| (word(set), source.rays(*set, job.rays)));
-    let given = job.rays_file.as_ref().map(|file| (FILE_SET.to_owned(), file.relative_to(origin.to_array())));
-    for (name, rays) in generated.chain(given) {
+    for (name, rays) in sets {
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
         let set = RaysWithTruth { name, rays, verdicts };
         compare_set(device, &contestants, &set, wanted, |hits| hits, &mut comparison)?;

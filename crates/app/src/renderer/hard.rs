@@ -12,6 +12,7 @@ use rasray_scene::{Instance, Material, Mesh, Scene};
 use super::compare::triangles;
 use super::contestant::Contestant;
 use super::hard_verdict::{Judged, hard_record};
+use super::replay::replay_case;
 use super::stage::{Stage, device_error};
 use super::traced_set::{RaysWithTruth, Wanted, compare_set};
 use crate::backend::{Comparison, HardJob, OnProgress, Progress};
@@ -93,6 +94,10 @@ pub(super) fn hard(
     // Relative to the world's own origin, so that positions are those of the case bit for bit.
     let stage = Stage::around(device, &placed.scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
     check_positions(device, &stage, case, &placed.kept)?;
+    if let Some(index) = job.replay {
+        let rays = case.rays.iter().map(|ray| placed.device_ray(ray)).collect();
+        return replay_case(device, &stage, job.systems, (case.id, case.eye), rays, index);
+    }
     let (positions, indices) = case.buffers();
     let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
     let set = RaysWithTruth {

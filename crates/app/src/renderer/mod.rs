@@ -10,6 +10,7 @@ mod judge;
 mod passes;
 mod rays;
 mod render;
+mod replay;
 mod stage;
 mod traced_set;
 mod work_maps;
