@@ -69,7 +69,7 @@ macro_rules! fallible {
                 unsafe extern "system" fn $name($($argument: $type),*) -> Code {
                     let failed = verdict(stringify!($name), &[$(Code::$code),*]);
                     let is_lost_wait =
-                        failed == Some(Code::ERROR_DEVICE_LOST) && stringify!($name) == "vkWaitForFences";
+                        failed == Some(Code::ERROR_DEVICE_LOST) && stringify!($name).contains("Wait");
                     if let (Some(code), false) = (failed, is_lost_wait) {
                         // SAFETY: the caller provides room for as many handles.
                         $(unsafe { leave_none($made, $count) };)?
@@ -169,6 +169,7 @@ fallible! {
     vkCreatePipelineLayout(device: vk::Device, info: *const vk::PipelineLayoutCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::PipelineLayout) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
     vkCreateComputePipelines(device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::ComputePipelineCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Pipeline) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, count);
     vkCreateGraphicsPipelines(device: vk::Device, cache: vk::PipelineCache, count: u32, infos: *const vk::GraphicsPipelineCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Pipeline) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, count);
+    vkCreatePipelineCache(device: vk::Device, info: *const vk::PipelineCacheCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::PipelineCache) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
     vkCreateQueryPool(device: vk::Device, info: *const vk::QueryPoolCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::QueryPool) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
     vkGetQueryPoolResults(device: vk::Device, pool: vk::QueryPool, first: u32, count: u32, size: usize, data: *mut c_void, stride: u64, flags: vk::QueryResultFlags) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
     vkCreateCommandPool(device: vk::Device, info: *const vk::CommandPoolCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::CommandPool) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
@@ -179,6 +180,8 @@ fallible! {
     vkCreateFence(device: vk::Device, info: *const vk::FenceCreateInfo<'_>, callbacks: *const vk::AllocationCallbacks<'_>, made: *mut vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY] makes(made, 1);
     vkResetFences(device: vk::Device, count: u32, fences: *const vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY];
     vkWaitForFences(device: vk::Device, count: u32, fences: *const vk::Fence, all: vk::Bool32, timeout: u64) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+    vkQueueWaitIdle(queue: vk::Queue) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
+    vkDeviceWaitIdle(device: vk::Device) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
     vkQueueSubmit(queue: vk::Queue, count: u32, submits: *const vk::SubmitInfo<'_>, fence: vk::Fence) [ERROR_OUT_OF_HOST_MEMORY, ERROR_OUT_OF_DEVICE_MEMORY, ERROR_DEVICE_LOST];
 }
 
@@ -192,6 +195,7 @@ destroying! {
     vkDestroyShaderModule[vk::Device] vk::ShaderModule;
     vkDestroyPipelineLayout[vk::Device] vk::PipelineLayout;
     vkDestroyPipeline[vk::Device] vk::Pipeline;
+    vkDestroyPipelineCache[vk::Device] vk::PipelineCache;
     vkDestroyQueryPool[vk::Device] vk::QueryPool;
     vkDestroyCommandPool[vk::Device] vk::CommandPool;
     vkDestroyFence[vk::Device] vk::Fence;

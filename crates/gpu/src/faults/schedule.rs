@@ -34,8 +34,10 @@ pub struct Injected {
 
 #[derive(Default)]
 struct State {
+    /// Whether calls are watched at all; elsewhere they pass without a trace.
+    watched: bool,
     plan: Option<(At, With)>,
-    /// Functions called since the plan was made.
+    /// Functions called since the watch began.
     calls: Vec<&'static str>,
     injected: Option<Injected>,
     live: BTreeMap<&'static str, i64>,
@@ -49,7 +51,13 @@ thread_local! {
 pub fn calls_of<R>(work: impl FnOnce() -> R) -> (R, Vec<&'static str>) {
     begin(None);
     let answer = work();
-    (answer, STATE.with_borrow_mut(|state| std::mem::take(&mut state.calls)))
+    (
+        answer,
+        STATE.with_borrow_mut(|state| {
+            state.watched = false;
+            std::mem::take(&mut state.calls)
+        }),
+    )
 }
 
 /// Runs `work`, in which one call fails. Tells which; `None` if there was no such call.
@@ -57,6 +65,7 @@ pub fn inject<R>(at: At, with: With, work: impl FnOnce() -> R) -> (R, Option<Inj
     begin(Some((at, with)));
     let answer = work();
     let injected = STATE.with_borrow_mut(|state| {
+        state.watched = false;
         state.plan = None;
         state.injected.take()
     });
@@ -73,6 +82,7 @@ pub fn live_objects() -> BTreeMap<&'static str, i64> {
 
 fn begin(plan: Option<(At, With)>) {
     STATE.with_borrow_mut(|state| {
+        state.watched = true;
         state.plan = plan;
         state.calls.clear();
         state.injected = None;
@@ -82,6 +92,9 @@ fn begin(plan: Option<(At, With)>) {
 /// Asked by every call that can fail: what it shall return instead of being made.
 pub(super) fn verdict(call: &'static str, codes: &[vk::Result]) -> Option<vk::Result> {
     STATE.with_borrow_mut(|state| {
+        if !state.watched {
+            return None;
+        }
         let index = state.calls.len();
         let of_function = state.calls.iter().filter(|made| **made == call).count();
         state.calls.push(call);
