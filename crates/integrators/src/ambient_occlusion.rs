@@ -97,15 +97,7 @@ impl Integrator for AmbientOcclusion {
         vec![&self.queue, &self.shadow_queue]
     }
 
-    fn wave_capacity(&self) -> u32 {
-        self.queue.capacity()
-    }
-
     fn traces_per_wave(&self) -> u32 {
         2
-    }
-
-    fn bytes(&self) -> u64 {
-        self.queue.bytes() + self.shadow_queue.bytes()
     }
 }

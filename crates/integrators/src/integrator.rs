@@ -83,14 +83,23 @@ pub trait Integrator {
     /// the picture is not what was asked for.
     fn queues(&self) -> Vec<&RayQueue>;
 
-    /// Most rays in a wave.
-    fn wave_capacity(&self) -> u32;
+    /// Most rays in a wave: slots of the smallest queue.
+    fn wave_capacity(&self) -> u32 {
+        self.queues().iter().map(|queue| queue.capacity()).min().unwrap_or(0)
+    }
 
     /// Most traces that a wave records.
     fn traces_per_wave(&self) -> u32;
 
-    /// Bytes of queues and path states; the film is apart.
-    fn bytes(&self) -> u64;
+    /// Bytes of what is kept for every slot beside the queues.
+    fn state_bytes(&self) -> u64 {
+        0
+    }
+
+    /// Bytes of queues and states; the film is apart.
+    fn bytes(&self) -> u64 {
+        self.queues().iter().map(|queue| queue.bytes()).sum::<u64>() + self.state_bytes()
+    }
 
     /// Records that film and counters start at 0.
     fn record_reset(&self, recorder: &mut Recorder<'_>) {

@@ -159,16 +159,12 @@ impl Integrator for Path {
         vec![&self.queue, &self.shadow_queue]
     }
 
-    fn wave_capacity(&self) -> u32 {
-        self.queue.capacity()
-    }
-
     fn traces_per_wave(&self) -> u32 {
         2 * self.rounds - 1
     }
 
-    fn bytes(&self) -> u64 {
-        self.queue.bytes() + self.shadow_queue.bytes() + self.states.size() + self.pending.size()
+    fn state_bytes(&self) -> u64 {
+        self.states.size() + self.pending.size()
     }
 }
 

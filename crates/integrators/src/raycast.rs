@@ -75,15 +75,7 @@ impl Integrator for Raycast {
         vec![&self.queue]
     }
 
-    fn wave_capacity(&self) -> u32 {
-        self.queue.capacity()
-    }
-
     fn traces_per_wave(&self) -> u32 {
         1
-    }
-
-    fn bytes(&self) -> u64 {
-        self.queue.bytes()
     }
 }

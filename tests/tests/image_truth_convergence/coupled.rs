@@ -1,5 +1,6 @@
 //! Device and reference with the same random numbers: what remains is no noise.
 
+use rasray_reference::shading::{PosedScene, View};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{Stage, System};
 
@@ -57,4 +58,30 @@ fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
     }
     // More cells, fewer wrong hits.
     assert!(shares[2] < 0.8 * shares[1], "four times the cells: {shares:?}");
+}
+
+/// One occlusion ray a pixel: the share of wrong answers is at most 12 over the cells a side.
+#[test]
+fn wrong_occlusion_falls_with_the_size_of_a_cell() {
+    let bench = Bench::new();
+    let (scene, camera) = cornell();
+    for (system, limit) in [
+        (System::BruteForce, 0.0),
+        (System::MmrtRobust(64), 12.0 / 64.0),
+        (System::MmrtRobust(256), 12.0 / 256.0),
+    ] {
+        let mut stage = Stage::new(&bench, &scene, camera.clone(), SIZE, system);
+        stage.reseed(5);
+        let image = stage.render(&stage.occlusion(f32::INFINITY), 0..1).pixels;
+        let share = |seed| {
+            let view = View { camera: camera.clone(), width: SIZE, height: SIZE, samples: 1, seed };
+            let posed = PosedScene::new(&scene, stage.scene().frame_origin()).expect("the scene is whole");
+            let truth = posed.render_ambient_occlusion(&view, f32::INFINITY).expect("the image has pixels");
+            difference(&image, &truth.pixels).share
+        };
+        let (coupled, other) = (share(5), share(6));
+        eprintln!("occlusion, {system:?}: {coupled:.4} wrong, other random numbers {other:.4}");
+        assert!(coupled <= limit, "{system:?}: {coupled}");
+        assert!(other > 0.2, "other random numbers pass: {other}");
+    }
 }
