@@ -91,16 +91,14 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
-// Clip-space corner `corner` of a screen triangle that covers every cell whose centre the triangle
-// covers, whatever the hardware's snapping. The viewport holds the face with its border. Returns a
-// point outside the clip volume where nothing needs drawing.
-vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
+// Clip-space corner `corner` of a screen triangle that covers every cell whose centre is within `margin`
+// of the triangle, in x/z and in y/z. The viewport holds the face with its border. Returns a point outside
+// the clip volume where nothing needs drawing.
+vec4 coverage_proposal_within(vec3 a, vec3 b, vec3 c, uint corner, uint resolution, float margin) {
     vec4 bounds;
     if (!coverage_bounds(a, b, c, resolution, bounds)) {
         return vec4(2.0, 2.0, 2.0, 1.0);
     }
-    float cell = 2.0 / float(resolution);
-    float margin = cell / 32.0;
     bounds += vec4(-margin, -margin, margin, margin);
     float to_clip = float(resolution) / float(resolution + 2u);
     float nearest = min(a.z, min(b.z, c.z));
@@ -138,6 +136,11 @@ vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
     // One triangle over the bounds: a corner of the rectangle and twice its sides.
     vec2 p = bounds.xy + vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
     return vec4(p * to_clip, 0.5, 1.0);
+}
+
+// The same for cells whose centre the triangle covers, whatever the hardware's snapping: 1/32 of a cell.
+vec4 coverage_proposal(vec3 a, vec3 b, vec3 c, uint corner, uint resolution) {
+    return coverage_proposal_within(a, b, c, corner, resolution, 2.0 / float(resolution) / 32.0);
 }
 
 #endif

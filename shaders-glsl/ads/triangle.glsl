@@ -16,6 +16,16 @@ vec3 triangle_permute(vec3 p, uint axis) {
     return axis == 0u ? p.yzx : (axis == 1u ? p.zxy : p);
 }
 
+// Whether a triangle has an area at all; one without is never hit. Compared product by product, so that
+// contraction cannot make a difference where there is none.
+bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 along = ab.yzx * ac.zxy;
+    precise vec3 against = ab.zxy * ac.yzx;
+    return any(notEqual(along, against));
+}
+
 // Tests a closed, two-sided triangle against a ray. On acceptance t is in units of |direction|,
 // barycentrics are the weights of b and c, and t_error bounds the error of t. A ray in the plane of
 // the triangle, or a triangle without area, is not hit.
@@ -55,13 +65,8 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     if (det == 0.0) {
         return false;
     }
-    // Rounding gives a triangle without area some. The cross product of its edges tells: it is compared
-    // product by product, so that contraction cannot make a difference where there is none.
-    precise vec3 ab = b - a;
-    precise vec3 ac = c - a;
-    precise vec3 along = ab.yzx * ac.zxy;
-    precise vec3 against = ab.zxy * ac.yzx;
-    if (all(equal(along, against))) {
+    // Rounding gives a triangle without area some.
+    if (!triangle_has_area(a, b, c)) {
         return false;
     }
     precise float inverse = 1.0 / det;

@@ -7,6 +7,7 @@
 #define STRUCTURE_BRUTE 1
 #define STRUCTURE_ABUFFER 2
 #define STRUCTURE_BVH 3
+#define STRUCTURE_PRIMITIVE 4
 
 #if STRUCTURE == STRUCTURE_BRUTE
 #include "brute/trace.glsl"
@@ -34,6 +35,15 @@
 #ifdef SURFACES_ENABLED
 #include "bvh/surface.glsl"
 #define STRUCTURE_SURFACE_AT bvh_surface_at
+#endif
+#elif STRUCTURE == STRUCTURE_PRIMITIVE
+#include "primitive/trace.glsl"
+#define StructureRef PrimitiveRef
+#define STRUCTURE_TRACE_CLOSEST primitive_trace_closest
+#define STRUCTURE_TRACE_OCCLUDED primitive_trace_occluded
+#ifdef SURFACES_ENABLED
+#include "primitive/surface.glsl"
+#define STRUCTURE_SURFACE_AT primitive_surface_at
 #endif
 #else
 #error "STRUCTURE names no structure: add it to contract/select.glsl"

@@ -271,6 +271,31 @@ fn records_of_the_bvh() {
     check_layout!(modules, bvh::Record as "BvhRecord" { a, b, c, primitive });
 }
 
+#[test]
+fn records_of_primitive_lists() {
+    let modules = [
+        &shaders::PRIMITIVE_BUILD_1_NEAR,
+        &shaders::PRIMITIVE_BUILD_RASTER,
+        &shaders::PRIMITIVE_BUILD_2_BOUNDS,
+        &shaders::PRIMITIVE_BUILD_3_SCALE,
+        &shaders::PRIMITIVE_BUILD_4_COUNT,
+        &shaders::PRIMITIVE_BUILD_5_SCAN_BLOCKS,
+        &shaders::PRIMITIVE_BUILD_5_SCAN_SUMS,
+        &shaders::PRIMITIVE_BUILD_5_SCAN_PLACES,
+        &shaders::PRIMITIVE_BUILD_6_STORE,
+        &shaders::PRIMITIVE_BUILD_7_STATUS,
+        &shaders::PRIMITIVE_TRACE_CLOSEST,
+        &shaders::PRIMITIVE_TRACE_OCCLUDED,
+    ];
+    check_layout!(modules, rasray_ads_primitive::Header as "PrimitiveHeader" {
+        status, demand, capacity, near_demand, near_capacity, corrupted, tiles, spare, reach, near_size, rounding,
+        spare_length, eye, spare_eye, lower, spare_lower, upper, spare_upper, bounds_address, lists_address,
+        entries_address, sums_address, near_address,
+    });
+    let by_address = &read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST_ADDRESS)["PrimitiveHeader"];
+    assert_eq!(*by_address, read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST)["PrimitiveHeader"]);
+}
+
 /// With device addresses the header is reached by a pointer, which only the own reader follows.
 #[test]
 fn records_reached_by_address_are_the_same() {

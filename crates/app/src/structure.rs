@@ -10,6 +10,8 @@ use serde_json::{Map, Value};
 pub enum SystemName {
     /// A-buffers on the faces of a cube and on the camera's view
     Mmrt,
+    /// Lists of triangles per tile of a cube's faces: hits are those of the triangles
+    Dirt,
     /// A bounding volume hierarchy with two children a node: the yardstick
     Bvh,
     /// Every triangle tested against every ray: the judge, slow on purpose
@@ -27,12 +29,16 @@ pub enum Preset {
     Published,
 }
 
-/// How fragments are kept per cell.
+/// How a cell's fragments or triangles are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Storage {
     /// Doubly linked list per depth bucket
     Dllb,
+    /// Linked list per depth bucket
+    Llb,
+    /// One behind the other, counted first
+    Sb,
 }
 
 /// What a fragment carries.
@@ -124,11 +130,15 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
+    /// Pixels along each side of a tile: lists are kept per tile
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tile: Option<u32>,
     /// Depth buckets per cell
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=32))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckets: Option<u32>,
-    /// How fragments are kept per cell
+    /// How a cell's fragments or triangles are kept
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub storage: Option<Storage>,
@@ -180,7 +190,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub addressing: Option<Addressing>,
-    /// Fragments the lists have room for at first; they grow when that is too few
+    /// Fragments or list entries there is room for at first; they grow when that is too few
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity: Option<u32>,

@@ -3,6 +3,7 @@
 
 mod brute_force;
 mod bvh;
+mod dirt;
 mod error;
 mod mmrt;
 mod option;

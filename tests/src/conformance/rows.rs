@@ -188,6 +188,16 @@ const fn bvh(name: &'static str, builder: &'static [(&'static str, &'static str)
     }
 }
 
+const fn dirt(
+    name: &'static str,
+    options: &'static [(&'static str, &'static str)],
+    tier: Tier,
+    cases: Cases,
+) -> Row {
+    let demand = Demand::Exact { rounding: ROUNDING };
+    Row { name, system: "dirt", preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
+}
+
 /// All rows.
 pub const ROWS: &[Row] = &[
     bvh("bvh-sah", &[("builder", "sah")]),
@@ -202,6 +212,14 @@ pub const ROWS: &[Row] = &[
         demand: Demand::Exact { rounding: ROUNDING },
         deviations: &[],
     },
+    // 16 coarse tiles a side, few buckets, linked lists.
+    dirt(
+        "dirt-robust-16",
+        &[("resolution", "64"), ("tile", "4"), ("buckets", "4"), ("storage", "llb")],
+        Tier::Quick,
+        Cases::All,
+    ),
+    dirt("dirt-robust-128", &[], Tier::Quick, Cases::Shallow),
     mmrt(
         "mmrt-robust-16",
         Preset::Robust,

@@ -1,0 +1,137 @@
+//! Options of primitive lists and the presets.
+
+use rasray_ads::{AdsError, Counters};
+use rasray_shaders_glsl::constants::primitive as numbers;
+
+/// How the lists of a cell are kept. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Linked nodes of triangle and next, as in the paper: 8 bytes an entry, one geometry pass less.
+    Linked,
+    /// Triangles one behind the other, by counting first: 4 bytes an entry.
+    Contiguous,
+}
+
+/// Which cells list a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// Those whose centre the rasterizer covers: rays that pass a listed triangle's neighbour are lost.
+    Hardware,
+    /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
+    Exact,
+}
+
+/// How shaders reach the pools. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Addressing {
+    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
+    Descriptor,
+    /// Device addresses in the header; needs `bufferDeviceAddress`.
+    Address,
+}
+
+/// Everything that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Pixels a side of each face, 1 to 8192. Changes no hit with [`Coverage::Exact`].
+    pub resolution: u32,
+    /// Pixels a side of a tile, 1 to 64: lists are kept per tile. Changes no hit with [`Coverage::Exact`].
+    pub tile: u32,
+    /// Depth buckets a tile, 1 to 64. Changes no hit.
+    pub buckets: u32,
+    /// How lists are kept.
+    pub storage: Storage,
+    /// Which tiles list a triangle.
+    pub coverage: Coverage,
+    /// Skip tiles and buckets that the ray's depths cannot meet. Changes no hit.
+    pub skip: bool,
+    /// How pools are reached.
+    pub addressing: Addressing,
+    /// Entries to make room for before the first build; a guess from the cells where absent.
+    pub entries: Option<u64>,
+    /// How much of their work rays record. Changes no hit.
+    pub counters: Counters,
+    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// The exact structure: every tile lists what reaches into it, and every hit is that of brute force.
+    pub fn robust(resolution: u32) -> Self {
+        Self {
+            resolution,
+            tile: 2,
+            buckets: 16,
+            storage: Storage::Contiguous,
+            coverage: Coverage::Exact,
+            skip: true,
+            addressing: Addressing::Descriptor,
+            entries: None,
+            counters: Counters::Off,
+            work_budget: None,
+        }
+    }
+
+    /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels.
+    pub fn tiles(&self) -> u32 {
+        self.resolution.div_ceil(self.tile.max(1))
+    }
+
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// The first option out of range.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let range = |option, value: u32, lowest, highest, expected| {
+            if (lowest..=highest).contains(&value) {
+                Ok(())
+            } else {
+                Err(AdsError::Option { option, value: value.to_string(), expected })
+            }
+        };
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels a side")?;
+        range("tile", self.tile, 1, 64, "1 to 64 pixels a side")?;
+        range("buckets", self.buckets, 1, 64, "1 to 64 buckets a tile")?;
+        let budget = self.work_budget.unwrap_or(u32::MAX);
+        range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")
+    }
+
+    /// Specialisation constants: id and bits.
+    pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
+        let storage = match self.storage {
+            Storage::Linked => numbers::PRIMITIVE_STORAGE_LINKED,
+            Storage::Contiguous => numbers::PRIMITIVE_STORAGE_CONTIGUOUS,
+        };
+        let coverage = match self.coverage {
+            Coverage::Hardware => numbers::PRIMITIVE_COVERAGE_HARDWARE,
+            Coverage::Exact => numbers::PRIMITIVE_COVERAGE_EXACT,
+        };
+        vec![(30, self.buckets), (31, storage), (32, coverage), (33, u32::from(self.skip))]
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
+        let storage = match self.storage {
+            Storage::Linked => "llb",
+            Storage::Contiguous => "sb",
+        };
+        vec![
+            ("storage", storage.to_owned()),
+            ("resolution", self.resolution.to_string()),
+            ("tile", self.tile.to_string()),
+            ("buckets", self.buckets.to_string()),
+            ("skip", if self.skip { "on" } else { "off" }.to_owned()),
+            ("views", "cube".to_owned()),
+        ]
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        vec![
+            ("builder", "raster".to_owned()),
+            ("coverage", lower(&self.coverage)),
+            ("addressing", lower(&self.addressing)),
+        ]
+    }
+}

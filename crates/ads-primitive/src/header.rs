@@ -1,0 +1,55 @@
+//! The header of primitive lists as shaders see it.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `PrimitiveHeader` of `shaders-glsl/primitive/types.glsl`, field by field.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Header {
+    /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
+    pub status: u32,
+    /// Entries of all lists, also those beyond the capacity.
+    pub demand: u32,
+    /// Entries the pool holds.
+    pub capacity: u32,
+    /// Triangles that meet the near box.
+    pub near_demand: u32,
+    /// Triangles the near list holds.
+    pub near_capacity: u32,
+    /// List entries that named no node.
+    pub corrupted: u32,
+    /// Cells a side of a face, border not counted.
+    pub tiles: u32,
+    /// Zero.
+    pub spare: u32,
+    /// Farthest that the geometry is from the eye along an axis, metres.
+    pub reach: f32,
+    /// Half side of the near box, metres.
+    pub near_size: f32,
+    /// Bound of how far rounding moves a triangle against a ray, metres.
+    pub rounding: f32,
+    /// Zero.
+    pub spare_length: f32,
+    /// Common centre of the faces, metres relative to the frame origin.
+    pub eye: [f32; 3],
+    /// Zero.
+    pub spare_eye: f32,
+    /// Lower corner of the geometry relative to the eye, metres.
+    pub lower: [f32; 3],
+    /// Zero.
+    pub spare_lower: f32,
+    /// Upper corner of the geometry relative to the eye, metres.
+    pub upper: [f32; 3],
+    /// Zero.
+    pub spare_upper: f32,
+    /// Device address of the bounds; zero with descriptors.
+    pub bounds_address: [u32; 2],
+    /// Device address of the lists.
+    pub lists_address: [u32; 2],
+    /// Device address of the entries.
+    pub entries_address: [u32; 2],
+    /// Device address of the sums of the scan.
+    pub sums_address: [u32; 2],
+    /// Device address of the near list.
+    pub near_address: [u32; 2],
+}

@@ -1,0 +1,20 @@
+//! Primitive lists: the rasterizer stores the ids of triangles in lists per tile and depth bucket of the six
+//! faces of a cube around the eye, and rays are tested against what the tiles on their way list.
+//!
+//! Source: Vardis, Vasilakis, Papaioannou, "DIRT: Deferred image-based ray tracing", HPG 2016. Hits are those
+//! of the triangles themselves. See `docs/systems/dirt.md` for passes, bytes, options, limits and departures.
+//!
+//! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+
+mod build;
+mod config;
+mod header;
+mod layout;
+mod structure;
+mod validate;
+
+pub use config::{Addressing, Config, Coverage, Storage};
+pub use header::Header;
+pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use structure::PrimitiveLists;
+pub use validate::{Contents, Fault, well_formed};

@@ -1,0 +1,122 @@
+//! Checks the contents of built primitive lists.
+
+use crate::{Config, Header, Storage, cell_count};
+
+/// All pools as downloaded, in words.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// The configuration they were built with.
+    pub config: Config,
+    /// The header.
+    pub header: Header,
+    /// Bounds of each cell.
+    pub bounds: Vec<u32>,
+    /// Head, or end, of each bucket of each cell.
+    pub lists: Vec<u32>,
+    /// Entries of all lists.
+    pub entries: Vec<u32>,
+    /// Triangles of the near box.
+    pub near: Vec<u32>,
+}
+
+/// What is wrong with a list.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A link names no node, or a list reaches beyond the pool.
+    #[error("cell {cell}, bucket {bucket}: {link} names no entry")]
+    Dangling {
+        /// Cell.
+        cell: usize,
+        /// Bucket.
+        bucket: usize,
+        /// The link, or the end of the list.
+        link: u32,
+    },
+    /// An entry is in no list, or in more than one.
+    #[error("{stored} entries were counted and {listed} are in lists")]
+    Count {
+        /// Entries counted.
+        stored: usize,
+        /// Entries found in lists.
+        listed: usize,
+    },
+    /// An entry names no triangle.
+    #[error("cell {cell}, bucket {bucket}: there is no triangle {primitive}")]
+    Primitive {
+        /// Cell.
+        cell: usize,
+        /// Bucket.
+        bucket: usize,
+        /// What is stored.
+        primitive: u32,
+    },
+    /// A triangle stands twice in a list.
+    #[error("cell {cell}, bucket {bucket}: triangle {primitive} stands there twice")]
+    Twice {
+        /// Cell.
+        cell: usize,
+        /// Bucket.
+        bucket: usize,
+        /// The triangle.
+        primitive: u32,
+    },
+}
+
+impl Contents {
+    /// The triangles of a list, in the order they are stored in.
+    ///
+    /// # Errors
+    /// The list leaves the pool.
+    pub fn list(&self, cell: usize, bucket: usize) -> Result<Vec<u32>, Fault> {
+        let list = cell * self.config.buckets as usize + bucket;
+        let stored = self.header.demand.min(self.header.capacity) as usize;
+        let word = self.lists[list];
+        let dangling = |link| Fault::Dangling { cell, bucket, link };
+        if self.config.storage == Storage::Contiguous {
+            let begin = if list == 0 { 0 } else { self.lists[list - 1] as usize };
+            if begin > word as usize || word as usize > stored {
+                return Err(dangling(word));
+            }
+            return Ok(self.entries[begin..word as usize].to_vec());
+        }
+        let (mut link, mut found) = (word, Vec::new());
+        while link != 0 {
+            // More entries than there are: the list is a ring.
+            if link as usize > stored || found.len() == stored {
+                return Err(dangling(link));
+            }
+            let node = 2 * (link as usize - 1);
+            found.push(self.entries[node]);
+            link = self.entries[node + 1];
+        }
+        Ok(found)
+    }
+}
+
+/// Checks that every counted entry is in exactly one list and names one of `triangles` triangles, and that no
+/// list names a triangle twice.
+///
+/// # Errors
+/// The first fault found.
+pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
+    let stored = contents.header.demand.min(contents.header.capacity) as usize;
+    let mut listed = 0;
+    for cell in 0..cell_count(contents.config.tiles()) as usize {
+        for bucket in 0..contents.config.buckets as usize {
+            let mut list = contents.list(cell, bucket)?;
+            listed += list.len();
+            if listed > stored {
+                return Err(Fault::Count { stored, listed });
+            }
+            if let Some(&primitive) = list.iter().find(|&&primitive| primitive >= triangles) {
+                return Err(Fault::Primitive { cell, bucket, primitive });
+            }
+            list.sort_unstable();
+            if let Some(pair) = list.windows(2).find(|pair| pair[0] == pair[1]) {
+                return Err(Fault::Twice { cell, bucket, primitive: pair[0] });
+            }
+        }
+    }
+    if listed == stored { Ok(()) } else { Err(Fault::Count { stored, listed }) }
+}

@@ -1,0 +1,52 @@
+//! DIRT: primitive lists with the paper's presets.
+
+use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
+
+use crate::option::Given;
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "dirt",
+    structure: "ads-primitive",
+    presets: &[Preset::Robust],
+    options: &OPTIONS,
+    requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(PrimitiveLists::new(device, config(spec)?, geometry, scene)?))
+    },
+};
+
+/// Options by their names on the command line.
+const OPTIONS: [&str; 8] =
+    ["resolution", "tile", "buckets", "storage", "skip", "views", "addressing", "capacity"];
+
+/// Pixels a side of a face where nothing else is asked for.
+const RESOLUTION: u32 = 256;
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let mut config = Config::robust(RESOLUTION);
+    config.counters = spec.counters();
+    for given in Given::all(spec) {
+        match given.name {
+            "resolution" => config.resolution = given.number()?,
+            "tile" => config.tile = given.number()?,
+            "buckets" => config.buckets = given.number()?,
+            "capacity" => config.entries = Some(given.number()?.into()),
+            "skip" => config.skip = given.switch()?,
+            "storage" => {
+                config.storage = given.choice(&[("llb", Storage::Linked), ("sb", Storage::Contiguous)])?;
+            }
+            // One word so far: a value is checked, and nothing else is chosen.
+            "views" => given.choice(&[("cube", ())])?,
+            "addressing" => {
+                config.addressing = given
+                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
+            }
+            _ => return Err(given.unknown()),
+        }
+    }
+    config.validate()?;
+    Ok(config)
+}

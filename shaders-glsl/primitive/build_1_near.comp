@@ -1,0 +1,35 @@
+// What: lists the triangles that meet the near box, where the faces cannot be told apart.
+// Reads: geometry, header. Writes: near list, header.near_demand.
+// Source: not in the paper, whose faces start at a near plane; see docs/core.md.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "primitive/accessors.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+void main() {
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (primitive >= geometry_triangle_count()) {
+        return;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    vec3 eye = PRIMITIVE_HEADER(primitive_built).eye;
+    vec3 lower = min(a, min(b, c)) - eye;
+    vec3 upper = max(a, max(b, c)) - eye;
+    float size = PRIMITIVE_HEADER(primitive_built).near_size + PRIMITIVE_HEADER(primitive_built).rounding;
+    if (any(greaterThan(lower, vec3(size))) || any(lessThan(upper, vec3(-size)))) {
+        return;
+    }
+    uint place = atomicAdd(PRIMITIVE_HEADER(primitive_built).near_demand, 1u);
+    if (place < PRIMITIVE_HEADER(primitive_built).near_capacity) {
+        PRIMITIVE_NEAR_LIST(primitive_built)[place] = primitive;
+    }
+}

@@ -1,0 +1,17 @@
+// What: depth bounds of each cell.
+// Reads: geometry, header. Writes: bounds.
+// Source: DIRT section 3.2, fill depth.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/raster.glsl"
+#include "primitive/visit.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    uint cell;
+    vec2 depths;
+    if (primitive_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, depths)) {
+        primitive_widen_bounds(primitive_built, cell, depths);
+    }
+}

@@ -1,0 +1,19 @@
+// What: the scale of each cell's buckets, stored once so that build and trace use the same number.
+// Reads: bounds. Writes: bounds. Runs only where there are several buckets.
+// Source: DIRT section 3.2, equation of the bucket index.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/accessors.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+void main() {
+    uint cell = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (cell < primitive_cell_count(primitive_built)) {
+        primitive_store_scale(primitive_built, cell);
+    }
+}

@@ -1,0 +1,17 @@
+// What: length of each list, contiguous storage only.
+// Reads: geometry, header, bounds. Writes: lists.
+// Source: DIRT section 3.2, fill primitives; counted first, so that lists can be stored one behind the other.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/raster.glsl"
+#include "primitive/visit.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    uint cell;
+    vec2 depths;
+    if (primitive_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, depths)) {
+        primitive_visit_count(primitive_built, cell, depths);
+    }
+}

@@ -1,0 +1,17 @@
+// What: puts each triangle into the lists of the cells and buckets it reaches into.
+// Reads: geometry, header, bounds. Writes: lists, entries, with linked storage header.demand.
+// Source: DIRT section 3.2, fill primitives.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/raster.glsl"
+#include "primitive/visit.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    uint cell;
+    vec2 depths;
+    if (primitive_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, depths)) {
+        primitive_visit_store(primitive_built, primitive_and_face.x, cell, depths);
+    }
+}

@@ -1,0 +1,73 @@
+// What: the lists of triangles, behind which stands one of two storages.
+// Reads, writes: lists, entries, header.demand, header.corrupted.
+// Source: DIRT section 3.2, fill primitives. linked: a node of primitive and next, links are node number
+// + 1, 0 ends a list. contiguous: primitives only; the word of a list holds where it ends once all are
+// stored, and the word before it where it begins.
+#ifndef PRIMITIVE_LISTS_GLSL
+#define PRIMITIVE_LISTS_GLSL
+
+#include "primitive/accessors.glsl"
+
+// A list that is being read.
+struct PrimitiveCursor {
+    uint at;              // link, or place of the next entry
+    uint end;             // place after the last entry, contiguous only
+};
+
+PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
+    uint word = PRIMITIVE_LISTS(s)[list];
+    if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
+        return PrimitiveCursor(word, 0u);
+    }
+    return PrimitiveCursor(list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u], word);
+}
+
+// A list that has been read up to `at`.
+PrimitiveCursor primitive_list_resume(PrimitiveRef s, uint list, uint at) {
+    return PrimitiveCursor(at, PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? 0u : PRIMITIVE_LISTS(s)[list]);
+}
+
+bool primitive_list_ended(PrimitiveCursor cursor) {
+    return PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at == 0u : cursor.at >= cursor.end;
+}
+
+// The next triangle of a list that has not ended. An entry past the end of the pool is counted and ends
+// the list with PRIMITIVE_NONE.
+uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
+    uint stored = min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
+    uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
+    if (entry >= stored) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        cursor = PrimitiveCursor(0u, 0u);
+        return PRIMITIVE_NONE;
+    }
+    if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
+        cursor.at = PRIMITIVE_ENTRIES(s)[2u * entry + 1u];
+        return PRIMITIVE_ENTRIES(s)[2u * entry];
+    }
+    cursor.at += 1u;
+    return PRIMITIVE_ENTRIES(s)[entry];
+}
+
+// Adds one to the length of a list, contiguous only.
+void primitive_list_count_one(PrimitiveRef s, uint list) {
+    atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);
+}
+
+// Puts a triangle into a list, or counts that there was no room for it.
+void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
+    if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
+        uint place = atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);
+        if (place < PRIMITIVE_HEADER(s).capacity) {
+            PRIMITIVE_ENTRIES(s)[place] = primitive;
+        }
+        return;
+    }
+    uint node = atomicAdd(PRIMITIVE_HEADER(s).demand, 1u);
+    if (node < PRIMITIVE_HEADER(s).capacity) {
+        PRIMITIVE_ENTRIES(s)[2u * node] = primitive;
+        PRIMITIVE_ENTRIES(s)[2u * node + 1u] = atomicExchange(PRIMITIVE_LISTS(s)[list], node + 1u);
+    }
+}
+
+#endif

@@ -1,0 +1,134 @@
+// What: whether a triangle reaches into a cell, and the depths it has there. This function decides for
+// every builder; it may accept more than is exact, never less.
+// Reads: header. Writes: nothing.
+// Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
+// the whole tile and from the corners: 1/z is affine in x/z and y/z.
+#ifndef PRIMITIVE_OVERLAP_GLSL
+#define PRIMITIVE_OVERLAP_GLSL
+
+#include "ads/coverage.glsl"
+#include "ads/geometry.glsl"
+#include "primitive/header.glsl"
+
+// The corners of a triangle as a face sees them.
+void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+    vec3 eye = PRIMITIVE_HEADER(s).eye;
+    a = face_from_world(a - eye, face);
+    b = face_from_world(b - eye, face);
+    c = face_from_world(c - eye, face);
+}
+
+// Whether a triangle is in any list: one without area is never hit, so it is in none.
+bool primitive_is_listed(uint primitive) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return triangle_has_area(a, b, c);
+}
+
+// What of the header decides which cells list a triangle. Precise expressions take values from here: with
+// addresses, glslang does not end where they follow a reference.
+struct PrimitiveGrid {
+    uint tiles;
+    float near_size;
+    float rounding;
+};
+
+PrimitiveGrid primitive_grid(PrimitiveRef s) {
+    return PrimitiveGrid(PRIMITIVE_HEADER(s).tiles, PRIMITIVE_HEADER(s).near_size, PRIMITIVE_HEADER(s).rounding);
+}
+
+// How far cells reach beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
+// which a ray meets it.
+float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
+    float nearest = max(min(a.z, min(b.z, c.z)), grid.near_size);
+    precise float margin = grid.rounding / nearest + 1.0e-6;
+    return margin;
+}
+
+// Whether all corners lie beyond a side of the cell: below the lower or above the upper end of x/z.
+bool primitive_beyond(vec3 x, vec3 z, float lower, float upper) {
+    precise vec3 at_lower = lower * z;
+    precise vec3 at_upper = upper * z;
+    return all(lessThan(x, at_lower)) || all(greaterThan(x, at_upper));
+}
+
+// The value at the cell's centre of the plane through the eye and the edge pq, and a bound of how much
+// larger or smaller it is elsewhere in the cell, rounding included.
+float primitive_edge(vec3 p, vec3 q, vec3 center, float half_side, out float slack) {
+    precise vec3 span = q - p;
+    precise vec3 edge = p.yzx * span.zxy - p.zxy * span.yzx;
+    vec3 pm = abs(p);
+    vec3 sm = abs(span);
+    precise vec3 products = pm.yzx * sm.zxy + pm.zxy * sm.yzx;
+    precise float reach = half_side * (abs(edge.x) + abs(edge.y)) + 6.0e-7 * (products.x + products.y + products.z)
+        + 4.0e-7 * (abs(edge.x) + abs(edge.y) + abs(edge.z));
+    precise float value = edge.x * center.x + edge.y * center.y + edge.z;
+    slack = reach;
+    return value;
+}
+
+// a, b, c in face space. True where the triangle reaches into the cell in front of the eye; depths holds
+// the smallest and largest depth it has there but for the rounding of the header, both positive. Every step is precise: a pass that counts
+// and one that stores must decide alike.
+bool primitive_overlap(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
+    vec3 center = coverage_center(cell, grid.tiles);
+    precise float half_side = 1.0 / float(grid.tiles) + primitive_margin(grid, a, b, c);
+    vec3 x = vec3(a.x, b.x, c.x);
+    vec3 y = vec3(a.y, b.y, c.y);
+    vec3 z = vec3(a.z, b.z, c.z);
+    depths = vec2(0.0);
+    precise vec2 lower = center.xy - half_side;
+    precise vec2 upper = center.xy + half_side;
+    if (all(lessThanEqual(z, vec3(0.0))) || primitive_beyond(x, z, lower.x, upper.x)
+        || primitive_beyond(y, z, lower.y, upper.y)) {
+        return false;
+    }
+    vec3 slack;
+    vec3 value = vec3(primitive_edge(a, b, center, half_side, slack.x), primitive_edge(b, c, center, half_side, slack.y),
+        primitive_edge(c, a, center, half_side, slack.z));
+    // Comparisons are written so that what overflowed counts as inside.
+    bool front = !any(lessThan(value, -slack));
+    bool back = !any(greaterThan(value, slack));
+    if (!front && !back) {
+        return false;
+    }
+    depths = vec2(min(a.z, min(b.z, c.z)), max(a.z, max(b.z, c.z)));
+
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 normal = ab.yzx * ac.zxy - ab.zxy * ac.yzx;
+    precise vec3 normal_error = 6.0e-7 * (abs(ab.yzx * ac.zxy) + abs(ab.zxy * ac.yzx));
+    precise float facing = normal.x * a.x + normal.y * a.y + normal.z * a.z;
+    precise float facing_error = dot(normal_error, abs(a)) + 4.0e-7 * dot(abs(normal), abs(a));
+    // Close to edge-on neither the winding nor the plane is certain: then both windings count, and the
+    // depths are those of the corners.
+    if (abs(facing) > 64.0 * facing_error) {
+        if (facing > 0.0 ? !front : !back) {
+            return false;
+        }
+        vec3 farthest = vec3(abs(center.xy) + half_side, 1.0);
+        precise float along = normal.x * center.x + normal.y * center.y + normal.z;
+        float middle = facing > 0.0 ? along : -along;
+        precise float swing = half_side * (abs(normal.x) + abs(normal.y)) + dot(normal_error, farthest)
+            + 4.0e-7 * dot(abs(normal), farthest);
+        precise float lowest = middle - swing;
+        precise float highest = middle + swing;
+        if (highest > 0.0) {
+            precise float nearest = (abs(facing) - facing_error) / highest * (1.0 - 1.0e-6);
+            depths.x = max(depths.x, nearest);
+        }
+        if (lowest > 0.0) {
+            precise float farthest_depth = (abs(facing) + facing_error) / lowest * (1.0 + 1.0e-6);
+            depths.y = min(depths.y, farthest_depth);
+        }
+    }
+    // What is nearer than the near box is met there, and positive depths order like their bits.
+    depths.x = max(depths.x, 0.5 * grid.near_size);
+    depths.y = max(depths.y, depths.x);
+    return true;
+}
+
+#endif

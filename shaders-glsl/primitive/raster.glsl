@@ -1,0 +1,32 @@
+// What: the fragment's side of the raster builder: one instance a face, triangles pulled from the geometry.
+// Reads: geometry, header. Writes: nothing.
+// Without attachments no layers are needed: the face travels as a varying.
+#ifndef PRIMITIVE_RASTER_GLSL
+#define PRIMITIVE_RASTER_GLSL
+
+#include "primitive/overlap.glsl"
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+// The cell of a fragment and the triangle's depths there; false where the triangle is not listed.
+bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cell, out vec2 depths) {
+    PrimitiveGrid grid = primitive_grid(primitive_built);
+    ivec2 place = ivec2(frag_coord.xy) - 1;
+    cell = cell_index(face, place, grid.tiles);
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    primitive_face_vertices(primitive_built, primitive, face, a, b, c);
+    if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_HARDWARE) {
+        // Where the rasterizer says so: a triangle that covers no centre is in no list.
+        if (!primitive_overlap(grid, a, b, c, place, depths)) {
+            depths = vec2(1.0 / frag_coord.w);
+        }
+        return frag_coord.w > 0.0;
+    }
+    return primitive_overlap(grid, a, b, c, place, depths);
+}
+
+#endif

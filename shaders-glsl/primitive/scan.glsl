@@ -1,0 +1,31 @@
+// What: adds up numbers across a workgroup of PRIMITIVE_SCAN_THREADS threads.
+// Reads, writes: shared memory.
+// Source: Hillis and Steele 1986.
+#ifndef PRIMITIVE_SCAN_GLSL
+#define PRIMITIVE_SCAN_GLSL
+
+#include "primitive/constants.glsl"
+
+shared uint scan_values[PRIMITIVE_SCAN_THREADS];
+
+// The sum of `value` over all threads up to and including this one. Every thread of the group calls it.
+uint scan_inclusive(uint value) {
+    uint thread = gl_LocalInvocationID.x;
+    barrier();
+    scan_values[thread] = value;
+    barrier();
+    for (uint reach = 1u; reach < PRIMITIVE_SCAN_THREADS; reach *= 2u) {
+        uint before = thread >= reach ? scan_values[thread - reach] : 0u;
+        barrier();
+        scan_values[thread] += before;
+        barrier();
+    }
+    return scan_values[thread];
+}
+
+// The sum over all threads, after scan_inclusive.
+uint scan_total() {
+    return scan_values[PRIMITIVE_SCAN_THREADS - 1u];
+}
+
+#endif

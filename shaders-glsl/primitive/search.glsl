@@ -1,0 +1,100 @@
+// What: searches the lists of one cell, bucket by bucket in the order of the ray.
+// Reads: bounds, lists, entries, geometry. Writes: header.corrupted.
+// Source: DIRT section 3.3. Buckets behind the best hit are left out, never those before it: a triangle
+// stands in every bucket it reaches into, so the first bucket with a hit need not hold the nearest.
+#ifndef PRIMITIVE_SEARCH_GLSL
+#define PRIMITIVE_SEARCH_GLSL
+
+#include "ads/judge.glsl"
+#include "primitive/lists.glsl"
+
+// One search, able to stop between two entries.
+struct PrimitiveSearch {
+    uint cell;
+    float t_low;          // the ray's interval in the cell, widened by the errors of its ends
+    float t_high;
+    bool in_list;         // the list of `bucket` has been begun
+    uint bucket;
+    PrimitiveCursor list;
+};
+
+// Tests a candidate. A hit counts by its t alone, in whatever cell it lies.
+void primitive_test(uint primitive, Ray ray, inout TraceState state) {
+    float infinity = uintBitsToFloat(0x7F800000u);
+    state.tests++;
+    test_triangle(ray, primitive, -infinity, infinity, state.best);
+}
+
+// Depths between two t, widened by rounding: that of the ray, and `rounding` of the triangles.
+vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float t_high, float rounding) {
+    float low = origin_z + t_low * direction_z;
+    float high = origin_z + t_high * direction_z;
+    float error = rounding + 4.8e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
+    return vec2(min(low, high) - error, max(low, high) + error);
+}
+
+// Returns true if the work budget ended before the search did. `slack` bounds the error of a t.
+bool primitive_search(PrimitiveRef s, Ray ray, float origin_z, float direction_z, float slack, bool any_hit,
+    inout PrimitiveSearch search, inout TraceState state, inout uint work) {
+    PrimitiveBounds bounds = primitive_bounds(s, search.cell);
+    if (bounds.empty) {
+        trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
+        return false;
+    }
+    bool away = direction_z >= 0.0;
+    float rounding = PRIMITIVE_HEADER(s).rounding;
+    vec2 depths = primitive_ray_depths(origin_z, direction_z, search.t_low, search.t_high, rounding);
+    if (PRIMITIVE_SKIP != 0u && (depths.y < bounds.z_min || depths.x > bounds.z_max)) {
+        trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, depths.x, depths.y);
+        return false;
+    }
+    uint last = away ? PRIMITIVE_BUCKETS - 1u : 0u;
+    if (!search.in_list) {
+        search.bucket = PRIMITIVE_BUCKETS - 1u - last;
+        if (PRIMITIVE_SKIP != 0u) {
+            search.bucket = bucket_of(away ? depths.x : depths.y, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS);
+        }
+    }
+    for (;;) {
+        if (PRIMITIVE_SKIP != 0u) {
+            float t_end = max(min(search.t_high, state.best.t + slack), search.t_low);
+            depths = primitive_ray_depths(origin_z, direction_z, search.t_low, t_end, rounding);
+            last = bucket_of(away ? depths.y : depths.x, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS);
+        }
+        if (away ? search.bucket > last : search.bucket < last) {
+            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, depths.x, depths.y);
+            return false;
+        }
+        if (!search.in_list) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            search.list = primitive_list_begin(s, primitive_list(search.cell, search.bucket));
+            search.in_list = true;
+            trace_log(STEP_LIST, search.bucket, search.list.at, 0u, depths.x, depths.y);
+        }
+        while (!primitive_list_ended(search.list)) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            state.entries++;
+            uint primitive = primitive_list_next(s, search.list);
+            trace_log(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
+            if (primitive != PRIMITIVE_NONE) {
+                primitive_test(primitive, ray, state);
+            }
+            if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+                return false;
+            }
+        }
+        if (search.bucket == (away ? PRIMITIVE_BUCKETS - 1u : 0u)) {
+            return false;
+        }
+        search.in_list = false;
+        search.bucket = away ? search.bucket + 1u : search.bucket - 1u;
+    }
+}
+
+#endif

@@ -1,0 +1,142 @@
+// What: follows a ray through the faces' cells and tests the triangles that each cell lists.
+// Reads: all pools, geometry. Writes: header.corrupted.
+// Source: DIRT section 3.3; the exact march replaces its steps in screen space.
+// Cells only propose triangles. A hit counts by its t, so the walk goes on until the next cell begins
+// behind the best hit, and what is visited beyond that or twice costs time, never a hit.
+#ifndef PRIMITIVE_TRACE_GLSL
+#define PRIMITIVE_TRACE_GLSL
+
+#include "primitive/walk.glsl"
+
+// Tests triangles one by one: those of the near list, or all. True if the budget ended first.
+bool primitive_trace_listed(PrimitiveRef s, Ray ray, bool any_hit, inout PrimitiveWalk walk, inout TraceState state, inout uint work) {
+    bool all_triangles = walk.segment.face == PRIMITIVE_SEGMENT_ALL;
+    uint count = all_triangles ? geometry_triangle_count()
+        : min(PRIMITIVE_HEADER(s).near_demand, PRIMITIVE_HEADER(s).near_capacity);
+    for (; walk.place < count; walk.place++) {
+        if (work >= WORK_BUDGET) {
+            return true;
+        }
+        work++;
+        primitive_test(all_triangles ? walk.place : PRIMITIVE_NEAR_LIST(s)[walk.place], ray, state);
+        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+            return false;
+        }
+    }
+    return false;
+}
+
+// Searches the cells of one face. True if the budget ended first; `ended` where nothing behind can count.
+bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveWalk walk, inout TraceState state,
+    inout uint work, out bool ended) {
+    ended = false;
+    bool more = true;
+    while (more) {
+        primitive_begin_search(s, walk);
+        if (!walk.searching) {
+            if (walk.search.t_low > state.best.t + slack) {
+                trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, walk.search.t_low, walk.search.t_high);
+                ended = true;
+                return false;
+            }
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            state.cells++;
+            walk.searching = true;
+            trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
+        }
+        if (primitive_search(s, ray, walk.origin.z, walk.direction.z, slack, any_hit, walk.search, state, work)) {
+            return true;
+        }
+        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+            return false;
+        }
+        more = primitive_next_cell(walk);
+    }
+    return false;
+}
+
+// The part of [t_min, t_max], widened by `slack`, in which the ray is inside the bounds of the geometry.
+vec2 primitive_clip(PrimitiveRef s, vec3 origin, vec3 direction, float t_min, float t_max) {
+    vec2 interval = vec2(t_min, t_max);
+    for (int axis = 0; axis < 3; axis++) {
+        float o = origin[axis];
+        float d = direction[axis];
+        float lower = PRIMITIVE_HEADER(s).lower[axis];
+        float upper = PRIMITIVE_HEADER(s).upper[axis];
+        if (d == 0.0) {
+            interval.y = o < lower || o > upper ? -uintBitsToFloat(0x7F800000u) : interval.y;
+            continue;
+        }
+        float ta = (lower - o) / d;
+        float tb = (upper - o) / d;
+        float widening = 9.6e-7 * max(abs(ta), abs(tb));
+        interval.x = max(interval.x, min(ta, tb) - widening);
+        interval.y = min(interval.y, max(ta, tb) + widening);
+    }
+    return interval;
+}
+
+uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_hit) {
+    if ((PRIMITIVE_HEADER(s).status & STATUS_COMPLETE) == 0u) {
+        return TRACE_NOT_READY;
+    }
+    vec3 origin = ray.origin - PRIMITIVE_HEADER(s).eye;
+    vec3 direction = ray.direction;
+    float reach = PRIMITIVE_HEADER(s).reach;
+    float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
+    float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
+    // How far rounding moves a t, for surfaces that are not met along themselves: 256 units of rounding.
+    float slack = 1.6e-5 * (size + reach) / speed;
+    vec2 near = near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
+    vec2 clip = primitive_clip(s, origin, direction, ray.t_min - slack, ray.t_max + slack);
+    bool distant = size > PRIMITIVE_ORIGIN_LIMIT * reach;
+    PrimitiveWalk walk;
+    uint work = 0u;
+    float t = clip.x;
+    bool restored = (state.cursor[0] & PRIMITIVE_CURSOR_STARTED) != 0u;
+    if (restored) {
+        primitive_restore(s, origin, direction, near, state, walk);
+    }
+    for (uint segments = 0u; segments < SEGMENT_LIMIT; segments++) {
+        if (!restored) {
+            // Nothing behind the best hit can be nearer.
+            if (!(t < clip.y) || t > state.best.t + slack) {
+                trace_log(STEP_SKIP, t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
+                break;
+            }
+            walk.segment = segment_at(origin, direction, t, clip.y, near);
+            walk.segment.face = distant ? PRIMITIVE_SEGMENT_ALL : walk.segment.face;
+            primitive_begin_walk(s, origin, direction, walk);
+            trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
+        }
+        restored = false;
+        t = walk.segment.t_end;
+        bool ended = distant;
+        bool paused = primitive_walks_cells(walk)
+            ? primitive_trace_cells(s, ray, slack, any_hit, walk, state, work, ended)
+            : primitive_trace_listed(s, ray, any_hit, walk, state, work);
+        if (paused) {
+            primitive_save(walk, state);
+            return TRACE_PAUSED;
+        }
+        if (ended || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+            break;
+        }
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+
+uint primitive_trace_closest(PrimitiveRef s, Ray ray, inout TraceState state, out Hit hit) {
+    uint result = primitive_trace(s, ray, state, false);
+    hit = state.best;
+    return result;
+}
+
+uint primitive_trace_occluded(PrimitiveRef s, Ray ray, inout TraceState state) {
+    return primitive_trace(s, ray, state, true);
+}
+
+#endif

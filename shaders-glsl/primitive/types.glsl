@@ -1,0 +1,52 @@
+// What: the records and options of primitive lists.
+// Reads, writes: nothing.
+// Source: Vardis, Vasilakis, Papaioannou 2016 (DIRT), section 3.1: ids of triangles in lists per tile and
+// depth bucket.
+#ifndef PRIMITIVE_TYPES_GLSL
+#define PRIMITIVE_TYPES_GLSL
+
+#include "contract/types.glsl"
+#include "primitive/constants.glsl"
+
+// Constant ids 30 to 49 belong to primitive lists.
+layout(constant_id = 30) const uint PRIMITIVE_BUCKETS = 16u;
+layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIGUOUS;
+layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_EXACT;
+layout(constant_id = 33) const uint PRIMITIVE_SKIP = 1u;
+
+// State and sizes of one value. 136 bytes.
+struct PrimitiveHeader {
+    uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
+    uint demand;          // entries of all lists, also those beyond the capacity
+    uint capacity;        // entries the pool holds
+    uint near_demand;     // triangles that meet the near box
+    uint near_capacity;
+    uint corrupted;       // list entries that named no node
+    uint tiles;           // cells a side of a face, border not counted
+    uint spare;
+    float reach;          // metres: farthest that the geometry is from the eye along an axis
+    float near_size;      // metres: half side of the near box
+    float rounding;       // metres: bound of how far rounding moves a triangle against a ray
+    float spare_length;
+    vec3 eye;             // metres relative to the frame origin: common centre of the faces
+    float spare_eye;
+    vec3 lower;           // bounds of the geometry relative to the eye, metres
+    float spare_lower;
+    vec3 upper;
+    float spare_upper;
+    uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
+    uvec2 lists_address;
+    uvec2 entries_address;
+    uvec2 sums_address;
+    uvec2 near_address;
+};
+
+// Depths of what a cell lists.
+struct PrimitiveBounds {
+    bool empty;
+    float z_min;
+    float z_max;
+    float scale;          // buckets a metre
+};
+
+#endif

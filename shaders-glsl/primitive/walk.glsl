@@ -1,0 +1,112 @@
+// What: where a ray stands on its way through the cells, and how that is kept between two dispatches.
+// Reads: header. Writes: nothing.
+// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 entry of the list,
+// 7 the cell being searched, or the place in what is tested one by one.
+#ifndef PRIMITIVE_WALK_GLSL
+#define PRIMITIVE_WALK_GLSL
+
+#include "ads/march_cells.glsl"
+#include "ads/march_cube.glsl"
+#include "primitive/search.glsl"
+
+// In place of a face: the ray is tested against every triangle.
+#define PRIMITIVE_SEGMENT_ALL 7u
+
+#define PRIMITIVE_CURSOR_STARTED 1u
+#define PRIMITIVE_CURSOR_SEARCHING 2u
+
+// A ray within one face, within the near box, or among all triangles.
+struct PrimitiveWalk {
+    Segment segment;
+    vec3 origin;          // face space
+    vec3 direction;
+    CellMarch cells;
+    uint place;           // of what is tested one by one
+    ivec2 searched;       // the cell being searched
+    bool searching;       // its search has been begun
+    PrimitiveSearch search;
+};
+
+bool primitive_walks_cells(PrimitiveWalk walk) {
+    return walk.segment.face < SEGMENT_NEAR;
+}
+
+void primitive_begin_walk(PrimitiveRef s, vec3 origin, vec3 direction, inout PrimitiveWalk walk) {
+    walk.place = 0u;
+    walk.searching = false;
+    walk.search.in_list = false;
+    if (primitive_walks_cells(walk)) {
+        walk.origin = face_from_world(origin, walk.segment.face);
+        walk.direction = face_from_world(direction, walk.segment.face);
+        walk.cells = march_begin(walk.origin, walk.direction, PRIMITIVE_HEADER(s).tiles, walk.segment.t_begin, walk.segment.t_end,
+            walk.segment.t_error);
+        walk.searched = walk.cells.cell;
+    }
+}
+
+// Prepares the search of the cell the walk is at.
+void primitive_begin_search(PrimitiveRef s, inout PrimitiveWalk walk) {
+    walk.search.t_low = walk.cells.t_in - walk.cells.error_in;
+    walk.search.t_high = walk.cells.t_out + walk.cells.error_out;
+    walk.search.cell = cell_index(walk.segment.face, walk.searched, PRIMITIVE_HEADER(s).tiles);
+}
+
+// Goes to the next cell; false at the end of the segment.
+bool primitive_next_cell(inout PrimitiveWalk walk) {
+    walk.searching = false;
+    walk.search.in_list = false;
+    if (march_take_neighbour(walk.cells, walk.searched)) {
+        return true;
+    }
+    bool more = march_next(walk.cells);
+    walk.searched = walk.cells.cell;
+    return more;
+}
+
+uint primitive_packed_cell(ivec2 cell) {
+    return uint(cell.x + 1) | uint(cell.y + 1) << 16;
+}
+
+ivec2 primitive_unpacked_cell(uint word) {
+    return ivec2(word & 0xFFFFu, word >> 16) - 1;
+}
+
+void primitive_save(PrimitiveWalk walk, inout TraceState state) {
+    bool cells = primitive_walks_cells(walk);
+    state.cursor[0] = PRIMITIVE_CURSOR_STARTED | (walk.searching ? PRIMITIVE_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
+        | (walk.search.in_list ? 32u : 0u) | (cells ? walk.cells.neighbours << 6 | walk.search.bucket << 16 : 0u);
+    state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
+    state.cursor[2] = floatBitsToUint(walk.segment.t_end);
+    state.cursor[3] = primitive_packed_cell(walk.cells.cell);
+    state.cursor[4] = floatBitsToUint(walk.cells.t_in);
+    state.cursor[5] = floatBitsToUint(walk.cells.error_in);
+    state.cursor[6] = walk.search.list.at;
+    state.cursor[7] = cells ? primitive_packed_cell(walk.searched) : walk.place;
+}
+
+void primitive_restore(PrimitiveRef s, vec3 origin, vec3 direction, vec2 near, TraceState state, out PrimitiveWalk walk) {
+    uint flags = state.cursor[0];
+    walk.segment = segment_at(origin, direction, uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]), near);
+    walk.segment.face = (flags >> 2) & 7u;
+    walk.segment.t_end = uintBitsToFloat(state.cursor[2]);
+    primitive_begin_walk(s, origin, direction, walk);
+    walk.place = state.cursor[7];
+    if (!primitive_walks_cells(walk)) {
+        return;
+    }
+    walk.cells.cell = primitive_unpacked_cell(state.cursor[3]);
+    walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
+    walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
+    march_find_exit(walk.cells);
+    walk.cells.neighbours = (flags >> 6) & 511u;
+    walk.searched = primitive_unpacked_cell(state.cursor[7]);
+    walk.searching = (flags & PRIMITIVE_CURSOR_SEARCHING) != 0u;
+    walk.search.in_list = (flags & 32u) != 0u;
+    walk.search.bucket = (flags >> 16) & 63u;
+    if (walk.search.in_list) {
+        uint cell = cell_index(walk.segment.face, walk.searched, PRIMITIVE_HEADER(s).tiles);
+        walk.search.list = primitive_list_resume(s, primitive_list(cell, walk.search.bucket), state.cursor[6]);
+    }
+}
+
+#endif

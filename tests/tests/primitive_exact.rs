@@ -1,0 +1,230 @@
+//! Primitive lists against brute force, bit for bit: at every size of tiles and buckets, from every eye and
+//! origin, with every budget; and lists that cover too little are noticed.
+
+use rasray_ads::{BruteForce, Hit, Ray, Structure, TraceMode};
+use rasray_ads_primitive::{Addressing, Config, Coverage, PrimitiveLists, Storage};
+use rasray_gpu::Timing;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
+
+fn full() -> bool {
+    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
+}
+
+/// Scattered layers, spheres of small and of tiny triangles, slivers, and a room around them.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
+    triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    let mut random = Random::new(7);
+    for _ in 0..100 {
+        // Long and thin, and often through a plane of the eyes.
+        let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
+        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
+        triangles.push([from, to, beside]);
+    }
+    triangles
+}
+
+fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
+}
+
+fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> PrimitiveLists {
+    let geometry = bench.geometry(triangles);
+    let mut structure =
+        PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, eye, Timing::None).expect("the build completes");
+    structure
+}
+
+fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> {
+    let geometry = bench.geometry(triangles);
+    let structure = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    bench.trace(&structure, rays).hits
+}
+
+fn bits(hit: &Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
+}
+
+/// Rays whose hits differ in any bit.
+fn differences(found: &[Hit], expected: &[Hit]) -> Vec<usize> {
+    assert_eq!(found.len(), expected.len());
+    (0..found.len()).filter(|&ray| bits(&found[ray]) != bits(&expected[ray])).collect()
+}
+
+fn assert_exact(what: &str, bench: &Bench, structure: &PrimitiveLists, rays: &[Ray], expected: &[Hit]) {
+    let hits = bench.trace(structure, rays).hits;
+    if let [first, ..] = differences(&hits, expected)[..] {
+        let (ray, hit, expected) = (rays[first], hits[first], expected[first]);
+        panic!("{what}: {ray:?}: {hit:?}, brute force finds {expected:?}");
+    }
+    for (ray, occluded) in bench.occluded(structure, rays).into_iter().enumerate() {
+        assert_eq!(occluded, expected[ray].is_hit(), "{what}: {:?}", rays[ray]);
+    }
+    assert_eq!(structure.status().expect("the header is readable").corrupted, 0, "{what}");
+}
+
+#[test]
+fn hits_are_those_of_brute_force() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let rounds = if full() { 100 } else { 1 };
+    for round in 0..rounds {
+        let rays = rays(round, if full() { 100_000 } else { 20_000 }, 9.0);
+        let expected = brute_force(&bench, &triangles, &rays);
+        let hit = expected.iter().filter(|hit| hit.is_hit()).count();
+        assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
+        let structure = lists(&bench, Config::robust(128), &triangles, EYES[round as usize % 3]);
+        assert_exact("robust", &bench, &structure, &rays, &expected);
+    }
+}
+
+#[test]
+fn no_size_changes_a_hit() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(3, 4000, 9.0));
+    let expected = brute_force(&bench, &triangles, &rays);
+    let sizes = [
+        (1, 1, 1),
+        (2, 1, 64),
+        (3, 2, 4),
+        (7, 1, 5),
+        (33, 4, 2),
+        (64, 1, 1),
+        (100, 8, 16),
+        (256, 2, 32),
+        (300, 1, 8),
+    ];
+    for (index, (resolution, tile, buckets)) in sizes.into_iter().enumerate() {
+        let storage = if index % 2 == 0 { Storage::Linked } else { Storage::Contiguous };
+        let config = Config { tile, buckets, storage, skip: index % 3 != 0, ..Config::robust(resolution) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    let config = Config { addressing: Addressing::Address, ..Config::robust(64) };
+    let structure = lists(&bench, config, &triangles, EYES[1]);
+    assert_exact("by address", &bench, &structure, &rays, &expected);
+}
+
+/// Tiles that list only what covers their centre lose hits: the comparison notices.
+#[test]
+fn lists_that_cover_too_little_are_noticed() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(5, 4000, 9.0));
+    let expected = brute_force(&bench, &triangles, &rays);
+    let config = Config { coverage: Coverage::Hardware, ..Config::robust(64) };
+    let structure = lists(&bench, config, &triangles, EYES[0]);
+    let lost = differences(&bench.trace(&structure, &rays).hits, &expected).len();
+    assert!(lost > 50, "{lost} of {} hits differ", rays.len());
+}
+
+/// Rays that start far outside of everything, beyond what the cells can bear and below it; and rays from an
+/// eye far outside.
+#[test]
+fn distance_changes_no_hit() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let mut random = Random::new(17);
+    for distance in [30.0, 45.0, 1.0e3, 1.0e5] {
+        let rays: Vec<Ray> = (0..1000)
+            .map(|_| {
+                let (target, away) = (random.point(-9.0, 9.0), random.direction());
+                let origin = std::array::from_fn(|axis| target[axis] - distance * away[axis]);
+                Ray::new(origin, away)
+            })
+            .collect();
+        let expected = brute_force(&bench, &triangles, &rays);
+        assert!(expected.iter().all(Hit::is_hit));
+        let structure = lists(&bench, Config::robust(64), &triangles, EYES[0]);
+        assert_exact(&format!("{distance} m away"), &bench, &structure, &rays, &expected);
+        let structure = lists(&bench, Config::robust(64), &triangles, [0.0, distance, 0.0]);
+        assert_exact(&format!("an eye {distance} m away"), &bench, &structure, &rays, &expected);
+    }
+}
+
+/// Triangles so close to the eye that their cell is lost in rounding are found all the same.
+#[test]
+fn triangles_around_the_eye_are_found() {
+    let bench = Bench::new();
+    for eye in EYES {
+        let shifted = |p: [f32; 3]| -> [f32; 3] { std::array::from_fn(|axis| p[axis] + eye[axis]) };
+        let mut triangles = scene();
+        let mut random = Random::new(8);
+        for _ in 0..200 {
+            let size = 10.0_f32.powf(random.between(-7.0, -1.0));
+            triangles.push(std::array::from_fn(|_| shifted(random.point(-size, size))));
+        }
+        let structure = lists(&bench, Config::robust(64), &triangles, eye);
+        let header = structure.header().expect("the header is readable");
+        let near = header.near_demand as usize;
+        assert!(near > 20 && near < triangles.len() / 2, "{near} triangles are in the near list");
+        let rays: Vec<Ray> = (0..2000)
+            .map(|index| {
+                let target = shifted(random.point(-1.0e-3, 1.0e-3));
+                let origin = if index % 2 == 0 { eye } else { random.point(-2.0, 2.0) };
+                Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            })
+            .collect();
+        let expected = brute_force(&bench, &triangles, &rays);
+        assert!(expected.iter().filter(|hit| hit.primitive as usize >= triangles.len() - 200).count() > 200);
+        assert_exact(&format!("eye at {eye:?}"), &bench, &structure, &rays, &expected);
+    }
+}
+
+/// Ranges and exclusions, as brute force keeps them.
+#[test]
+fn limits_and_exclusion_are_kept() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let mut random = Random::new(21);
+    let mut rays = rays(22, 3000, 9.0);
+    for (ray, first) in rays.clone().iter().zip(brute_force(&bench, &triangles, &rays)) {
+        rays.extend([
+            Ray { t_max: first.t, ..*ray },
+            Ray { t_max: first.t.next_up(), ..*ray },
+            Ray { t_min: first.t, ..*ray },
+            Ray { t_min: first.t.next_down(), ..*ray },
+            Ray { exclude_primitive: first.primitive, ..*ray },
+            Ray { t_min: random.between(0.0, 5.0), t_max: random.between(0.0, 9.0), ..*ray },
+            // Not of unit length.
+            Ray { direction: ray.direction.map(|x| 1.0e-3 * x), ..*ray },
+        ]);
+    }
+    let expected = brute_force(&bench, &triangles, &rays);
+    let structure = lists(&bench, Config::robust(64), &triangles, EYES[1]);
+    assert_exact("limits", &bench, &structure, &rays, &expected);
+}
+
+/// A ray may stop after any work unit and go on in the next dispatch.
+#[test]
+fn no_budget_changes_a_hit() {
+    let bench = Bench::new();
+    let mut triangles = closed_box([-10.0; 3], [10.0; 3]);
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
+    let mut rays = rays(9, 300, 9.0);
+    // Some are tested against every triangle, and some against the near list.
+    rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
+    let expected = brute_force(&bench, &triangles, &rays);
+    for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {
+        for storage in [Storage::Linked, Storage::Contiguous] {
+            let config = Config { work_budget: Some(budget), storage, ..Config::robust(32) };
+            let structure = lists(&bench, config, &triangles, EYES[1]);
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, rounds);
+            assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{budget} units a dispatch");
+            assert_eq!(differences(&hits, &expected), [0; 0], "{budget} units a dispatch, {storage:?}");
+            // With too few rounds rays are counted, never given half an answer.
+            let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
+            assert!(counters.unfinished > 0);
+        }
+    }
+}
