@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::ADS_TEST_MARCH_GRID;
+use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::visits::{exact_grid_chords, point, run_kernel, runs, unresolved_length};
@@ -285,4 +286,35 @@ fn a_lost_cell_and_a_stray_one_are_noticed() {
     }
     assert!(fault(&ray, &[visits.clone(), vec![[0, 7, 0]]].concat(), 8).is_some());
     assert!(fault(&ray, &[visits, vec![[8, 3, 5]]].concat(), 8).is_some());
+}
+
+/// The rays of every case that is made for voxels, in units of its grid.
+#[test]
+fn rays_of_cases_about_voxels() {
+    let mut walked = 0;
+    for case in hard_cases::cases(Scale { rays: 300, ..Scale::QUICK }) {
+        let Some(grid) = case.grid else { continue };
+        // Where this rounds, the ray is another one, and as good.
+        let rays: Vec<Ray> = case
+            .rays
+            .iter()
+            .filter(|ray| ray.is_valid())
+            .map(|ray| Ray {
+                t_min: ray.t_min,
+                t_max: ray.t_max,
+                ..Ray::new(
+                    std::array::from_fn(|axis| (ray.origin[axis] - grid.low[axis]) / grid.cell),
+                    ray.direction.map(|d| d / grid.cell),
+                )
+            })
+            .collect();
+        // X5 has none that are valid.
+        assert_eq!(rays.is_empty(), case.id == "X5", "{}", case.id);
+        if !rays.is_empty() {
+            let walks = check(case.id, &rays, grid.resolution);
+            assert!(walks.iter().any(|walk| walk.len() > 1), "{}", case.id);
+            walked += 1;
+        }
+    }
+    assert_eq!(walked, 14);
 }

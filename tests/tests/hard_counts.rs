@@ -1,0 +1,97 @@
+//! Ten million triangles: traced or refused by name. Full tier only.
+
+use std::collections::HashMap;
+
+use rasray_abuffer::{ABuffer, Config};
+use rasray_ads::Ray;
+use rasray_ads::{Draw, Geometry, GeometryDesc};
+use rasray_gpu::BufferUsage;
+use rasray_metrics::{DeviceHit, HitConfusion};
+use rasray_reference::oracle::Oracle;
+use rasray_tests::hard_cases::{self, HardCase, Scale};
+use rasray_tests::harness::Bench;
+
+const RAYS: usize = 10_000;
+
+/// Corners without repetition, and indices: what a loader makes of the triangles.
+fn shared(case: &HardCase) -> (Vec<[f32; 3]>, Vec<u32>) {
+    let mut places: HashMap<[u32; 3], u32> = HashMap::new();
+    let (mut positions, mut indices) = (Vec::new(), Vec::with_capacity(3 * case.triangles.len()));
+    for corner in case.triangles.as_flattened() {
+        let place = *places.entry(corner.map(f32::to_bits)).or_insert(positions.len() as u32);
+        if place as usize == positions.len() {
+            positions.push(*corner);
+        }
+        indices.push(place);
+    }
+    (positions, indices)
+}
+
+/// The geometry on the device, or why it does not fit.
+fn upload(bench: &Bench, positions: &[[f32; 3]], indices: &[u32]) -> Result<Geometry, String> {
+    let device = bench.device();
+    let triangle_count = (indices.len() / 3) as u32;
+    let draws = [Draw { first_triangle: 0, triangle_count, instance: 0, flags: 0 }];
+    let buffer = |name, bytes: &[u8]| {
+        device.create_buffer_with(name, BufferUsage::STORAGE, bytes).map_err(|error| error.to_string())
+    };
+    let desc = GeometryDesc {
+        positions: buffer("positions", bytemuck::cast_slice(positions))?,
+        indices: buffer("indices", bytemuck::cast_slice(indices))?,
+        draws: buffer("draws", bytemuck::cast_slice(&draws))?,
+        vertex_count: positions.len() as u32,
+        triangle_count,
+        draw_count: 1,
+        bounds: [[-2.0; 3], [2.0; 3]],
+        frame_origin: [0.0; 3],
+    };
+    Geometry::new(device, desc).map_err(|error| error.to_string())
+}
+
+#[test]
+fn ten_million_triangles_are_traced_or_refused() {
+    if std::env::var_os("RASRAY_FULL").is_none_or(|value| value != "1") {
+        eprintln!("skipped: set RASRAY_FULL to 1 for ten million triangles");
+        return;
+    }
+    let bench = Bench::new();
+    // Tiny random triangles are lost where no cell's centre is in them: nothing bounds how many.
+    for (id, most_missed) in [("C3", Some(0.01)), ("C3-random", None)] {
+        let scale = Scale { rays: RAYS, seed: 1, full: true };
+        let case = hard_cases::case(id, scale).expect("it exists");
+        assert!(case.triangles.len() > 9_900_000, "{id}: {}", case.triangles.len());
+        let (positions, indices) = shared(&case);
+        let geometry = match upload(&bench, &positions, &indices) {
+            Ok(geometry) => geometry,
+            Err(refusal) => {
+                // By name and with both sizes.
+                assert!(refusal.contains("positions") || refusal.contains("indices"), "{refusal}");
+                assert!(refusal.contains("bytes"), "{refusal}");
+                println!("{id}: refused: {refusal}");
+                continue;
+            }
+        };
+        let mut structure =
+            ABuffer::new(bench.device(), Config::robust(64), &geometry, None).expect("it is valid");
+        let rays: Vec<Ray> = case.rays.iter().map(|ray| Ray::new(ray.origin, ray.direction)).collect();
+        let hits = bench.build_and_trace(&mut structure, case.eye, &rays);
+        let hits: Vec<_> = hits
+            .iter()
+            .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
+            .collect();
+        let oracle = Oracle::new(&positions, &indices, None).expect("well formed");
+        let verdicts = oracle.closest_batch(&case.rays);
+        let confusion = HitConfusion::measure(&verdicts, &hits, 1e-3).expect("one hit a ray");
+        println!("{id}: {confusion:?}");
+        assert_eq!(confusion.non_finite.count, 0, "{id}: {confusion:?}");
+        if let Some(most) = most_missed {
+            let [_, missed] = confusion.missed.interval().expect("rays hit");
+            assert!(missed <= most, "{id}: {confusion:?}");
+            // Without every tenth hit it would not do.
+            let gaps: Vec<_> =
+                hits.iter().enumerate().map(|(ray, hit)| hit.filter(|_| ray % 10 != 0)).collect();
+            let worse = HitConfusion::measure(&verdicts, &gaps, 1e-3).expect("one hit a ray");
+            assert!(worse.missed.interval().expect("rays hit")[0] > most);
+        }
+    }
+}
