@@ -21,8 +21,8 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         let replay = ray.map_or_else(String::new, |ray| {
             let command = row.replay_command(case.id, case.scale.seed, ray);
             // A ray depends on the seed and its index, but aims at the meshes of the tier.
-            let meshes = if case.scale.full { ", with the meshes of the full tier" } else { "" };
-            format!("\n    replay{meshes}: {command}")
+            let meshes = if case.scale.full { " --full" } else { "" };
+            format!("\n    replay: {command}{meshes}")
         });
         faults.push(format!("{} on {} ({}): {what}{replay}", row.name, case.id, case.title));
     };
