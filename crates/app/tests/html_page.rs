@@ -2,7 +2,7 @@
 
 mod html_fixture;
 
-use html_fixture::everything;
+use html_fixture::{everything, hard_runs};
 use rasray_app::report::figures::Figures;
 use rasray_app::report::{Report, html};
 
@@ -46,7 +46,8 @@ fn a_part_is_there_exactly_when_its_data_is() {
         (&["histograms"], |_, figures| figures.depth_errors.clear()),
         (&["percentiles"], |report, _| {
             for accuracy in report.runs.iter_mut().filter_map(|run| run.accuracy.as_mut()) {
-                (accuracy.dt_rel_p50, accuracy.dt_rel_p99, accuracy.dt_rel_max) = (None, None, None);
+                (accuracy.dt_rel_p50, accuracy.dt_rel_p90) = (None, None);
+                (accuracy.dt_rel_p99, accuracy.dt_rel_p999, accuracy.dt_rel_max) = (None, None, None);
             }
         }),
         (&["passes"], |report, _| report.runs.iter_mut().for_each(|run| run.passes.clear())),
@@ -71,6 +72,35 @@ fn a_part_is_there_exactly_when_its_data_is() {
     report.runs.clear();
     let page = page(&report, &Figures::default());
     assert!(parts(&page).is_empty() && !page.contains("plotly.js v"), "nothing to plot, no library");
+}
+
+#[test]
+fn hard_cases_have_verdicts_and_a_few_have_plots() {
+    for (cases, plotted) in [(1, true), (4, true), (5, false)] {
+        let (mut report, _) = everything("hard:all");
+        report.runs = hard_runs(cases);
+        let page = page(&report, &Figures::default());
+        assert_eq!(parts(&page)[..2], ["summary", "hard-cases"]);
+        assert_eq!(parts(&page).contains(&"speed-error".to_owned()), plotted, "{cases} cases");
+        let bad =
+            report.runs.iter().filter(|run| run.hard.as_ref().is_some_and(|hard| hard.met == Some(false)));
+        assert_eq!(page.matches("class=\"verdict broken\"").count(), bad.count());
+        assert!(page.contains("rays that leak") && page.contains(">E0</th>"));
+    }
+}
+
+#[test]
+fn intervals_and_quartiles_stand_beside_their_numbers() {
+    let (mut report, figures) = everything("spheres:10k");
+    let before = page(&report, &figures);
+    assert!(before.contains("0<span class=\"interval\">&lt; 1.5e-5</span>"), "3/N of no missed hit");
+    assert!(before.contains("<span class=\"interval\">27.568 – 31.921</span>"), "quartiles of a build");
+    for run in &mut report.runs {
+        run.spread.clear();
+        run.accuracy.iter_mut().for_each(|accuracy| accuracy.rates.clear());
+    }
+    let after = page(&report, &figures);
+    assert!(!after.contains("class=\"interval\""));
 }
 
 #[test]

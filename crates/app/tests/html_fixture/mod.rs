@@ -7,7 +7,10 @@
 )]
 
 use rasray_app::report::figures::{DepthErrors, Figures, Images, SystemImage, WorkMap};
-use rasray_app::report::{Accuracy, Counters, ImageError, Memory, Pass, Report, Run, SCHEMA, Times};
+use rasray_app::report::{
+    Accuracy, Counters, HardRecord, ImageError, Memory, Pass, RateRecord, Report, Run, SCHEMA, Spread, Times,
+};
+use rasray_metrics::Rate;
 use serde_json::json;
 
 /// Pixels a row of all pictures.
@@ -35,6 +38,7 @@ fn passes(slowness: f64, system: &str) -> Vec<Pass> {
         let mut pass = Pass::default();
         pass.label = format!("{system}/{name}.comp");
         (pass.ms_median, pass.ms_min, pass.ms_max) = (median, 0.9 * median, 1.3 * median);
+        (pass.ms_q1, pass.ms_q3) = (Some(0.95 * median), Some(1.1 * median));
         pass
     };
     names.iter().enumerate().map(pass).collect()
@@ -56,6 +60,18 @@ fn memory(system: &str) -> Memory {
     }
 }
 
+fn spread(name: &str, median: f64) -> (String, Spread) {
+    let spread =
+        Spread { count: 5, min: 0.9 * median, q1: 0.95 * median, q3: 1.1 * median, max: 1.2 * median };
+    (name.to_owned(), spread)
+}
+
+/// The rate of `count` in 199,959 rays.
+fn rate(name: &str, count: u64) -> (String, RateRecord) {
+    let record = RateRecord::of(Rate { count, total: 199_959 }).expect("rays");
+    (name.to_owned(), record)
+}
+
 fn run(contestant: &(&str, &str, f64, u64, f64), slowness: f64) -> Run {
     let (system, preset, rate, ..) = *contestant;
     Run {
@@ -65,6 +81,7 @@ fn run(contestant: &(&str, &str, f64, u64, f64), slowness: f64) -> Run {
         options: [("resolution".to_owned(), 512.into()), ("march".to_owned(), "dda".into())].into(),
         paths: [("builder".to_owned(), "raster".to_owned())].into(),
         seed: Some(1),
+        spread: [spread("build_ms", 40.0 / rate.sqrt()), spread("trace_ms", slowness * 200.0 / rate)].into(),
         times: Times {
             build_ms: Some(40.0 / rate.sqrt()),
             trace_ms: Some(slowness * 200.0 / rate),
@@ -96,8 +113,11 @@ fn traced(contestant: &(&str, &str, f64, u64, f64), set: &str, slowness: f64) ->
             false_hits: wrong / 7,
             wrong_primitive: (system != "mmrt").then_some(wrong - wrong / 2 - wrong / 7),
             dt_rel_p50: Some(factor * 2.1e-8),
+            dt_rel_p90: Some(factor * 8.0e-8),
+            dt_rel_p999: Some(factor * 1.1e-6),
             dt_rel_p99: Some(factor * 1.7e-7),
             dt_rel_max: Some(factor * factor * 9.0e-6),
+            rates: [rate("missed", wrong / 2), rate("false_hits", wrong / 7)].into(),
             ..Default::default()
         }),
         ..run(contestant, slowness)
@@ -180,10 +200,35 @@ pub fn everything(scene: &str) -> (Report, Figures) {
         "version": "0.1.0",
         "commit": "0123456789ab",
         "device": {"name": "A device", "driver": "a driver 1.2", "software": true},
+        "command": "rasray compare spheres:10k --html page.html",
         "scene": {"name": scene, "triangles": 10_000},
+        "statistics": {
+            "rates": 30, "confidence": 0.95, "family_confidence": 0.95, "confidence_of_each": 0.998_333,
+        },
         "runs": [],
     }))
     .expect("the schema");
     report.runs = runs;
     (report, figures)
+}
+
+/// Hard cases, each traced by every contestant; every third verdict is bad.
+#[allow(dead_code, reason = "each test program has its own copy")]
+pub fn hard_runs(cases: usize) -> Vec<Run> {
+    let mut runs = Vec::new();
+    for case in 0..cases {
+        for contestant in &CONTESTANTS {
+            let hard = HardRecord {
+                id: format!("E{case}"),
+                title: "Rays through shared edges".to_owned(),
+                measure: "rays that leak".to_owned(),
+                target: "none".to_owned(),
+                met: Some(runs.len() % 3 != 0),
+                reason: format!("{} of 1,000 rays leaked", runs.len() % 3),
+                ..Default::default()
+            };
+            runs.push(Run { hard: Some(hard), ..traced(contestant, "hard", 1.0) });
+        }
+    }
+    runs
 }

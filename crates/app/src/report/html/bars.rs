@@ -22,7 +22,11 @@ struct Part<'a> {
 }
 
 fn pass_part(pass: &Pass) -> Part<'_> {
-    let words = format!("{:.3} ms ({:.3} to {:.3})", pass.ms_median, pass.ms_min, pass.ms_max);
+    let mut words = format!("{:.3} ms ({:.3} to {:.3}", pass.ms_median, pass.ms_min, pass.ms_max);
+    if let (Some(q1), Some(q3)) = (pass.ms_q1, pass.ms_q3) {
+        words += &format!(", half of them {q1:.3} to {q3:.3}");
+    }
+    words.push(')');
     Part { name: &pass.label, size: pass.ms_median, words }
 }
 

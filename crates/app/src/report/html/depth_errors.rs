@@ -117,10 +117,16 @@ fn histogram_plot(
 
 /// Names and values of the percentiles that were measured.
 fn measured(accuracy: &Accuracy) -> Vec<(&'static str, f64)> {
-    [("median", accuracy.dt_rel_p50), ("99 %", accuracy.dt_rel_p99), ("largest", accuracy.dt_rel_max)]
-        .into_iter()
-        .filter_map(|(name, value)| Some((name, value.filter(|value| value.is_finite())?)))
-        .collect()
+    [
+        ("median", accuracy.dt_rel_p50),
+        ("90 %", accuracy.dt_rel_p90),
+        ("99 %", accuracy.dt_rel_p99),
+        ("99.9 %", accuracy.dt_rel_p999),
+        ("largest", accuracy.dt_rel_max),
+    ]
+    .into_iter()
+    .filter_map(|(name, value)| Some((name, value.filter(|value| value.is_finite())?)))
+    .collect()
 }
 
 /// Percentiles, one plot a workload and one line a run.

@@ -66,6 +66,9 @@ fn header(page: &mut Markup, report: &Report) {
     let commit = report.commit.as_ref().map(|commit| format!(", commit {commit}")).unwrap_or_default();
     fact("Version", format!("{}{commit}", report.version).into());
     fact("Runs", grouped(report.runs.len() as u64).into());
+    if let Some(command) = &report.command {
+        fact("Command", command.into());
+    }
     page.fixed("</dl>\n");
     if device.software {
         page.fixed(

@@ -8,6 +8,7 @@ mod bars;
 mod depth_errors;
 mod details;
 mod document;
+mod hard;
 mod images;
 mod markup;
 mod names;
@@ -30,6 +31,7 @@ pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
     check(report, figures)?;
     let sections: Vec<_> = [
         summary::section(report),
+        hard::section(report),
         speed_error::section(report),
         depth_errors::histograms(report, figures),
         depth_errors::percentiles(report),

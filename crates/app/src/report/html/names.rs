@@ -12,8 +12,22 @@ pub(super) fn contestant(run: &Run) -> String {
     format!("{} {}", run.system, run.preset).trim_end().to_owned()
 }
 
-/// What the run's rays are: the name of a ray set, or the integrator of an image.
+/// Hard cases up to which each gets plots of its own.
+pub(super) const MOST_HARD_CASES: usize = 4;
+
+/// How many different hard cases were traced.
+pub(super) fn hard_cases(runs: &[Run]) -> usize {
+    let mut cases: Vec<&str> = runs.iter().filter_map(|run| Some(run.hard.as_ref()?.id.as_str())).collect();
+    cases.sort_unstable();
+    cases.dedup();
+    cases.len()
+}
+
+/// What the run's rays are: a hard case, the name of a ray set, or the integrator of an image.
 pub(super) fn workload(run: &Run) -> String {
+    if let Some(hard) = &run.hard {
+        return format!("hard:{}", hard.id);
+    }
     match (&run.ray_set, &run.integrator) {
         (Some(set), _) => set.clone(),
         (None, Some(integrator)) => format!("image, {integrator}"),
@@ -21,10 +35,12 @@ pub(super) fn workload(run: &Run) -> String {
     }
 }
 
-/// Positions of runs per workload, in order of appearance.
+/// Positions of the runs that plots show, per workload, in order of appearance. Hard cases are left out
+/// where they are too many to plot.
 pub(super) fn by_workload(runs: &[Run]) -> Vec<(String, Vec<usize>)> {
+    let plotted = |run: &Run| run.hard.is_none() || hard_cases(runs) <= MOST_HARD_CASES;
     let mut groups: Vec<(String, Vec<usize>)> = Vec::new();
-    for (index, run) in runs.iter().enumerate() {
+    for (index, run) in runs.iter().enumerate().filter(|(_, run)| plotted(run)) {
         let name = workload(run);
         match groups.iter_mut().find(|group| group.0 == name) {
             Some(group) => group.1.push(index),
@@ -77,6 +93,7 @@ pub(super) fn part_colour(index: usize) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::HardRecord;
 
     fn run(system: &str, preset: &str, set: &str) -> Run {
         Run {
@@ -109,5 +126,19 @@ mod tests {
         let runs = [run("a", "", "eye"), run("a", "", "camera"), run("b", "", "eye")];
         let groups = by_workload(&runs);
         assert_eq!(groups, [("eye".to_owned(), vec![0, 2]), ("camera".to_owned(), vec![1])]);
+    }
+
+    #[test]
+    fn few_hard_cases_are_plotted_and_many_are_not() {
+        for count in [1, MOST_HARD_CASES, MOST_HARD_CASES + 1] {
+            let mut runs = vec![run("a", "", "eye")];
+            runs.extend((0..count).map(|case| Run {
+                hard: Some(HardRecord { id: format!("E{case}"), ..Default::default() }),
+                ..run("a", "", "hard")
+            }));
+            assert_eq!(hard_cases(&runs), count);
+            let plotted = if count <= MOST_HARD_CASES { count } else { 0 };
+            assert_eq!(by_workload(&runs).len(), 1 + plotted);
+        }
     }
 }

@@ -8,6 +8,7 @@ use super::markup::plot_text;
 use super::names::{by_workload, contestant, look};
 use super::pareto::{Point, front};
 use super::section::{Plot, Section};
+use rasray_metrics::Rate;
 use serde_json::{Value, json};
 
 /// A run in a plot.
@@ -58,7 +59,8 @@ fn rate(run: &Run) -> Option<f64> {
 fn hits(run: &Run) -> Option<Entry<'_>> {
     let (speed, rays, errors) = (rate(run)?, judged(run)?, errors(run)?);
     let note = format!("{} errors of {} rays", grouped(errors), grouped(rays));
-    Some(Entry { run, x: speed, speed, error: errors as f64 / rays as f64, interval: None, note })
+    let interval = Rate { count: errors, total: rays }.interval();
+    Some(Entry { run, x: speed, speed, error: errors as f64 / rays as f64, interval, note })
 }
 
 fn depth(run: &Run) -> Option<Entry<'_>> {
@@ -128,7 +130,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
         "Speed against error",
         "Each run is a point; the line is the Pareto front: for a run on it no other run is faster without \
          being less exact. The front is decided by the measured numbers. A colour is a system, a symbol a \
-         preset. Where the structure does not know the primitive, wrong hits are not counted. Hollow \
+         preset, a bar the 95 % interval of a rate. Where the structure does not know the primitive, wrong hits are not counted. Hollow \
          symbols mark errors of exactly zero.",
         plots,
     )
@@ -223,7 +225,7 @@ fn marker(report: &Report, entry: &Entry<'_>, drawn: f64) -> Value {
     });
     if let Some([low, high]) = entry.interval.filter(|_| entry.error > 0.0) {
         trace["error_y"] = json!({
-            "type": "data", "symmetric": false, "array": [high - drawn], "arrayminus": [drawn - low],
+            "type": "data", "symmetric": false, "array": [(high - drawn).max(0.0)], "arrayminus": [(drawn - low).max(0.0)],
             "thickness": 1, "width": 4,
         });
     }

@@ -1,6 +1,6 @@
 //! The table with one row a run; a click on a heading sorts it.
 
-use super::super::schema::{Accuracy, Counters, ImageError, Report, Run};
+use super::super::schema::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
 use super::super::{bytes, grouped};
 use super::markup::Markup;
 use super::names::{contestant, workload};
@@ -10,6 +10,18 @@ use super::section::Section;
 struct Cell {
     text: String,
     value: f64,
+    /// How sure the value is, in small print.
+    range: Option<String>,
+}
+
+impl Cell {
+    fn new(text: String, value: f64) -> Option<Self> {
+        value.is_finite().then_some(Self { text, value, range: None })
+    }
+
+    fn with_range(self, range: Option<String>) -> Option<Self> {
+        Some(Self { range, ..self })
+    }
 }
 
 /// A column: its heading, its meaning, and the value of a run where it was measured.
@@ -20,17 +32,35 @@ struct Column {
 }
 
 fn number(value: Option<f64>, digits: usize) -> Option<Cell> {
-    let value = value.filter(|value| value.is_finite())?;
-    Some(Cell { text: format!("{value:.digits$}"), value })
+    let value = value?;
+    Cell::new(format!("{value:.digits$}"), value)
 }
 
 fn scientific(value: Option<f64>) -> Option<Cell> {
-    let value = value.filter(|value| value.is_finite())?;
-    Some(Cell { text: if value == 0.0 { "0".to_owned() } else { format!("{value:.2e}") }, value })
+    let value = value?;
+    Cell::new(if value == 0.0 { "0".to_owned() } else { format!("{value:.2e}") }, value)
 }
 
 fn count(value: Option<u64>) -> Option<Cell> {
-    value.map(|value| Cell { text: grouped(value), value: value as f64 })
+    value.and_then(|value| Cell::new(grouped(value), value as f64))
+}
+
+/// A median with its quartiles.
+fn median(run: &Run, name: &str, value: Option<f64>) -> Option<Cell> {
+    let quartiles = run.spread.get(name).map(|spread| format!("{:.3} – {:.3}", spread.q1, spread.q3));
+    number(value, 3)?.with_range(quartiles)
+}
+
+/// A count with the interval of its rate.
+fn rate(run: &Run, name: &str, value: Option<u64>) -> Option<Cell> {
+    let record = run.accuracy.as_ref().and_then(|accuracy| accuracy.rates.get(name));
+    count(value)?.with_range(record.map(interval))
+}
+
+/// Where the true rate lies.
+fn interval(record: &RateRecord) -> String {
+    let [low, high] = record.interval;
+    if record.count == 0 { format!("< {high:.1e}") } else { format!("{low:.1e} – {high:.1e}") }
 }
 
 fn accuracy<T>(run: &Run, field: impl Fn(&Accuracy) -> Option<T>) -> Option<T> {
@@ -48,13 +78,13 @@ fn image(run: &Run, field: impl Fn(&ImageError) -> Option<f64>) -> Option<f64> {
 const COLUMNS: &[Column] = &[
     Column {
         heading: "build ms",
-        meaning: "posed positions to traceable, host work included; median",
-        cell: |run| number(run.times.build_ms, 3),
+        meaning: "posed positions to traceable, host work included; median, and quartiles where repeated",
+        cell: |run| median(run, "build_ms", run.times.build_ms),
     },
     Column {
         heading: "trace ms",
-        meaning: "rays in to hits out; median",
-        cell: |run| number(run.times.trace_ms, 3),
+        meaning: "rays in to hits out; median, and quartiles where repeated",
+        cell: |run| median(run, "trace_ms", run.times.trace_ms),
     },
     Column { heading: "frame ms", meaning: "everything; median", cell: |run| number(run.times.frame_ms, 3) },
     Column {
@@ -67,7 +97,7 @@ const COLUMNS: &[Column] = &[
         meaning: "the structure's allocations after the final build",
         cell: |run| {
             let value = run.memory.as_ref()?.structure_bytes?;
-            Some(Cell { text: bytes(value), value: value as f64 })
+            Cell::new(bytes(value), value as f64)
         },
     },
     Column {
@@ -92,23 +122,30 @@ const COLUMNS: &[Column] = &[
     },
     Column {
         heading: "missed",
-        meaning: "hits that were not found",
-        cell: |run| count(accuracy(run, |hits| Some(hits.missed))),
+        meaning: "hits that were not found, and the interval of their rate",
+        cell: |run| rate(run, "missed", accuracy(run, |hits| Some(hits.missed))),
     },
     Column {
         heading: "false",
-        meaning: "hits where there is nothing",
-        cell: |run| count(accuracy(run, |hits| Some(hits.false_hits))),
+        meaning: "hits where there is nothing, and the interval of their rate",
+        cell: |run| rate(run, "false_hits", accuracy(run, |hits| Some(hits.false_hits))),
     },
     Column {
         heading: "wrong",
-        meaning: "hits of another primitive; absent where the structure does not know the primitive",
-        cell: |run| count(accuracy(run, |hits| hits.wrong_primitive)),
+        meaning: "hits of another primitive, and the interval of their rate; absent where the structure does \
+                  not know the primitive",
+        cell: |run| rate(run, "wrong_primitive", accuracy(run, |hits| hits.wrong_primitive)),
+    },
+    Column {
+        heading: "t off",
+        meaning: "hits with a t that the rounding of a careful f32 test does not explain, and the interval of \
+                  their rate",
+        cell: |run| rate(run, "t_off", accuracy(run, |hits| hits.t_off)),
     },
     Column {
         heading: "not finite",
         meaning: "answers that are not finite numbers",
-        cell: |run| count(accuracy(run, |hits| Some(hits.non_finite))),
+        cell: |run| rate(run, "non_finite", accuracy(run, |hits| Some(hits.non_finite))),
     },
     Column {
         heading: "|dt|/t p50",
@@ -134,6 +171,11 @@ const COLUMNS: &[Column] = &[
         heading: "FLIP p99",
         meaning: "99th percentile of FLIP",
         cell: |run| number(image(run, |error| error.flip_p99), 5),
+    },
+    Column {
+        heading: "FLIP max",
+        meaning: "FLIP of the worst pixel",
+        cell: |run| number(image(run, |error| error.flip_max), 3),
     },
     Column {
         heading: "RMSE",
@@ -182,12 +224,36 @@ pub(super) fn section(report: &Report) -> Option<Section> {
             }
         }
     }
+    if let Some(statistics) = &report.statistics {
+        certainty(&mut body, statistics);
+    }
     body.fixed("<details><summary>What the columns mean</summary><dl>");
     for column in explained {
         body.leaf("dt", &[], column.heading).leaf("dd", &[], column.meaning);
     }
     body.fixed("</dl></details>\n");
     Some(Section::new("summary", "Summary", body))
+}
+
+/// How sure the rates are, one by one and together.
+fn certainty(body: &mut Markup, statistics: &Statistics) {
+    let percent = |part: f64| {
+        let digits = format!("{:.4}", 100.0 * part);
+        digits.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    body.leaf(
+        "p",
+        &[],
+        format_args!(
+            "Small print: quartiles of times; intervals of rates that hold with {} % each (Clopper and Pearson's, or \
+             the bound 3/N where nothing was counted). For all {} rates to hold with {} % together each needs {} %: \
+             those intervals stand with every run in full.",
+            percent(statistics.confidence),
+            grouped(statistics.rates),
+            percent(statistics.family_confidence),
+            percent(statistics.confidence_of_each)
+        ),
+    );
 }
 
 /// One row a run, and only columns in which some run has a value.
@@ -220,7 +286,13 @@ fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {
         for column in columns {
             match (column.cell)(run) {
                 Some(cell) => {
-                    row.leaf("td", &[("class", "number"), ("data-value", &cell.value.to_string())], cell.text)
+                    let number = [("class", "number"), ("data-value", &cell.value.to_string())];
+                    row.element("td", &number, |inside| {
+                        inside.text(cell.text);
+                        if let Some(range) = cell.range {
+                            inside.leaf("span", &[("class", "interval")], range);
+                        }
+                    })
                 }
                 None => row.fixed(
                     "<td class=\"number\"><span class=\"absent\" aria-label=\"not measured\">–</span></td>",

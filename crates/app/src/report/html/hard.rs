@@ -1,0 +1,110 @@
+//! Hard cases: what each demands and which run met it.
+
+use super::super::grouped;
+use super::super::schema::{HardRecord, Report, Run};
+use super::markup::Markup;
+use super::names::{MOST_HARD_CASES, contestant, hard_cases};
+use super::section::Section;
+
+/// The verdict in words, and the name of its look.
+fn verdict(hard: &HardRecord) -> (&'static str, &'static str) {
+    match hard.met {
+        Some(true) => ("met", "verdict met"),
+        Some(false) => ("not met", "verdict broken"),
+        None => ("one run cannot tell", "verdict"),
+    }
+}
+
+/// Verdicts per contestant, then each with its reason; absent unless hard cases were traced.
+pub(super) fn section(report: &Report) -> Option<Section> {
+    let runs: Vec<(&Run, &HardRecord)> =
+        report.runs.iter().filter_map(|run| Some((run, run.hard.as_ref()?))).collect();
+    if runs.is_empty() {
+        return None;
+    }
+    let mut body = Markup::default();
+    let cases = hard_cases(&report.runs);
+    if cases > MOST_HARD_CASES {
+        body.element("p", &[], |text| {
+            text.text(format_args!(
+                "{} cases have no plots of their own in this page; compare one of them alone to see its plots.",
+                grouped(cases as u64)
+            ));
+        });
+    }
+    scores(&mut body, &runs);
+    verdicts(&mut body, &runs);
+    Some(Section::new("hard-cases", "Hard cases", body))
+}
+
+/// How many cases each contestant met.
+fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
+    let mut names: Vec<String> = Vec::new();
+    for (run, _) in runs {
+        let name = contestant(run);
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let heading = ["contestant", "met", "not met", "one run cannot tell"];
+    table(body, "Verdicts of each contestant", &heading, 1, |rows| {
+        for name in &names {
+            let count = |wanted: Option<bool>| {
+                let own = runs.iter().filter(|(run, hard)| contestant(run) == *name && hard.met == wanted);
+                own.count() as u64
+            };
+            rows.element("tr", &[], |row| {
+                row.leaf("th", &[("scope", "row")], name);
+                for wanted in [Some(true), Some(false), None] {
+                    let count = count(wanted);
+                    let cell = [("class", "number"), ("data-value", &count.to_string())];
+                    row.leaf("td", &cell, grouped(count));
+                }
+            });
+            rows.fixed("\n");
+        }
+    });
+}
+
+fn verdicts(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
+    let heading = ["case", "contestant", "verdict", "why", "looked at", "target", "what the case is"];
+    table(body, "Every verdict", &heading, heading.len(), |rows| {
+        for (run, hard) in runs {
+            let (words, look) = verdict(hard);
+            rows.element("tr", &[], |row| {
+                row.leaf("th", &[("scope", "row")], &hard.id).leaf("td", &[], contestant(run));
+                row.element("td", &[], |cell| {
+                    cell.leaf("span", &[("class", look)], words);
+                });
+                for text in [&hard.reason, &hard.measure, &hard.target, &hard.title] {
+                    row.leaf("td", &[("class", "prose")], text);
+                }
+            });
+            rows.fixed("\n");
+        }
+    });
+}
+
+/// A table that sorts; the first `words` columns hold words, the others numbers.
+fn table(
+    body: &mut Markup,
+    title: &'static str,
+    heading: &[&'static str],
+    words: usize,
+    rows: impl FnOnce(&mut Markup),
+) {
+    let scrolled = [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)];
+    body.element("div", &scrolled, |body| {
+        body.element("table", &[("class", "sortable")], |table| {
+            table.leaf("caption", &[], title).fixed("<thead><tr>");
+            for (column, name) in heading.iter().enumerate() {
+                let attributes = [("scope", "col"), ("class", "number")];
+                table.leaf("th", &attributes[..if column < words { 1 } else { 2 }], name);
+            }
+            table.fixed("</tr></thead>\n<tbody>\n");
+            rows(table);
+            table.fixed("</tbody>");
+        });
+    });
+    body.fixed("\n");
+}
