@@ -45,10 +45,24 @@ fn count(value: Option<u64>) -> Option<Cell> {
     value.and_then(|value| Cell::new(grouped(value), value as f64))
 }
 
+/// Milliseconds in words: long times need no fractions.
+fn milliseconds(value: f64) -> String {
+    if value >= 1000.0 {
+        grouped(value.round() as u64)
+    } else if value >= 100.0 {
+        format!("{value:.1}")
+    } else {
+        format!("{value:.3}")
+    }
+}
+
 /// A median with its quartiles.
 fn median(run: &Run, name: &str, value: Option<f64>) -> Option<Cell> {
-    let quartiles = run.spread.get(name).map(|spread| format!("{:.3} – {:.3}", spread.q1, spread.q3));
-    number(value, 3)?.with_range(quartiles)
+    let quartiles = run
+        .spread
+        .get(name)
+        .map(|spread| format!("{} – {}", milliseconds(spread.q1), milliseconds(spread.q3)));
+    Cell::new(milliseconds(value?), value?)?.with_range(quartiles)
 }
 
 /// A count with the interval of its rate.
