@@ -292,7 +292,7 @@ fn summary(runs: &[Run]) -> String {
 /// How sure the rates are, one by one and together.
 fn certainty(statistics: &Statistics) -> String {
     format!(
-        "intervals hold with {} % each (Clopper-Pearson; 3/N where nothing or everything happened); for all {} rates \
+        "<: upper end of the interval; intervals hold with {} % each (Clopper-Pearson; 3/N where nothing or everything happened); for all {} rates \
          to hold with {} % together each needs {:.4} % (family_interval in the report)\n",
         100.0 * statistics.confidence,
         grouped(statistics.rates),
@@ -301,16 +301,23 @@ fn certainty(statistics: &Statistics) -> String {
     )
 }
 
-/// The whole report for people: device and scene, each run in full, and with several runs one line
-/// each for comparison.
+/// Runs up to which each is printed in full; more are read in a file.
+const RUNS_IN_FULL: usize = 24;
+
+/// The whole report for people: device and scene, each run in full unless they are very many, and with
+/// several runs one line each for comparison.
 pub fn table(report: &Report) -> String {
     let device = &report.device;
     let note = if device.software { "; times of software devices are for ratios on that device" } else { "" };
     let mut text = format!("device {} ({}){note}\n", device.name, device.driver);
     _ = writeln!(text, "scene  {}, {} triangles", report.scene.name, grouped(report.scene.triangles));
-    for run in &report.runs {
-        text.push('\n');
-        text += &run_text(run);
+    if report.runs.len() <= RUNS_IN_FULL {
+        for run in &report.runs {
+            text.push('\n');
+            text += &run_text(run);
+        }
+    } else {
+        text += "each of the runs in full: --report or --html\n";
     }
     if report.runs.len() > 1 {
         text.push('\n');
@@ -383,7 +390,8 @@ mod tests {
             ..Default::default()
         };
         let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
-        let text = table(&Report::new(Device::default(), scene, None, vec![run.clone(), run]));
+        let report = Report::new(Device::default(), scene, None, vec![run.clone(), run]);
+        let text = table(&report);
         for words in [
             "at most 0.2996 %",
             "2 (4.0000 %)",
@@ -396,5 +404,10 @@ mod tests {
             assert!(text.contains(words), "{words}: {text}");
         }
         assert!(text.lines().any(|line| line.trim_end().ends_with("NOT MET")), "{text}");
+        // Very many runs have a line each and no more.
+        let many = vec![report.runs[0].clone(); RUNS_IN_FULL + 1];
+        let text = table(&Report::new(Device::default(), report.scene, None, many));
+        assert!(!text.contains("NOT MET: because") && text.contains("--report"), "{text}");
+        assert_eq!(text.lines().filter(|line| line.ends_with("NOT MET")).count(), RUNS_IN_FULL + 1);
     }
 }
