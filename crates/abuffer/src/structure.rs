@@ -42,6 +42,8 @@ struct Pools {
     data: Buffer,
     near: Buffer,
     set: Option<BindingSet>,
+    /// Whether a build was recorded since: until then device memory holds anything.
+    built: bool,
 }
 
 impl Pools {
@@ -77,7 +79,18 @@ impl Pools {
             )?),
             Addressing::Address => None,
         };
-        Ok(Self { header_source, header_readback, header, bounds, lists, nodes, data, near, set })
+        Ok(Self {
+            header_source,
+            header_readback,
+            header,
+            bounds,
+            lists,
+            nodes,
+            data,
+            near,
+            set,
+            built: false,
+        })
     }
 }
 
@@ -296,6 +309,7 @@ impl Structure for ABuffer {
                 nodes: &self.pools.nodes,
             },
         );
+        self.pools.built = true;
         Ok(())
     }
 
@@ -339,6 +353,9 @@ impl Structure for ABuffer {
         mode: TraceMode,
         rounds: u32,
     ) {
+        if !self.pools.built {
+            rasray_ads::record_not_ready(recorder, &self.pools.header);
+        }
         let set = self.pools.set.as_ref();
         self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
         // Traces count entries that name no node: `status` tells of them as well.

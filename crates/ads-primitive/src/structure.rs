@@ -43,6 +43,8 @@ struct Pools {
     sums: Buffer,
     near: Buffer,
     set: Option<BindingSet>,
+    /// Whether a build was recorded since: until then device memory holds anything.
+    built: bool,
 }
 
 impl Pools {
@@ -78,7 +80,18 @@ impl Pools {
             )?),
             Addressing::Address => None,
         };
-        Ok(Self { header_source, header_readback, header, bounds, lists, entries, sums, near, set })
+        Ok(Self {
+            header_source,
+            header_readback,
+            header,
+            bounds,
+            lists,
+            entries,
+            sums,
+            near,
+            set,
+            built: false,
+        })
     }
 }
 
@@ -267,6 +280,7 @@ impl Structure for PrimitiveLists {
                 lists: &self.pools.lists,
             },
         );
+        self.pools.built = true;
         Ok(())
     }
 
@@ -316,6 +330,9 @@ impl Structure for PrimitiveLists {
         mode: TraceMode,
         rounds: u32,
     ) {
+        if !self.pools.built {
+            rasray_ads::record_not_ready(recorder, &self.pools.header);
+        }
         let set = self.pools.set.as_ref();
         self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
     }

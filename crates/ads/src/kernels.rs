@@ -1,7 +1,9 @@
 //! The queue kernels: one set of pipelines a structure, recorded the same way for all.
 
 use bytemuck::bytes_of;
-use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
+use rasray_gpu::{
+    Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout,
+};
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 
@@ -37,6 +39,14 @@ pub struct TraceKernelsDesc<'a> {
     pub work_budget: Option<u32>,
     /// The scene, where surfaces or alpha masks are needed.
     pub scene: Option<&'a SceneBinding>,
+}
+
+/// Records that a structure is not ready, for traces of one that was never built: fresh device memory may
+/// hold anything. The status is the first word of every structure's header.
+pub fn record_not_ready(recorder: &mut Recorder<'_>, header: &Buffer) {
+    recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+    recorder.fill(header, 0, size_of::<u32>() as u64, 0);
+    recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
 }
 
 /// Pipelines that trace a queue through one structure.

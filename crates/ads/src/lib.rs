@@ -33,7 +33,7 @@ pub use brute_force::BruteForce;
 pub use counters::Counters;
 pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
-pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
+pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc, record_not_ready};
 pub use queue::{QueueCounters, QueueParts, RayQueue};
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{

@@ -56,6 +56,8 @@ struct Pools {
     records: Buffer,
     scratch: Buffer,
     set: Option<BindingSet>,
+    /// Whether a build was recorded since: until then device memory holds anything.
+    built: bool,
 }
 
 impl Pools {
@@ -88,7 +90,7 @@ impl Pools {
             }
             Addressing::Address => None,
         };
-        Ok(Self { header_source, header_readback, header, nodes, records, scratch, set })
+        Ok(Self { header_source, header_readback, header, nodes, records, scratch, set, built: false })
     }
 }
 
@@ -310,6 +312,7 @@ impl Structure for Bvh {
         self.nodes = prepared.nodes;
         self.pools.header_source.write(0, bytes_of(&self.first_header(prepared.root)))?;
         self.build.record(recorder, &self.target());
+        self.pools.built = true;
         Ok(())
     }
 
@@ -350,6 +353,9 @@ impl Structure for Bvh {
         mode: TraceMode,
         rounds: u32,
     ) {
+        if !self.pools.built {
+            rasray_ads::record_not_ready(recorder, &self.pools.header);
+        }
         let set = self.pools.set.as_ref();
         self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
     }
