@@ -13,7 +13,8 @@ struct PrimitiveSearch {
     uint cell;
     float t_low;          // the ray's interval in the cell, widened by the errors of its ends
     float t_high;
-    bool in_list;         // the list of `bucket` has been begun
+    bool begun;           // `bucket` is the one to go on with
+    bool in_list;         // its list has been begun
     uint bucket;
     PrimitiveCursor list;
 };
@@ -49,7 +50,8 @@ bool primitive_search(PrimitiveRef s, Ray ray, float origin_z, float direction_z
         return false;
     }
     uint last = away ? PRIMITIVE_BUCKETS - 1u : 0u;
-    if (!search.in_list) {
+    if (!search.begun) {
+        search.begun = true;
         search.bucket = PRIMITIVE_BUCKETS - 1u - last;
         if (PRIMITIVE_SKIP != 0u) {
             search.bucket = bucket_of(away ? depths.x : depths.y, bounds.z_min, bounds.scale, PRIMITIVE_BUCKETS);

@@ -34,6 +34,7 @@ bool primitive_walks_cells(PrimitiveWalk walk) {
 void primitive_begin_walk(PrimitiveRef s, vec3 origin, vec3 direction, inout PrimitiveWalk walk) {
     walk.place = 0u;
     walk.searching = false;
+    walk.search.begun = false;
     walk.search.in_list = false;
     if (primitive_walks_cells(walk)) {
         walk.origin = face_from_world(origin, walk.segment.face);
@@ -54,6 +55,7 @@ void primitive_begin_search(PrimitiveRef s, inout PrimitiveWalk walk) {
 // Goes to the next cell; false at the end of the segment.
 bool primitive_next_cell(inout PrimitiveWalk walk) {
     walk.searching = false;
+    walk.search.begun = false;
     walk.search.in_list = false;
     if (march_take_neighbour(walk.cells, walk.searched)) {
         return true;
@@ -101,6 +103,7 @@ void primitive_restore(PrimitiveRef s, vec3 origin, vec3 direction, vec2 near, T
     walk.cells.neighbours = (flags >> 6) & 511u;
     walk.searched = primitive_unpacked_cell(state.cursor[7]);
     walk.searching = (flags & PRIMITIVE_CURSOR_SEARCHING) != 0u;
+    walk.search.begun = walk.searching;
     walk.search.in_list = (flags & 32u) != 0u;
     walk.search.bucket = (flags >> 16) & 63u;
     if (walk.search.in_list) {
