@@ -108,16 +108,6 @@ impl ABuffer {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         config.validate()?;
-        let required = Self::requirements_of(&config).required;
-        if let Some(&feature) = required
-            .iter()
-            .find(|feature| !device.has(**feature) && **feature != Feature::BufferDeviceAddress)
-        {
-            return Err(AdsError::Gpu(GpuError::FeatureNotEnabled {
-                feature,
-                what: "the A-buffer".to_owned(),
-            }));
-        }
         if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
             return Err(AdsError::Option {
                 option: "addressing",
@@ -125,6 +115,7 @@ impl ABuffer {
                 expected: "device addresses need the feature bufferDeviceAddress, which was not enabled on this device",
             });
         }
+        device.require("the A-buffer", &Self::requirements_of(&config))?;
         let modules = modules(&config, scene)?;
         let bindings = match config.addressing {
             Addressing::Descriptor => BINDINGS,

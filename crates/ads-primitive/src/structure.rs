@@ -115,6 +115,7 @@ impl PrimitiveLists {
                 expected: "device addresses need the feature bufferDeviceAddress, which was not enabled on this device",
             });
         }
+        device.require("the primitive lists", &Self::requirements_of(&config))?;
         let modules = trace_modules(&config, scene)?;
         let bindings = match config.addressing {
             Addressing::Descriptor => BINDINGS,

@@ -115,6 +115,7 @@ impl Bvh {
                 expected: "the device has no bufferDeviceAddress; use `descriptor`",
             });
         }
+        device.require("the hierarchy", &Self::requirements_of(&config))?;
         let bindings = match config.addressing {
             Addressing::Descriptor => BINDINGS,
             Addressing::Address => 0,

@@ -207,6 +207,17 @@ impl Device {
         self.core.enabled.contains(&feature)
     }
 
+    /// That everything `what` requires is enabled.
+    ///
+    /// # Errors
+    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not.
+    pub fn require(&self, what: &str, requirements: &Requirements) -> Result<(), GpuError> {
+        match requirements.required.iter().find(|feature| !self.has(**feature)) {
+            Some(&feature) => Err(GpuError::FeatureNotEnabled { feature, what: what.to_owned() }),
+            None => Ok(()),
+        }
+    }
+
     /// All enabled features.
     pub fn enabled(&self) -> Vec<Feature> {
         self.core.enabled.iter().copied().collect()
