@@ -25,7 +25,7 @@ unsafe extern "system" fn complain(
     vk::FALSE
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub fn main() -> Result<(), Box<dyn Error>> {
     // SAFETY: Vulkan as its specification asks for; everything is destroyed once, in reverse order, when idle.
     unsafe {
         let entry = ash::Entry::load()?;

@@ -144,7 +144,11 @@ impl Bvh {
 
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
-        let mut requirements = Requirements::floor();
+        // Nothing is rasterized: of the device floor, dynamic rendering is not needed.
+        let mut requirements = Requirements {
+            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
+            optional: Vec::new(),
+        };
         if config.addressing == Addressing::Address {
             requirements.required.push(Feature::BufferDeviceAddress);
         }
