@@ -1,5 +1,4 @@
-//! Primitive lists in somebody else's renderer: a plain ash program with an instance, a device, a queue and
-//! command buffers of its own builds them, traces rays through them, and compares the hits with brute force.
+//! Primitive lists in a plain ash program with its own device: built, traced, compared with brute force.
 
 use std::error::Error;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -25,6 +24,7 @@ unsafe extern "system" fn complain(
     vk::FALSE
 }
 
+/// Runs the program; an error where hits differ or the validation layer complains.
 pub fn main() -> Result<(), Box<dyn Error>> {
     // SAFETY: Vulkan as its specification asks for; everything is destroyed once, in reverse order, when idle.
     unsafe {
