@@ -1,6 +1,6 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::{AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::abuffer as numbers;
 
 /// How a ray steps through cells.
@@ -40,15 +40,6 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-}
-
-/// How shaders reach the pools.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Addressing {
-    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
-    Descriptor,
-    /// Device addresses in the header; needs `bufferDeviceAddress`.
-    Address,
 }
 
 /// Everything that may be chosen.
@@ -220,7 +211,7 @@ impl Config {
         vec![
             ("builder", "raster".to_owned()),
             ("coverage", lower(&self.coverage)),
-            ("addressing", lower(&self.addressing)),
+            ("addressing", self.addressing.name().to_owned()),
         ]
     }
 }

@@ -15,8 +15,9 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Addressing, Config, Coverage, March, Payload};
+pub use config::{Accept, Config, Coverage, March, Payload};
 pub use header::Header;
 pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use rasray_ads::Addressing;
 pub use structure::ABuffer;
 pub use validate::{Contents, Fault, well_formed};

@@ -1,22 +1,16 @@
 //! The A-buffer as a structure.
 
-use bytemuck::{bytes_of, from_bytes, pod_read_unaligned};
 use rasray_ads::{
-    AdsError, BuildStatus, Check, Counters, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, Modules, PoolStatus,
+    Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
+    TraceKernelsDesc, TraceMode,
 };
-use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
-    Requirements, SetLayout,
-};
+use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
-use crate::build::{Build, Target, modules};
+use crate::build::Build;
 use crate::layout::{first_plan, formula_bytes, plan};
-use crate::{Accept, Addressing, Config, Contents, Header};
-
-/// Bindings of the structure's set: header, bounds, lists, nodes, data, near list.
-const BINDINGS: u32 = 6;
+use crate::{Accept, Config, Contents, Header};
 
 /// A multiview, multilayer A-buffer.
 #[derive(Debug)]
@@ -25,73 +19,8 @@ pub struct ABuffer {
     geometry: Geometry,
     build: Build,
     kernels: TraceKernels,
-    layout: SetLayout,
-    sizes: Sizes,
     pools: Pools,
-}
-
-/// Buffers of one size.
-#[derive(Debug)]
-struct Pools {
-    header_source: Buffer,
-    header_readback: Buffer,
-    header: Buffer,
-    bounds: Buffer,
-    lists: Buffer,
-    nodes: Buffer,
-    data: Buffer,
-    near: Buffer,
-    set: Option<BindingSet>,
-    /// Whether a build was recorded since: until then device memory holds anything.
-    built: bool,
-}
-
-impl Pools {
-    fn new(
-        device: &Device,
-        layout: &SetLayout,
-        addressing: Addressing,
-        sizes: &Sizes,
-    ) -> Result<Self, AdsError> {
-        let buffer = |name: &str, size: u64, location| {
-            device.create_buffer(&BufferDesc {
-                name: &format!("abuffer {name}"),
-                size,
-                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
-                location,
-            })
-        };
-        let pool = |name: &'static str| {
-            let size =
-                sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |p| p.elements * p.element_bytes);
-            buffer(name, size, MemoryLocation::Device)
-        };
-        let header_bytes = size_of::<Header>() as u64;
-        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
-        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
-        let (header, bounds, lists) = (pool("header")?, pool("bounds")?, pool("lists")?);
-        let (nodes, data, near) = (pool("nodes")?, pool("data")?, pool("near")?);
-        let set = match addressing {
-            Addressing::Descriptor => Some(device.create_binding_set(
-                layout,
-                "abuffer",
-                &[&header, &bounds, &lists, &nodes, &data, &near],
-            )?),
-            Addressing::Address => None,
-        };
-        Ok(Self {
-            header_source,
-            header_readback,
-            header,
-            bounds,
-            lists,
-            nodes,
-            data,
-            near,
-            set,
-            built: false,
-        })
-    }
+    scene: Option<BindingSet>,
 }
 
 impl ABuffer {
@@ -107,61 +36,41 @@ impl ABuffer {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        config.validate()?;
-        if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
-            return Err(AdsError::Option {
-                option: "addressing",
-                value: "address".to_owned(),
-                expected: "device addresses need the feature bufferDeviceAddress, which was not enabled on this device",
-            });
-        }
+        let sizes = first_plan(&config)?;
+        config.addressing.check(device)?;
         device.require("the A-buffer", &Self::requirements_of(&config))?;
-        let modules = modules(&config, scene)?;
-        let bindings = match config.addressing {
-            Addressing::Descriptor => BINDINGS,
-            Addressing::Address => 0,
-        };
-        let layout = device.create_set_layout("abuffer", bindings)?;
-        let build = Build::new(device, &config, &modules, geometry, &layout, scene)?;
+        let pools = Pools::new(device, "abuffer", config.addressing, &sizes)?;
+        let modules = Modules { structure: "mmrt", prefix: "abuffer", addressing: config.addressing };
+        let constants = config.constants();
+        let pipelines = BuildPipelines::new(device, modules, geometry, &pools, scene, &constants);
+        let build = Build::new(&pipelines, &config, scene)?;
         let kernels = TraceKernels::new(
             device,
             geometry,
             &TraceKernelsDesc {
-                closest: modules.closest,
-                occluded: modules.occluded,
-                surfaces: modules.surfaces,
-                structure_layout: &layout,
-                constants: &config.constants(),
+                modules: modules.trace(scene)?,
+                structure_layout: pools.layout(),
+                constants: &constants,
                 counters: config.counters,
                 work_budget: config.work_budget,
                 scene,
             },
         )?;
-        let sizes = first_plan(&config)?;
-        let pools = Pools::new(device, &layout, config.addressing, &sizes)?;
-        Ok(Self { config, geometry: geometry.clone(), build, kernels, layout, sizes, pools })
+        let scene = scene.map(|scene| scene.set.clone());
+        Ok(Self { config, geometry: geometry.clone(), build, kernels, pools, scene })
     }
 
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);
-        if config.addressing == Addressing::Address {
-            requirements.required.push(Feature::BufferDeviceAddress);
-        }
+        config.addressing.add_to(&mut requirements);
         requirements
     }
 
     /// The configuration it was made with.
     pub fn config(&self) -> &Config {
         &self.config
-    }
-
-    fn address(&self) -> u64 {
-        match self.config.addressing {
-            Addressing::Descriptor => 0,
-            Addressing::Address => self.pools.header.address().unwrap_or(0),
-        }
     }
 
     /// The header that the next build starts from.
@@ -177,16 +86,9 @@ impl ABuffer {
             Accept::Plane => rounding + 2.0 / self.config.resolution as f32 * farthest,
             Accept::Interval | Accept::Thickness => rounding,
         };
-        let address = |buffer: &Buffer| match self.config.addressing {
-            Addressing::Descriptor => [0; 2],
-            Addressing::Address => {
-                let address = buffer.address().unwrap_or(0);
-                [address as u32, (address >> 32) as u32]
-            }
-        };
         Header {
-            capacity: self.sizes.elements("nodes") as u32,
-            near_capacity: self.sizes.elements("near") as u32,
+            capacity: self.pools.sizes().elements("nodes") as u32,
+            near_capacity: self.pools.sizes().elements("near") as u32,
             resolution: self.config.resolution,
             samples: self.config.samples,
             thickness: self.config.thickness,
@@ -195,11 +97,11 @@ impl ABuffer {
             eye,
             lower: lower.map(|x| x - margin),
             upper: upper.map(|x| x + margin),
-            bounds_address: address(&self.pools.bounds),
-            lists_address: address(&self.pools.lists),
-            nodes_address: address(&self.pools.nodes),
-            data_address: address(&self.pools.data),
-            near_address: address(&self.pools.near),
+            bounds_address: self.pools.address_of("bounds"),
+            lists_address: self.pools.address_of("lists"),
+            nodes_address: self.pools.address_of("nodes"),
+            data_address: self.pools.address_of("data"),
+            near_address: self.pools.address_of("near"),
             ..Header::default()
         }
     }
@@ -209,8 +111,7 @@ impl ABuffer {
     /// # Errors
     /// Host-visible memory could not be read.
     pub fn header(&self) -> Result<Header, GpuError> {
-        let bytes = self.pools.header_readback.read(0, size_of::<Header>() as u64)?;
-        Ok(pod_read_unaligned(&bytes))
+        self.pools.header()
     }
 
     /// Downloads all pools, for checks. Submits and waits: for tests and tools.
@@ -218,21 +119,15 @@ impl ABuffer {
     /// # Errors
     /// The device failed.
     pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        let header =
-            *from_bytes::<Header>(&device.download(&self.pools.header, 0, size_of::<Header>() as u64)?);
-        let words = |pool: &Buffer, name: &str| {
-            let size =
-                self.sizes.pools.iter().find(|p| p.name == name).map_or(0, |p| p.elements * p.element_bytes);
-            device.download_as::<u32>(pool, 0, (size / 4) as usize)
-        };
+        let words = |name| self.pools.download_words(device, name);
         Ok(Contents {
             config: self.config,
-            header,
-            bounds: words(&self.pools.bounds, "bounds")?,
-            lists: words(&self.pools.lists, "lists")?,
-            nodes: words(&self.pools.nodes, "nodes")?,
-            data: words(&self.pools.data, "data")?,
-            near: words(&self.pools.near, "near")?,
+            header: device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0],
+            bounds: words("bounds")?,
+            lists: words("lists")?,
+            nodes: words("nodes")?,
+            data: words("data")?,
+            near: words("near")?,
         })
     }
 
@@ -242,12 +137,12 @@ impl ABuffer {
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.
     pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        device.upload(&self.pools.header, 0, bytes_of(&contents.header))?;
-        device.upload_slice(&self.pools.bounds, 0, &contents.bounds)?;
-        device.upload_slice(&self.pools.lists, 0, &contents.lists)?;
-        device.upload_slice(&self.pools.nodes, 0, &contents.nodes)?;
-        device.upload_slice(&self.pools.data, 0, &contents.data)?;
-        device.upload_slice(&self.pools.near, 0, &contents.near)
+        device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
+        device.upload_slice(self.pools.pool("bounds"), 0, &contents.bounds)?;
+        device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
+        device.upload_slice(self.pools.pool("nodes"), 0, &contents.nodes)?;
+        device.upload_slice(self.pools.pool("data"), 0, &contents.data)?;
+        device.upload_slice(self.pools.pool("near"), 0, &contents.near)
     }
 }
 
@@ -269,13 +164,11 @@ impl Structure for ABuffer {
     }
 
     fn sizes(&self) -> &Sizes {
-        &self.sizes
+        self.pools.sizes()
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        self.pools = Pools::new(device, &self.layout, self.config.addressing, sizes)?;
-        self.sizes = sizes.clone();
-        Ok(())
+        self.pools.resize(device, sizes)
     }
 
     fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
@@ -284,23 +177,9 @@ impl Structure for ABuffer {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError> {
-        self.pools.header_source.write(0, bytes_of(&self.first_header(eye)))?;
-        self.build.record(
-            recorder,
-            &Target {
-                config: &self.config,
-                geometry: &self.geometry,
-                set: self.pools.set.as_ref(),
-                address: self.address(),
-                header_source: &self.pools.header_source,
-                header: &self.pools.header,
-                header_readback: &self.pools.header_readback,
-                bounds: &self.pools.bounds,
-                lists: &self.pools.lists,
-                nodes: &self.pools.nodes,
-            },
-        );
-        self.pools.built = true;
+        self.pools.begin_build(&self.first_header(eye))?;
+        let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
+        self.build.record(recorder, &self.config, target);
         Ok(())
     }
 
@@ -326,8 +205,8 @@ impl Structure for ABuffer {
         if status.complete {
             return Check::Complete;
         }
-        let fragments = demand("nodes").max(self.sizes.elements("nodes"));
-        let near = demand("near").max(self.sizes.elements("near"));
+        let fragments = demand("nodes").max(self.pools.sizes().elements("nodes"));
+        let near = demand("near").max(self.pools.sizes().elements("near"));
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
         plan(&self.config, fragments, near).map_or(Check::Complete, Check::Grow)
     }
@@ -344,14 +223,7 @@ impl Structure for ABuffer {
         mode: TraceMode,
         rounds: u32,
     ) {
-        if !self.pools.built {
-            rasray_ads::record_not_ready(recorder, &self.pools.header);
-        }
-        let set = self.pools.set.as_ref();
-        self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
-        // Traces count entries that name no node: `status` tells of them as well.
-        recorder.copy(&self.pools.header, 0, &self.pools.header_readback, 0, size_of::<Header>() as u64);
-        recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
+        self.pools.record_trace(recorder, &self.kernels, &self.geometry, queue, count, mode, rounds);
     }
 
     fn record_surfaces(
@@ -360,29 +232,17 @@ impl Structure for ABuffer {
         queue: &RayQueue,
         count: u32,
     ) -> Result<(), AdsError> {
-        let set = self.pools.set.as_ref();
-        if self.kernels.record_surfaces(recorder, &self.geometry, set, self.address(), queue, count) {
-            Ok(())
-        } else {
-            Err(AdsError::NoScene { structure: self.name() })
-        }
+        self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
         let (fragments, near) = (u64::from(header.demand), u64::from(header.near_demand));
-        let mut slack = 0;
-        let mut bytes_by_part = Vec::new();
-        for pool in &self.sizes.pools {
-            let used = match pool.name {
-                "nodes" | "data" => fragments.min(pool.elements),
-                "near" => near.min(pool.elements),
-                _ => pool.elements,
-            };
-            bytes_by_part.push((pool.name, used * pool.element_bytes));
-            slack += (pool.elements - used) * pool.element_bytes;
-        }
-        bytes_by_part.push(("slack", slack));
+        let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
+            "nodes" | "data" => fragments,
+            "near" => near,
+            _ => pool.elements,
+        });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),

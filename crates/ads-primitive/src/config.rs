@@ -1,6 +1,6 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 /// How the lists of a cell are kept. Changes no hit.
@@ -19,15 +19,6 @@ pub enum Coverage {
     Hardware,
     /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
     Exact,
-}
-
-/// How shaders reach the pools. Changes no hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Addressing {
-    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
-    Descriptor,
-    /// Device addresses in the header; needs `bufferDeviceAddress`.
-    Address,
 }
 
 /// Everything that may be chosen.
@@ -131,7 +122,7 @@ impl Config {
         vec![
             ("builder", "raster".to_owned()),
             ("coverage", lower(&self.coverage)),
-            ("addressing", lower(&self.addressing)),
+            ("addressing", self.addressing.name().to_owned()),
         ]
     }
 }

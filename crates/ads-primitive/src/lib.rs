@@ -13,8 +13,9 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Addressing, Config, Coverage, Storage};
+pub use config::{Config, Coverage, Storage};
 pub use header::Header;
 pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use rasray_ads::Addressing;
 pub use structure::PrimitiveLists;
 pub use validate::{Contents, Fault, well_formed};

@@ -1,23 +1,17 @@
 //! Primitive lists as a structure.
 
-use bytemuck::{bytes_of, from_bytes, pod_read_unaligned};
 use rasray_ads::{
-    AdsError, BuildStatus, Check, Counters, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, Modules, PoolStatus,
+    Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
+    TraceKernelsDesc, TraceMode,
 };
-use rasray_gpu::{
-    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
-    Requirements, SetLayout,
-};
+use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::build::{Build, Target, trace_modules};
+use crate::build::Build;
 use crate::layout::{first_plan, formula_bytes, plan};
-use crate::{Addressing, Config, Contents, Header};
-
-/// Bindings of the structure's set: header, bounds, lists, entries, sums, near list.
-const BINDINGS: u32 = 6;
+use crate::{Config, Contents, Header};
 
 /// Lists of triangles per tile and depth bucket.
 #[derive(Debug)]
@@ -26,73 +20,7 @@ pub struct PrimitiveLists {
     geometry: Geometry,
     build: Build,
     kernels: TraceKernels,
-    layout: SetLayout,
-    sizes: Sizes,
     pools: Pools,
-}
-
-/// Buffers of one size.
-#[derive(Debug)]
-struct Pools {
-    header_source: Buffer,
-    header_readback: Buffer,
-    header: Buffer,
-    bounds: Buffer,
-    lists: Buffer,
-    entries: Buffer,
-    sums: Buffer,
-    near: Buffer,
-    set: Option<BindingSet>,
-    /// Whether a build was recorded since: until then device memory holds anything.
-    built: bool,
-}
-
-impl Pools {
-    fn new(
-        device: &Device,
-        layout: &SetLayout,
-        addressing: Addressing,
-        sizes: &Sizes,
-    ) -> Result<Self, AdsError> {
-        let buffer = |name: &str, size: u64, location| {
-            device.create_buffer(&BufferDesc {
-                name: &format!("primitive {name}"),
-                size,
-                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
-                location,
-            })
-        };
-        let pool = |name: &'static str| {
-            let size =
-                sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |p| p.elements * p.element_bytes);
-            buffer(name, size, MemoryLocation::Device)
-        };
-        let header_bytes = size_of::<Header>() as u64;
-        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
-        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
-        let (header, bounds, lists) = (pool("header")?, pool("bounds")?, pool("lists")?);
-        let (entries, sums, near) = (pool("entries")?, pool("sums")?, pool("near")?);
-        let set = match addressing {
-            Addressing::Descriptor => Some(device.create_binding_set(
-                layout,
-                "primitive",
-                &[&header, &bounds, &lists, &entries, &sums, &near],
-            )?),
-            Addressing::Address => None,
-        };
-        Ok(Self {
-            header_source,
-            header_readback,
-            header,
-            bounds,
-            lists,
-            entries,
-            sums,
-            near,
-            set,
-            built: false,
-        })
-    }
 }
 
 impl PrimitiveLists {
@@ -107,61 +35,41 @@ impl PrimitiveLists {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        config.validate()?;
-        if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
-            return Err(AdsError::Option {
-                option: "addressing",
-                value: "address".to_owned(),
-                expected: "device addresses need the feature bufferDeviceAddress, which was not enabled on this device",
-            });
-        }
+        let sizes = first_plan(&config)?;
+        config.addressing.check(device)?;
         device.require("the primitive lists", &Self::requirements_of(&config))?;
-        let modules = trace_modules(&config, scene)?;
-        let bindings = match config.addressing {
-            Addressing::Descriptor => BINDINGS,
-            Addressing::Address => 0,
-        };
-        let layout = device.create_set_layout("primitive", bindings)?;
-        let build = Build::new(device, &config, geometry, &layout)?;
+        let pools = Pools::new(device, "primitive", config.addressing, &sizes)?;
+        let modules = Modules { structure: "dirt", prefix: "primitive", addressing: config.addressing };
+        let constants = config.constants();
+        let pipelines = BuildPipelines::new(device, modules, geometry, &pools, None, &constants);
+        let build = Build::new(&pipelines, &config)?;
         let kernels = TraceKernels::new(
             device,
             geometry,
             &TraceKernelsDesc {
-                closest: modules.closest,
-                occluded: modules.occluded,
-                surfaces: modules.surfaces,
-                structure_layout: &layout,
-                constants: &config.constants(),
+                modules: modules.trace(scene)?,
+                structure_layout: pools.layout(),
+                constants: &constants,
                 counters: config.counters,
                 work_budget: config.work_budget,
                 scene,
             },
         )?;
-        let sizes = first_plan(&config)?;
-        let pools = Pools::new(device, &layout, config.addressing, &sizes)?;
-        Ok(Self { config, geometry: geometry.clone(), build, kernels, layout, sizes, pools })
+
+        Ok(Self { config, geometry: geometry.clone(), build, kernels, pools })
     }
 
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
         requirements.required.push(Feature::FragmentStoresAndAtomics);
-        if config.addressing == Addressing::Address {
-            requirements.required.push(Feature::BufferDeviceAddress);
-        }
+        config.addressing.add_to(&mut requirements);
         requirements
     }
 
     /// The configuration it was made with.
     pub fn config(&self) -> &Config {
         &self.config
-    }
-
-    fn address(&self) -> u64 {
-        match self.config.addressing {
-            Addressing::Descriptor => 0,
-            Addressing::Address => self.pools.header.address().unwrap_or(0),
-        }
     }
 
     /// The header that the next build starts from.
@@ -174,16 +82,9 @@ impl PrimitiveLists {
         // eye is from the frame origin.
         let rounding = numbers::PRIMITIVE_ROUNDING * farthest;
         let near_size = numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest;
-        let address = |buffer: &Buffer| match self.config.addressing {
-            Addressing::Descriptor => [0; 2],
-            Addressing::Address => {
-                let address = buffer.address().unwrap_or(0);
-                [address as u32, (address >> 32) as u32]
-            }
-        };
         Header {
-            capacity: self.sizes.elements("entries") as u32,
-            near_capacity: self.sizes.elements("near") as u32,
+            capacity: self.pools.sizes().elements("entries") as u32,
+            near_capacity: self.pools.sizes().elements("near") as u32,
             tiles: self.config.tiles(),
             reach: farthest,
             // Depths are positive, also where all geometry is at the eye.
@@ -192,11 +93,11 @@ impl PrimitiveLists {
             eye,
             lower: lower.map(|x| x - rounding),
             upper: upper.map(|x| x + rounding),
-            bounds_address: address(&self.pools.bounds),
-            lists_address: address(&self.pools.lists),
-            entries_address: address(&self.pools.entries),
-            sums_address: address(&self.pools.sums),
-            near_address: address(&self.pools.near),
+            bounds_address: self.pools.address_of("bounds"),
+            lists_address: self.pools.address_of("lists"),
+            entries_address: self.pools.address_of("entries"),
+            sums_address: self.pools.address_of("sums"),
+            near_address: self.pools.address_of("near"),
             ..Header::default()
         }
     }
@@ -206,8 +107,7 @@ impl PrimitiveLists {
     /// # Errors
     /// Host-visible memory could not be read.
     pub fn header(&self) -> Result<Header, GpuError> {
-        let bytes = self.pools.header_readback.read(0, size_of::<Header>() as u64)?;
-        Ok(pod_read_unaligned(&bytes))
+        self.pools.header()
     }
 
     /// Downloads all pools, for checks. Submits and waits: for tests and tools.
@@ -215,20 +115,14 @@ impl PrimitiveLists {
     /// # Errors
     /// The device failed.
     pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        let header =
-            *from_bytes::<Header>(&device.download(&self.pools.header, 0, size_of::<Header>() as u64)?);
-        let words = |pool: &Buffer, name: &str| {
-            let size =
-                self.sizes.pools.iter().find(|p| p.name == name).map_or(0, |p| p.elements * p.element_bytes);
-            device.download_as::<u32>(pool, 0, (size / 4) as usize)
-        };
+        let words = |name| self.pools.download_words(device, name);
         Ok(Contents {
             config: self.config,
-            header,
-            bounds: words(&self.pools.bounds, "bounds")?,
-            lists: words(&self.pools.lists, "lists")?,
-            entries: words(&self.pools.entries, "entries")?,
-            near: words(&self.pools.near, "near")?,
+            header: device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0],
+            bounds: words("bounds")?,
+            lists: words("lists")?,
+            entries: words("entries")?,
+            near: words("near")?,
         })
     }
 }
@@ -251,13 +145,11 @@ impl Structure for PrimitiveLists {
     }
 
     fn sizes(&self) -> &Sizes {
-        &self.sizes
+        self.pools.sizes()
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        self.pools = Pools::new(device, &self.layout, self.config.addressing, sizes)?;
-        self.sizes = sizes.clone();
-        Ok(())
+        self.pools.resize(device, sizes)
     }
 
     fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
@@ -266,22 +158,9 @@ impl Structure for PrimitiveLists {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError> {
-        self.pools.header_source.write(0, bytes_of(&self.first_header(eye)))?;
-        self.build.record(
-            recorder,
-            &Target {
-                config: &self.config,
-                geometry: &self.geometry,
-                set: self.pools.set.as_ref(),
-                address: self.address(),
-                header_source: &self.pools.header_source,
-                header: &self.pools.header,
-                header_readback: &self.pools.header_readback,
-                bounds: &self.pools.bounds,
-                lists: &self.pools.lists,
-            },
-        );
-        self.pools.built = true;
+        self.pools.begin_build(&self.first_header(eye))?;
+        let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None };
+        self.build.record(recorder, &self.config, target);
         Ok(())
     }
 
@@ -311,8 +190,8 @@ impl Structure for PrimitiveLists {
         if status.complete {
             return Check::Complete;
         }
-        let entries = demand("entries").max(self.sizes.elements("entries"));
-        let near = demand("near").max(self.sizes.elements("near"));
+        let entries = demand("entries").max(self.pools.sizes().elements("entries"));
+        let near = demand("near").max(self.pools.sizes().elements("near"));
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, entries, near).map_or(Check::Complete, Check::Grow)
     }
@@ -331,11 +210,7 @@ impl Structure for PrimitiveLists {
         mode: TraceMode,
         rounds: u32,
     ) {
-        if !self.pools.built {
-            rasray_ads::record_not_ready(recorder, &self.pools.header);
-        }
-        let set = self.pools.set.as_ref();
-        self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
+        self.pools.record_trace(recorder, &self.kernels, &self.geometry, queue, count, mode, rounds);
     }
 
     fn record_surfaces(
@@ -344,29 +219,17 @@ impl Structure for PrimitiveLists {
         queue: &RayQueue,
         count: u32,
     ) -> Result<(), AdsError> {
-        let set = self.pools.set.as_ref();
-        if self.kernels.record_surfaces(recorder, &self.geometry, set, self.address(), queue, count) {
-            Ok(())
-        } else {
-            Err(AdsError::NoScene { structure: self.name() })
-        }
+        self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
         let (entries, near) = (u64::from(header.demand), u64::from(header.near_demand));
-        let mut slack = 0;
-        let mut bytes_by_part = Vec::new();
-        for pool in &self.sizes.pools {
-            let used = match pool.name {
-                "entries" => entries.min(pool.elements),
-                "near" => near.min(pool.elements),
-                _ => pool.elements,
-            };
-            bytes_by_part.push((pool.name, used * pool.element_bytes));
-            slack += (pool.elements - used) * pool.element_bytes;
-        }
-        bytes_by_part.push(("slack", slack));
+        let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
+            "entries" => entries,
+            "near" => near,
+            _ => pool.elements,
+        });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),

@@ -1,11 +1,11 @@
 //! The brute-force structure: every ray tests every triangle. It is the baseline of every judgement.
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl as shaders;
+use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    AdsError, BuildStatus, Check, Counters, Geometry, RayQueue, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    Addressing, AdsError, BuildStatus, Check, Counters, Geometry, Modules, RayQueue, SceneBinding, Sizes,
+    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -29,15 +29,12 @@ impl BruteForce {
         counters: impl Into<Counters>,
     ) -> Result<Self, AdsError> {
         let empty = device.create_set_layout("brute force", 0)?;
-        let (closest, occluded) = modules(scene);
-        let work_budget = shaders::constants::contract::TRACE_WORK_BUDGET;
+        let work_budget = TRACE_WORK_BUDGET;
         let kernels = TraceKernels::new(
             device,
             geometry,
             &TraceKernelsDesc {
-                closest,
-                occluded,
-                surfaces: surfaces_module(),
+                modules: MODULES.trace(scene)?,
                 structure_layout: &empty,
                 constants: &[],
                 counters: counters.into(),
@@ -49,29 +46,9 @@ impl BruteForce {
     }
 }
 
-#[cfg(feature = "scene")]
-fn modules(scene: Option<&SceneBinding>) -> (&'static shaders::Shader, &'static shaders::Shader) {
-    if scene.is_some_and(|scene| scene.alpha_masked) {
-        (&shaders::BRUTE_TRACE_CLOSEST_ALPHA, &shaders::BRUTE_TRACE_OCCLUDED_ALPHA)
-    } else {
-        (&shaders::BRUTE_TRACE_CLOSEST, &shaders::BRUTE_TRACE_OCCLUDED)
-    }
-}
-
-#[cfg(not(feature = "scene"))]
-fn modules(_scene: Option<&SceneBinding>) -> (&'static shaders::Shader, &'static shaders::Shader) {
-    (&shaders::BRUTE_TRACE_CLOSEST, &shaders::BRUTE_TRACE_OCCLUDED)
-}
-
-#[cfg(feature = "scene")]
-fn surfaces_module() -> Option<&'static shaders::Shader> {
-    Some(&shaders::BRUTE_SURFACES)
-}
-
-#[cfg(not(feature = "scene"))]
-fn surfaces_module() -> Option<&'static shaders::Shader> {
-    None
-}
+/// It has no pools to reach, so there is one way to do so.
+const MODULES: Modules =
+    Modules { structure: "brute-force", prefix: "brute", addressing: Addressing::Descriptor };
 
 impl Structure for BruteForce {
     fn name(&self) -> &'static str {

@@ -1,13 +1,11 @@
 //! The queue kernels: one set of pipelines a structure, recorded the same way for all.
 
 use bytemuck::bytes_of;
-use rasray_gpu::{
-    Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout,
-};
+use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 
-use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode};
+use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
 /// The scene's set, which surfaces and alpha masks are read from.
 #[derive(Clone, Debug)]
@@ -23,12 +21,8 @@ pub struct SceneBinding {
 /// What the kernels of a structure are made from.
 #[derive(Clone, Debug)]
 pub struct TraceKernelsDesc<'a> {
-    /// Closest-hit module.
-    pub closest: &'static Shader,
-    /// Occlusion module.
-    pub occluded: &'static Shader,
-    /// Surface module; absent without a scene.
-    pub surfaces: Option<&'static Shader>,
+    /// The structure's modules.
+    pub modules: TraceModules,
     /// Layout of the structure's set.
     pub structure_layout: &'a SetLayout,
     /// Specialisation constants of the structure: id and bits.
@@ -39,14 +33,6 @@ pub struct TraceKernelsDesc<'a> {
     pub work_budget: Option<u32>,
     /// The scene, where surfaces or alpha masks are needed.
     pub scene: Option<&'a SceneBinding>,
-}
-
-/// Records that a structure is not ready, for traces of one that was never built: fresh device memory may
-/// hold anything. The status is the first word of every structure's header.
-pub fn record_not_ready(recorder: &mut Recorder<'_>, header: &Buffer) {
-    recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-    recorder.fill(header, 0, size_of::<u32>() as u64, 0);
-    recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
 }
 
 /// Pipelines that trace a queue through one structure.
@@ -106,9 +92,9 @@ impl TraceKernels {
             constants: &[],
         })?;
         Ok(Self {
-            closest: kernel(desc.closest)?,
-            occluded: kernel(desc.occluded)?,
-            surfaces: desc.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
+            closest: kernel(desc.modules.closest)?,
+            occluded: kernel(desc.modules.occluded)?,
+            surfaces: desc.modules.surfaces.filter(|_| desc.scene.is_some()).map(kernel).transpose()?,
             next_round,
             scene: desc.scene.map(|scene| scene.set.clone()),
             counters: desc.counters,

@@ -19,21 +19,27 @@
 //! a barrier that makes their results visible to compute shaders and transfers recorded after them.
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
+mod addressing;
 mod brute_force;
 mod counters;
 mod error;
 mod geometry;
 mod kernels;
+mod passes;
+mod pools;
 mod queue;
 mod steps;
 mod structure;
 mod types;
 
+pub use addressing::{Addressing, Modules, TraceModules};
 pub use brute_force::BruteForce;
 pub use counters::Counters;
 pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
-pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc, record_not_ready};
+pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
+pub use passes::{BuildPipelines, BuildTarget};
+pub use pools::Pools;
 pub use queue::{QueueCounters, QueueParts, RayQueue};
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{

@@ -1,53 +1,11 @@
 //! The build on the device: pipelines, and the passes in the order they are recorded.
 
-use bytemuck::{Pod, Zeroable, bytes_of};
-use rasray_ads::{AdsError, Geometry, SceneBinding};
-use rasray_gpu::{
-    Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout,
-};
-use rasray_shaders_glsl::Shader;
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget};
+use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
 
-use crate::layout::{NAME, union_levels};
-use crate::{Addressing, Builder, Config};
-
-/// The module of that name for a configuration.
-fn find(config: &Config, name: &str) -> Result<&'static Shader, AdsError> {
-    let suffix = match config.addressing {
-        Addressing::Descriptor => "",
-        Addressing::Address => ".address",
-    };
-    // Modules with the scene's set are the only ones that may not have been compiled.
-    rasray_shaders_glsl::shader(&format!("bvh/{name}{suffix}")).ok_or(AdsError::NoScene { structure: NAME })
-}
-
-/// Modules of the traces.
-pub(crate) struct TraceModules {
-    pub(crate) closest: &'static Shader,
-    pub(crate) occluded: &'static Shader,
-    pub(crate) surfaces: Option<&'static Shader>,
-}
-
-/// Finds the modules of the traces.
-///
-/// # Errors
-/// The scene has alpha masks and this crate was compiled without the feature `scene`.
-pub(crate) fn trace_modules(config: &Config, scene: Option<&SceneBinding>) -> Result<TraceModules, AdsError> {
-    let alpha = scene.is_some_and(|scene| scene.alpha_masked);
-    Ok(TraceModules {
-        closest: find(config, if alpha { "trace_closest.alpha" } else { "trace_closest" })?,
-        occluded: find(config, if alpha { "trace_occluded.alpha" } else { "trace_occluded" })?,
-        surfaces: find(config, "surfaces").ok(),
-    })
-}
-
-/// Address of the tree (zero with descriptors), and digit of the sort or level of the unions.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct BuildConstants {
-    tree: [u32; 2],
-    step: u32,
-}
+use crate::layout::union_levels;
+use crate::{Builder, Config};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -75,33 +33,9 @@ struct LbvhPipelines {
     topology: ComputePipeline,
 }
 
-/// What one recording of the build works on.
-pub(crate) struct Target<'a> {
-    pub(crate) geometry: &'a Geometry,
-    pub(crate) set: Option<&'a BindingSet>,
-    pub(crate) address: u64,
-    pub(crate) header_source: &'a Buffer,
-    pub(crate) header: &'a Buffer,
-    pub(crate) header_readback: &'a Buffer,
-}
-
 impl Build {
-    pub(crate) fn new(
-        device: &Device,
-        config: &Config,
-        geometry: &Geometry,
-        structure: &SetLayout,
-    ) -> Result<Self, AdsError> {
-        let compute = |name: &str| -> Result<ComputePipeline, AdsError> {
-            let shader = find(config, name)?;
-            Ok(device.create_compute_pipeline(&ComputePipelineDesc {
-                name: shader.name,
-                spirv: shader.words(),
-                sets: &[geometry.layout(), structure],
-                push_constant_bytes: size_of::<BuildConstants>() as u32,
-                constants: &[],
-            })?)
-        };
+    pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
+        let compute = |name| pipelines.compute(name);
         let of_builder = match config.builder {
             Builder::Sah => OfBuilder::Sah { boxes: compute("build_1_boxes")? },
             Builder::Lbvh => OfBuilder::Lbvh(Box::new(LbvhPipelines {
@@ -118,18 +52,18 @@ impl Build {
         Ok(Self { of_builder, records: compute("build_8_records")?, status: compute("build_11_status")? })
     }
 
-    /// Records what the host needs to know of the triangles. The host has written `header_source`.
-    pub(crate) fn record_boxes(&self, recorder: &mut Recorder<'_>, target: &Target<'_>) {
+    /// Records what the host needs to know of the triangles. The host has written the header.
+    pub(crate) fn record_boxes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let OfBuilder::Sah { boxes } = &self.of_builder else { return };
         record_header(recorder, target);
         recorder.begin_pass("bvh/build_1_boxes");
-        dispatch(recorder, boxes, target, 0, target.geometry.triangle_count());
+        target.dispatch(recorder, boxes, groups(target.geometry.triangle_count()), 0);
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_READ);
         recorder.end_pass();
     }
 
-    /// Records all passes. The host has written `header_source`.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: &Target<'_>) {
+    /// Records all passes. The host has written the header.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
@@ -139,18 +73,13 @@ impl Build {
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
             pipelines.record_nodes(recorder, target);
         }
-        recorder.begin_pass("bvh/build_11_status");
-        dispatch(recorder, &self.status, target, 0, 1);
-        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER_READ);
-        recorder.copy(target.header, 0, target.header_readback, 0, target.header.size());
-        recorder.barrier(Access::TRANSFER_WRITE, Access::HOST_READ);
-        recorder.end_pass();
+        target.status_pass(recorder, "bvh/build_11_status", &self.status);
     }
 }
 
 impl LbvhPipelines {
     /// Codes, and the order of the triangles by them.
-    fn record_order(&self, recorder: &mut Recorder<'_>, target: &Target<'_>) {
+    fn record_order(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
         pass(recorder, target, "bvh/build_2_codes", &self.codes, 0, triangles);
@@ -166,7 +95,7 @@ impl LbvhPipelines {
     }
 
     /// Nodes over the records.
-    fn record_nodes(&self, recorder: &mut Recorder<'_>, target: &Target<'_>) {
+    fn record_nodes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
             pass(recorder, target, "bvh/build_9_unions", &self.unions, level, boxes as u32);
@@ -176,48 +105,22 @@ impl LbvhPipelines {
     }
 }
 
+fn groups(items: u32) -> u64 {
+    items.div_ceil(BVH_GROUP_SIZE).into()
+}
+
 /// A pass with an invocation per item, visible to the next one.
 fn pass(
     recorder: &mut Recorder<'_>,
-    target: &Target<'_>,
+    target: BuildTarget<'_>,
     label: &str,
     pipeline: &ComputePipeline,
     step: u32,
     items: u32,
 ) {
-    recorder.begin_pass(label);
-    dispatch(recorder, pipeline, target, step, items);
-    recorder.barrier(Access::COMPUTE, Access::COMPUTE);
-    recorder.end_pass();
+    target.compute_pass(recorder, label, pipeline, groups(items), step, Access::COMPUTE);
 }
 
-fn record_header(recorder: &mut Recorder<'_>, target: &Target<'_>) {
-    recorder.begin_pass("bvh/build_0_header");
-    recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-    recorder.copy(target.header_source, 0, target.header, 0, target.header.size());
-    recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-    recorder.end_pass();
-}
-
-/// One invocation per item; more groups than one dimension holds go to the second.
-fn dispatch(
-    recorder: &mut Recorder<'_>,
-    pipeline: &ComputePipeline,
-    target: &Target<'_>,
-    step: u32,
-    items: u32,
-) {
-    let groups = items.div_ceil(BVH_GROUP_SIZE);
-    if groups == 0 {
-        return;
-    }
-    let rows = groups.div_ceil(32_768);
-    let tree = [target.address as u32, (target.address >> 32) as u32];
-    recorder.bind_compute(pipeline);
-    recorder.bind_sets(0, &[target.geometry.set()]);
-    if let Some(set) = target.set {
-        recorder.bind_sets(1, &[set]);
-    }
-    recorder.push_constants(bytes_of(&BuildConstants { tree, step }));
-    recorder.dispatch([groups.div_ceil(rows), rows, 1]);
+fn record_header(recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+    target.pools.record_header(recorder, "bvh/build_0_header", &[], Access::COMPUTE);
 }

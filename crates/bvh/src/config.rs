@@ -1,6 +1,6 @@
 //! Options of the BVH.
 
-use rasray_ads::{AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
 
 /// Who makes the tree.
@@ -20,15 +20,6 @@ impl Builder {
             Self::Lbvh => "lbvh",
         }
     }
-}
-
-/// How shaders reach the pools.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Addressing {
-    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
-    Descriptor,
-    /// Device addresses in the header; needs `bufferDeviceAddress`.
-    Address,
 }
 
 /// Everything that may be chosen. Nothing of it changes a hit.
@@ -91,10 +82,6 @@ impl Config {
             Builder::Sah => "host",
             Builder::Lbvh => "device",
         };
-        let addressing = match self.addressing {
-            Addressing::Descriptor => "descriptor",
-            Addressing::Address => "address",
-        };
-        vec![("builder", builder.to_owned()), ("addressing", addressing.to_owned())]
+        vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())]
     }
 }

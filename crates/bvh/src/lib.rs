@@ -16,8 +16,9 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Addressing, Builder, Config};
+pub use config::{Builder, Config};
 pub use header::{Header, Node, Record};
 pub use layout::{FormulaBytes, formula_bytes, plan};
+pub use rasray_ads::Addressing;
 pub use structure::Bvh;
 pub use validate::{Contents, Fault, Shape, well_formed};

@@ -1,24 +1,18 @@
 //! The BVH as a structure.
 
-use bytemuck::{bytes_of, pod_read_unaligned};
 use rasray_ads::{
-    AdsError, BuildStatus, Check, Counters, Geometry, PoolStatus, RayQueue, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, Modules, PoolStatus,
+    Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
+    TraceKernelsDesc, TraceMode,
 };
-use rasray_gpu::{
-    BindingSet, Buffer, BufferDesc, BufferUsage, Device, Feature, GpuError, MemoryLocation, Recorder,
-    Requirements, SetLayout,
-};
+use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 
-use crate::build::{Build, Target, trace_modules};
+use crate::build::Build;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
-use crate::{Addressing, Builder, Config, Contents, Header, Node, Record};
-
-/// Bindings of the structure's set: header, nodes, records, scratch.
-const BINDINGS: u32 = 4;
+use crate::{Builder, Config, Contents, Header, Node, Record};
 
 /// Rounds that a trace records at most. Each costs two dispatches, also where no ray is left.
 const MOST_ROUNDS: u32 = 64;
@@ -30,8 +24,6 @@ pub struct Bvh {
     geometry: Geometry,
     build: Build,
     kernels: TraceKernels,
-    layout: SetLayout,
-    sizes: Sizes,
     pools: Pools,
     /// What the host made for the next build.
     prepared: Option<Prepared>,
@@ -44,54 +36,6 @@ pub struct Bvh {
 struct Prepared {
     root: u32,
     nodes: u64,
-}
-
-/// Buffers of one size.
-#[derive(Debug)]
-struct Pools {
-    header_source: Buffer,
-    header_readback: Buffer,
-    header: Buffer,
-    nodes: Buffer,
-    records: Buffer,
-    scratch: Buffer,
-    set: Option<BindingSet>,
-    /// Whether a build was recorded since: until then device memory holds anything.
-    built: bool,
-}
-
-impl Pools {
-    fn new(
-        device: &Device,
-        layout: &SetLayout,
-        addressing: Addressing,
-        sizes: &Sizes,
-    ) -> Result<Self, AdsError> {
-        let buffer = |name: &str, size: u64, location| {
-            device.create_buffer(&BufferDesc {
-                name: &format!("bvh {name}"),
-                size,
-                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
-                location,
-            })
-        };
-        let pool = |name: &'static str| {
-            let size = sizes.pools.iter().find(|pool| pool.name == name);
-            buffer(name, size.map_or(0, |pool| pool.elements * pool.element_bytes), MemoryLocation::Device)
-        };
-        let header_bytes = size_of::<Header>() as u64;
-        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
-        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
-        let (header, nodes) = (pool("header")?, pool("nodes")?);
-        let (records, scratch) = (pool("records")?, pool("scratch")?);
-        let set = match addressing {
-            Addressing::Descriptor => {
-                Some(device.create_binding_set(layout, "bvh", &[&header, &nodes, &records, &scratch])?)
-            }
-            Addressing::Address => None,
-        };
-        Ok(Self { header_source, header_readback, header, nodes, records, scratch, set, built: false })
-    }
 }
 
 impl Bvh {
@@ -108,38 +52,25 @@ impl Bvh {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let sizes = plan(&config, geometry.triangle_count().into())?;
-        if config.addressing == Addressing::Address && !device.has(Feature::BufferDeviceAddress) {
-            return Err(AdsError::Option {
-                option: "addressing",
-                value: "address".to_owned(),
-                expected: "the device has no bufferDeviceAddress; use `descriptor`",
-            });
-        }
+        config.addressing.check(device)?;
         device.require("the hierarchy", &Self::requirements_of(&config))?;
-        let bindings = match config.addressing {
-            Addressing::Descriptor => BINDINGS,
-            Addressing::Address => 0,
-        };
-        let layout = device.create_set_layout("bvh", bindings)?;
-        let build = Build::new(device, &config, geometry, &layout)?;
-        let modules = trace_modules(&config, scene)?;
+        let pools = Pools::new(device, NAME, config.addressing, &sizes)?;
+        let modules = Modules { structure: NAME, prefix: NAME, addressing: config.addressing };
+        let build = Build::new(&BuildPipelines::new(device, modules, geometry, &pools, None, &[]), &config)?;
         let kernels = TraceKernels::new(
             device,
             geometry,
             &TraceKernelsDesc {
-                closest: modules.closest,
-                occluded: modules.occluded,
-                surfaces: modules.surfaces,
-                structure_layout: &layout,
+                modules: modules.trace(scene)?,
+                structure_layout: pools.layout(),
                 constants: &[],
                 counters: config.counters,
                 work_budget: config.work_budget,
                 scene,
             },
         )?;
-        let pools = Pools::new(device, &layout, config.addressing, &sizes)?;
         let geometry = geometry.clone();
-        Ok(Self { config, geometry, build, kernels, layout, sizes, pools, prepared: None, nodes: 0 })
+        Ok(Self { config, geometry, build, kernels, pools, prepared: None, nodes: 0 })
     }
 
     /// What a device must and may offer for a configuration.
@@ -149,9 +80,7 @@ impl Bvh {
             required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
             optional: Vec::new(),
         };
-        if config.addressing == Addressing::Address {
-            requirements.required.push(Feature::BufferDeviceAddress);
-        }
+        config.addressing.add_to(&mut requirements);
         requirements
     }
 
@@ -165,8 +94,7 @@ impl Bvh {
     /// # Errors
     /// Host-visible memory could not be read.
     pub fn header(&self) -> Result<Header, GpuError> {
-        let bytes = self.pools.header_readback.read(0, size_of::<Header>() as u64)?;
-        Ok(pod_read_unaligned(&bytes))
+        self.pools.header()
     }
 
     /// Downloads the tree, for checks. Submits and waits: for tests and tools.
@@ -174,31 +102,17 @@ impl Bvh {
     /// # Errors
     /// The device failed.
     pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        let header = device.download_as::<Header>(&self.pools.header, 0, 1)?[0];
+        let header = device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0];
         let triangles = header.triangle_count as usize;
         Ok(Contents {
             header,
-            nodes: device.download_as::<Node>(&self.pools.nodes, 0, self.nodes as usize)?,
-            records: device.download_as::<Record>(&self.pools.records, 0, triangles)?,
+            nodes: device.download_as::<Node>(self.pools.pool("nodes"), 0, self.nodes as usize)?,
+            records: device.download_as::<Record>(self.pools.pool("records"), 0, triangles)?,
         })
     }
 
-    fn address(&self) -> u64 {
-        match self.config.addressing {
-            Addressing::Descriptor => 0,
-            Addressing::Address => self.pools.header.address().unwrap_or(0),
-        }
-    }
-
-    fn target(&self) -> Target<'_> {
-        Target {
-            geometry: &self.geometry,
-            set: self.pools.set.as_ref(),
-            address: self.address(),
-            header_source: &self.pools.header_source,
-            header: &self.pools.header,
-            header_readback: &self.pools.header_readback,
-        }
+    fn target(&self) -> BuildTarget<'_> {
+        BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None }
     }
 
     /// The tree that the device builds over this many triangles.
@@ -214,13 +128,6 @@ impl Bvh {
     /// The header that the next build starts from.
     fn first_header(&self, root: u32) -> Header {
         let [lower, upper] = self.geometry.bounds();
-        let address = |buffer: &Buffer| match self.config.addressing {
-            Addressing::Descriptor => [0; 2],
-            Addressing::Address => {
-                let address = buffer.address().unwrap_or(0);
-                [address as u32, (address >> 32) as u32]
-            }
-        };
         let triangles = self.geometry.triangle_count();
         // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
         let (order_offset, order_stride) = match self.config.builder {
@@ -230,16 +137,16 @@ impl Bvh {
         Header {
             root,
             triangle_count: triangles,
-            node_capacity: self.sizes.elements("nodes") as u32,
-            record_capacity: self.sizes.elements("records") as u32,
-            scratch_capacity: self.sizes.elements("scratch") as u32,
+            node_capacity: self.pools.sizes().elements("nodes") as u32,
+            record_capacity: self.pools.sizes().elements("records") as u32,
+            scratch_capacity: self.pools.sizes().elements("scratch") as u32,
             order_offset,
             order_stride,
             lower,
             cells_per_metre: cells_per_metre([lower, upper]),
-            nodes_address: address(&self.pools.nodes),
-            records_address: address(&self.pools.records),
-            scratch_address: address(&self.pools.scratch),
+            nodes_address: self.pools.address_of("nodes"),
+            records_address: self.pools.address_of("records"),
+            scratch_address: self.pools.address_of("scratch"),
             ..Header::default()
         }
     }
@@ -271,19 +178,18 @@ impl Structure for Bvh {
     }
 
     fn sizes(&self) -> &Sizes {
-        &self.sizes
+        self.pools.sizes()
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        self.pools = Pools::new(device, &self.layout, self.config.addressing, sizes)?;
-        self.sizes = sizes.clone();
+        self.pools.resize(device, sizes)?;
         self.prepared = None;
         Ok(())
     }
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         let sizes = plan(&self.config, geometry.triangle_count().into())?;
-        if sizes != self.sizes {
+        if sizes != *self.pools.sizes() {
             self.resize(device, &sizes)?;
         }
         self.geometry = geometry.clone();
@@ -297,13 +203,13 @@ impl Structure for Bvh {
         }
         self.prepared = None;
         let triangles = self.geometry.triangle_count() as usize;
-        self.pools.header_source.write(0, bytes_of(&self.first_header(BVH_NONE)))?;
-        device.submit(|recorder| self.build.record_boxes(recorder, &self.target()))?;
-        let boxes = device.download_as::<Box3>(&self.pools.scratch, 0, triangles)?;
+        self.pools.write_header(&self.first_header(BVH_NONE))?;
+        device.submit(|recorder| self.build.record_boxes(recorder, self.target()))?;
+        let boxes = device.download_as::<Box3>(self.pools.pool("scratch"), 0, triangles)?;
         let tree = host::build(&boxes, self.config.leaf);
-        device.upload_slice(&self.pools.nodes, 0, &tree.nodes)?;
+        device.upload_slice(self.pools.pool("nodes"), 0, &tree.nodes)?;
         let order_at = size_of::<Box3>() * triangles;
-        device.upload_slice(&self.pools.scratch, order_at as u64, &tree.order)?;
+        device.upload_slice(self.pools.pool("scratch"), order_at as u64, &tree.order)?;
         self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64 });
         Ok(())
     }
@@ -315,9 +221,8 @@ impl Structure for Bvh {
             Builder::Lbvh => Self::on_device(self.geometry.triangle_count().into()),
         };
         self.nodes = prepared.nodes;
-        self.pools.header_source.write(0, bytes_of(&self.first_header(prepared.root)))?;
-        self.build.record(recorder, &self.target());
-        self.pools.built = true;
+        self.pools.begin_build(&self.first_header(prepared.root))?;
+        self.build.record(recorder, self.target());
         Ok(())
     }
 
@@ -358,11 +263,7 @@ impl Structure for Bvh {
         mode: TraceMode,
         rounds: u32,
     ) {
-        if !self.pools.built {
-            rasray_ads::record_not_ready(recorder, &self.pools.header);
-        }
-        let set = self.pools.set.as_ref();
-        self.kernels.record_trace(recorder, &self.geometry, set, self.address(), queue, count, mode, rounds);
+        self.pools.record_trace(recorder, &self.kernels, &self.geometry, queue, count, mode, rounds);
     }
 
     fn record_surfaces(
@@ -371,24 +272,13 @@ impl Structure for Bvh {
         queue: &RayQueue,
         count: u32,
     ) -> Result<(), AdsError> {
-        let set = self.pools.set.as_ref();
-        if self.kernels.record_surfaces(recorder, &self.geometry, set, self.address(), queue, count) {
-            Ok(())
-        } else {
-            Err(AdsError::NoScene { structure: self.name() })
-        }
+        self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let triangles = u64::from(self.geometry.triangle_count());
-        let mut slack = 0;
-        let mut bytes_by_part = Vec::new();
-        for pool in &self.sizes.pools {
-            let used = if pool.name == "nodes" { self.nodes.min(pool.elements) } else { pool.elements };
-            bytes_by_part.push((pool.name, used * pool.element_bytes));
-            slack += (pool.elements - used) * pool.element_bytes;
-        }
-        bytes_by_part.push(("slack", slack));
+        let bytes_by_part =
+            self.pools.bytes_by_part(|pool| if pool.name == "nodes" { self.nodes } else { pool.elements });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),

@@ -1,0 +1,98 @@
+//! How shaders reach the pools of a structure, and which modules a structure uses for it.
+
+use rasray_gpu::{Device, Feature, Requirements};
+use rasray_shaders_glsl::Shader;
+
+use crate::{AdsError, SceneBinding};
+
+/// How shaders reach the pools. Changes no hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Addressing {
+    /// Storage-buffer descriptors; a pool is limited to `maxStorageBufferRange`.
+    #[default]
+    Descriptor,
+    /// Device addresses in the header; needs `bufferDeviceAddress`.
+    Address,
+}
+
+impl Addressing {
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Descriptor => "descriptor",
+            Self::Address => "address",
+        }
+    }
+
+    /// Adds the device features that it needs.
+    pub fn add_to(self, requirements: &mut Requirements) {
+        if self == Self::Address {
+            requirements.required.push(Feature::BufferDeviceAddress);
+        }
+    }
+
+    /// Checks that a device offers it.
+    ///
+    /// # Errors
+    /// Addresses without `bufferDeviceAddress`.
+    pub fn check(self, device: &Device) -> Result<(), AdsError> {
+        if self == Self::Address && !device.has(Feature::BufferDeviceAddress) {
+            return Err(AdsError::Option {
+                option: "addressing",
+                value: self.name().to_owned(),
+                expected: "device addresses need the feature bufferDeviceAddress, which was not enabled on this device",
+            });
+        }
+        Ok(())
+    }
+}
+
+/// Finds the modules of one structure for one addressing.
+#[derive(Clone, Copy, Debug)]
+pub struct Modules {
+    /// Name of the structure, for errors.
+    pub structure: &'static str,
+    /// Folder of its shaders.
+    pub prefix: &'static str,
+    /// How its shaders reach the pools.
+    pub addressing: Addressing,
+}
+
+/// Modules that trace a queue.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceModules {
+    /// Closest hit.
+    pub closest: &'static Shader,
+    /// Occlusion.
+    pub occluded: &'static Shader,
+    /// Surfaces; absent where the scene's shaders are not compiled in.
+    pub surfaces: Option<&'static Shader>,
+}
+
+impl Modules {
+    /// The module of a name, as the folder of the structure's shaders lists it.
+    ///
+    /// # Errors
+    /// It is not compiled in, which only modules that read a scene may be.
+    pub fn find(&self, name: &str) -> Result<&'static Shader, AdsError> {
+        let suffix = match self.addressing {
+            Addressing::Descriptor => "",
+            Addressing::Address => ".address",
+        };
+        rasray_shaders_glsl::shader(&format!("{}/{name}{suffix}", self.prefix))
+            .ok_or(AdsError::NoScene { structure: self.structure })
+    }
+
+    /// The modules that trace.
+    ///
+    /// # Errors
+    /// The scene has alpha masks and the scene's shaders are not compiled in.
+    pub fn trace(&self, scene: Option<&SceneBinding>) -> Result<TraceModules, AdsError> {
+        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
+        Ok(TraceModules {
+            closest: self.find(if alpha { "trace_closest.alpha" } else { "trace_closest" })?,
+            occluded: self.find(if alpha { "trace_occluded.alpha" } else { "trace_occluded" })?,
+            surfaces: self.find("surfaces").ok(),
+        })
+    }
+}

@@ -1,0 +1,163 @@
+//! The passes of a build: how their pipelines are made, bound, dispatched and drawn.
+
+use bytemuck::{Pod, Zeroable, bytes_of};
+use rasray_gpu::{
+    Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline, RasterPipelineDesc,
+    Recorder, SetLayout,
+};
+
+use crate::{AdsError, Geometry, Modules, Pools, SceneBinding};
+
+/// Most workgroups along the first dimension; more go to the second, which shaders fold back.
+const MOST_GROUPS: u64 = 32_768;
+
+/// Push constants of every build pass: address of the header (zero with descriptors), and a number whose meaning
+/// is the pass's, such as the digit of a sort.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct BuildConstants {
+    structure: [u32; 2],
+    step: u32,
+}
+
+/// Makes the pipelines of a build. Sets are geometry, structure and, where given, scene.
+#[derive(Debug)]
+pub struct BuildPipelines<'a> {
+    device: &'a Device,
+    modules: Modules,
+    sets: Vec<&'a SetLayout>,
+    constants: &'a [(u32, u32)],
+}
+
+impl<'a> BuildPipelines<'a> {
+    /// `constants` are the specialisation constants of the structure: id and bits.
+    pub fn new(
+        device: &'a Device,
+        modules: Modules,
+        geometry: &'a Geometry,
+        pools: &'a Pools,
+        scene: Option<&'a SceneBinding>,
+        constants: &'a [(u32, u32)],
+    ) -> Self {
+        let mut sets = vec![geometry.layout(), pools.layout()];
+        sets.extend(scene.map(|scene| &scene.layout));
+        Self { device, modules, sets, constants }
+    }
+
+    /// A compute pass of that name.
+    ///
+    /// # Errors
+    /// The module is not compiled in, or the device refuses it.
+    pub fn compute(&self, name: &str) -> Result<ComputePipeline, AdsError> {
+        let shader = self.modules.find(name)?;
+        Ok(self.device.create_compute_pipeline(&ComputePipelineDesc {
+            name: shader.name,
+            spirv: shader.words(),
+            sets: &self.sets,
+            push_constant_bytes: size_of::<BuildConstants>() as u32,
+            constants: self.constants,
+        })?)
+    }
+
+    /// A pass without attachments that draws with the vertex and the fragment shader of these names.
+    ///
+    /// # Errors
+    /// A module is not compiled in, or the device refuses it.
+    pub fn raster(&self, vertex: &str, fragment: &str) -> Result<RasterPipeline, AdsError> {
+        let (vertex, fragment) = (self.modules.find(vertex)?, self.modules.find(fragment)?);
+        Ok(self.device.create_raster_pipeline(&RasterPipelineDesc {
+            name: fragment.name,
+            vertex_spirv: vertex.words(),
+            fragment_spirv: fragment.words(),
+            sets: &self.sets,
+            push_constant_bytes: size_of::<BuildConstants>() as u32,
+            constants: self.constants,
+        })?)
+    }
+}
+
+/// What the passes of one recording work on.
+#[derive(Clone, Copy, Debug)]
+pub struct BuildTarget<'a> {
+    /// The triangles.
+    pub geometry: &'a Geometry,
+    /// The pools; the host has written the header.
+    pub pools: &'a Pools,
+    /// The scene's set, where the pipelines were made with one.
+    pub scene: Option<&'a BindingSet>,
+}
+
+impl BuildTarget<'_> {
+    fn bind(&self, recorder: &mut Recorder<'_>, step: u32) {
+        recorder.bind_sets(0, &[self.geometry.set()]);
+        if let Some(set) = self.pools.set() {
+            recorder.bind_sets(1, &[set]);
+        }
+        if let Some(scene) = self.scene {
+            recorder.bind_sets(2, &[scene]);
+        }
+        let address = self.pools.address();
+        let structure = [address as u32, (address >> 32) as u32];
+        recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
+    }
+
+    /// Runs that many workgroups; nothing for none.
+    pub fn dispatch(&self, recorder: &mut Recorder<'_>, pipeline: &ComputePipeline, groups: u64, step: u32) {
+        if groups == 0 {
+            return;
+        }
+        let rows = groups.div_ceil(MOST_GROUPS);
+        recorder.bind_compute(pipeline);
+        self.bind(recorder, step);
+        recorder.dispatch([groups.div_ceil(rows) as u32, rows as u32, 1]);
+    }
+
+    /// A labelled pass of one dispatch, visible to compute and fragment shaders after it.
+    pub fn compute_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &ComputePipeline,
+        groups: u64,
+        step: u32,
+        readers: Access,
+    ) {
+        recorder.begin_pass(label);
+        self.dispatch(recorder, pipeline, groups, step);
+        recorder.barrier(Access::COMPUTE, readers);
+        recorder.end_pass();
+    }
+
+    /// A labelled pass that draws every triangle once a view onto a square of `side` cells, visible to compute
+    /// and fragment shaders after it.
+    pub fn raster_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &RasterPipeline,
+        side: u32,
+        views: u32,
+    ) {
+        recorder.begin_pass(label);
+        let triangles = self.geometry.triangle_count();
+        if triangles > 0 {
+            recorder.begin_rendering(side, side);
+            recorder.bind_raster(pipeline);
+            self.bind(recorder, 0);
+            recorder.draw(3 * triangles, views, 0);
+            recorder.end_rendering();
+        }
+        recorder.barrier(Access::FRAGMENT, Access::COMPUTE | Access::FRAGMENT);
+        recorder.end_pass();
+    }
+
+    /// The last pass of every build: one workgroup judges whether all was stored, and the header goes to the
+    /// host.
+    pub fn status_pass(&self, recorder: &mut Recorder<'_>, label: &str, pipeline: &ComputePipeline) {
+        recorder.begin_pass(label);
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE);
+        self.dispatch(recorder, pipeline, 1, 0);
+        self.pools.record_readback(recorder);
+        recorder.end_pass();
+    }
+}

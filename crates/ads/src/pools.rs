@@ -1,0 +1,258 @@
+//! The buffers of one structure: a header that shaders start from, and pools.
+
+use bytemuck::{AnyBitPattern, NoUninit, pod_read_unaligned};
+use rasray_gpu::{
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder,
+    SetLayout,
+};
+
+use crate::{Addressing, AdsError, Geometry, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode};
+
+/// The header's name among the pools; it is the first.
+const HEADER: &str = "header";
+
+/// Buffers of one size, one a pool, in the order of [`Sizes::pools`]. The first is the header, of one element.
+/// Its first word is the status that traces look at before anything else.
+#[derive(Debug)]
+pub struct Pools {
+    structure: &'static str,
+    addressing: Addressing,
+    layout: SetLayout,
+    sizes: Sizes,
+    header_source: Buffer,
+    header_readback: Buffer,
+    pools: Vec<Buffer>,
+    set: Option<BindingSet>,
+    /// Whether a build was recorded since: until then device memory holds anything.
+    built: bool,
+}
+
+impl Pools {
+    /// Allocates. The set has a binding a pool in the order of `sizes`, and none by address.
+    ///
+    /// # Errors
+    /// Out of memory; a pool exceeds what one binding can hold (then use device addresses).
+    pub fn new(
+        device: &Device,
+        structure: &'static str,
+        addressing: Addressing,
+        sizes: &Sizes,
+    ) -> Result<Self, AdsError> {
+        let bindings = match addressing {
+            Addressing::Descriptor => sizes.pools.len() as u32,
+            Addressing::Address => 0,
+        };
+        let layout = device.create_set_layout(structure, bindings)?;
+        Self::with_layout(device, structure, addressing, layout, sizes)
+    }
+
+    fn with_layout(
+        device: &Device,
+        structure: &'static str,
+        addressing: Addressing,
+        layout: SetLayout,
+        sizes: &Sizes,
+    ) -> Result<Self, AdsError> {
+        let buffer = |name: &str, size: u64, location| {
+            device.create_buffer(&BufferDesc {
+                name: &format!("{structure} {name}"),
+                size,
+                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
+                location,
+            })
+        };
+        let header_bytes = bytes(sizes, HEADER);
+        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
+        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
+        let pools = sizes
+            .pools
+            .iter()
+            .map(|pool| buffer(pool.name, pool.elements * pool.element_bytes, MemoryLocation::Device))
+            .collect::<Result<Vec<_>, _>>()?;
+        let set = match addressing {
+            Addressing::Descriptor => {
+                let bindings: Vec<&Buffer> = pools.iter().collect();
+                Some(device.create_binding_set(&layout, structure, &bindings)?)
+            }
+            Addressing::Address => None,
+        };
+        let sizes = sizes.clone();
+        Ok(Self {
+            structure,
+            addressing,
+            layout,
+            sizes,
+            header_source,
+            header_readback,
+            pools,
+            set,
+            built: false,
+        })
+    }
+
+    /// Allocates again. What was built is lost.
+    ///
+    /// # Errors
+    /// As for [`Pools::new`]; then the pools are as they were.
+    pub fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        *self = Self::with_layout(device, self.structure, self.addressing, self.layout.clone(), sizes)?;
+        Ok(())
+    }
+
+    /// Layout of the set; empty by address.
+    pub fn layout(&self) -> &SetLayout {
+        &self.layout
+    }
+
+    /// The set; absent by address.
+    pub fn set(&self) -> Option<&BindingSet> {
+        self.set.as_ref()
+    }
+
+    /// What is allocated.
+    pub fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
+    /// The buffer of a pool.
+    ///
+    /// # Panics
+    /// There is no pool of that name: a structure names its own.
+    pub fn pool(&self, name: &str) -> &Buffer {
+        let index = self.sizes.pools.iter().position(|pool| pool.name == name);
+        &self.pools[index.unwrap_or_else(|| panic!("{} has no pool `{name}`", self.structure))]
+    }
+
+    /// Device address of the header, which shaders start from; 0 with descriptors.
+    pub fn address(&self) -> u64 {
+        match self.addressing {
+            Addressing::Descriptor => 0,
+            Addressing::Address => self.pools[0].address().unwrap_or(0),
+        }
+    }
+
+    /// Device address of a pool as a header holds it, low word first; zero with descriptors.
+    pub fn address_of(&self, name: &str) -> [u32; 2] {
+        let address = match self.addressing {
+            Addressing::Descriptor => 0,
+            Addressing::Address => self.pool(name).address().unwrap_or(0),
+        };
+        [address as u32, (address >> 32) as u32]
+    }
+
+    /// Writes the header that the next build starts from, for [`Pools::record_header`] to copy. Traces are
+    /// answered once that build is recorded.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be written.
+    pub fn begin_build<H: NoUninit>(&mut self, header: &H) -> Result<(), GpuError> {
+        self.write_header(header)?;
+        self.built = true;
+        Ok(())
+    }
+
+    /// The same for passes that run ahead of a build.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be written.
+    pub fn write_header<H: NoUninit>(&self, header: &H) -> Result<(), GpuError> {
+        self.header_source.write(0, bytemuck::bytes_of(header))
+    }
+
+    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, both
+    /// visible to `readers`.
+    pub fn record_header(&self, recorder: &mut Recorder<'_>, label: &str, cleared: &[&str], readers: Access) {
+        recorder.begin_pass(label);
+        recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+        recorder.copy(&self.header_source, 0, &self.pools[0], 0, self.pools[0].size());
+        for name in cleared {
+            let pool = self.pool(name);
+            recorder.fill(pool, 0, pool.size(), 0);
+        }
+        recorder.barrier(Access::TRANSFER_WRITE, readers);
+        recorder.end_pass();
+    }
+
+    /// Records the copy of the header to the host, after compute shaders wrote it.
+    pub fn record_readback(&self, recorder: &mut Recorder<'_>) {
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
+        recorder.copy(&self.pools[0], 0, &self.header_readback, 0, self.pools[0].size());
+        recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
+    }
+
+    /// The header as the last build or trace left it. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    pub fn header<H: AnyBitPattern>(&self) -> Result<H, GpuError> {
+        Ok(pod_read_unaligned(&self.header_readback.read(0, size_of::<H>() as u64)?))
+    }
+
+    /// Downloads a pool in words. Submits and waits: for tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download_words(&self, device: &Device, name: &str) -> Result<Vec<u32>, GpuError> {
+        device.download_as::<u32>(self.pool(name), 0, (bytes(&self.sizes, name) / 4) as usize)
+    }
+
+    /// Bytes by part for a report: `used` gives the elements of a pool that hold something, all others are
+    /// "slack".
+    pub fn bytes_by_part(&self, used: impl Fn(&PoolSize) -> u64) -> Vec<(&'static str, u64)> {
+        let mut slack = 0;
+        let mut parts = Vec::with_capacity(self.sizes.pools.len() + 1);
+        for pool in &self.sizes.pools {
+            let used = used(pool).min(pool.elements);
+            parts.push((pool.name, used * pool.element_bytes));
+            slack += (pool.elements - used) * pool.element_bytes;
+        }
+        parts.push(("slack", slack));
+        parts
+    }
+
+    /// Records a trace of the first `count` slots. Where nothing was ever built, fresh memory may hold anything,
+    /// so the status is cleared first and rays are answered "not ready". Traces count list entries that name
+    /// nothing; the header is read back after them, so that [`crate::Structure::status`] tells.
+    #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
+    pub fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernels: &TraceKernels,
+        geometry: &Geometry,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        if !self.built {
+            recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+            recorder.fill(&self.pools[0], 0, size_of::<u32>() as u64, 0);
+            recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+        }
+        kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, count, mode, rounds);
+        self.record_readback(recorder);
+    }
+
+    /// Records the lookup of the surfaces of the first `count` slots.
+    ///
+    /// # Errors
+    /// The kernels were made without a scene.
+    pub fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernels: &TraceKernels,
+        geometry: &Geometry,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
+        if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, count) {
+            Ok(())
+        } else {
+            Err(AdsError::NoScene { structure: self.structure })
+        }
+    }
+}
+
+fn bytes(sizes: &Sizes, name: &str) -> u64 {
+    sizes.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements * pool.element_bytes)
+}
