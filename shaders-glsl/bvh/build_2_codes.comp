@@ -27,6 +27,6 @@ void main() {
     vec3 cells = clamp(middle * BVH_HEADER(bvh_built).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
     uvec3 cell = uvec3(cells);
     uint code = spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u);
-    bvh_set_scratch(bvh_built, bvh_keys(0u) + 2u * primitive, code);
-    bvh_set_scratch(bvh_built, bvh_keys(0u) + 2u * primitive + 1u, primitive);
+    bvh_set_scratch(bvh_built, bvh_keys(bvh_built, 0u) + 2u * primitive, code);
+    bvh_set_scratch(bvh_built, bvh_keys(bvh_built, 0u) + 2u * primitive + 1u, primitive);
 }

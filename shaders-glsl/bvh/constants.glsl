@@ -37,8 +37,7 @@
 #define BVH_UNION 4u
 #define BVH_UNION_LEVELS 15u
 
-// Threads in a workgroup of the build's passes, and of the pass that is one workgroup.
+// Threads in a workgroup of the build's passes.
 #define BVH_GROUP_SIZE 64u
-#define BVH_SCAN_SIZE 256u
 
 #endif

@@ -12,7 +12,7 @@ uint union_count(uint below) {
 
 // First word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no words.
 uint union_offset(uint level, uint offset, uint count) {
-    return level == 0u ? bvh_unions() : offset + 6u * count;
+    return level == 0u ? bvh_unions(bvh_built) : offset + 6u * count;
 }
 
 // Widens a box by one of a level.

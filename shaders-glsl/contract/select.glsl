@@ -4,10 +4,7 @@
 #ifndef CONTRACT_SELECT_GLSL
 #define CONTRACT_SELECT_GLSL
 
-#define STRUCTURE_BRUTE 1
-#define STRUCTURE_ABUFFER 2
-#define STRUCTURE_BVH 3
-#define STRUCTURE_PRIMITIVE 4
+#include "contract/structures.glsl"
 
 #if STRUCTURE == STRUCTURE_BRUTE
 #include "brute/trace.glsl"

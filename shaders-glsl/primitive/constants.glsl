@@ -30,8 +30,4 @@
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u
 
-// List lengths that one workgroup of the scan adds up, and its threads.
-#define PRIMITIVE_SCAN_BLOCK 1024u
-#define PRIMITIVE_SCAN_THREADS 256u
-
 #endif

@@ -1,8 +1,8 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
-use rasray_shaders_glsl::constants::primitive::{PRIMITIVE_GROUP_SIZE, PRIMITIVE_SCAN_BLOCK};
+use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
 use crate::layout::cell_count;
 use crate::{Config, Storage};
@@ -25,21 +25,14 @@ pub(crate) struct Build {
 #[derive(Debug)]
 struct Lengths {
     count: RasterPipeline,
-    blocks: ComputePipeline,
-    sums: ComputePipeline,
-    places: ComputePipeline,
+    scan: Scan,
 }
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let raster = |name| pipelines.raster("build_raster", name);
         let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths {
-                count: raster("build_4_count")?,
-                blocks: pipelines.compute("build_5_scan_blocks")?,
-                sums: pipelines.compute("build_5_scan_sums")?,
-                places: pipelines.compute("build_5_scan_places")?,
-            })
+            Ok(Lengths { count: raster("build_4_count")?, scan: Scan::new(pipelines, "build_5_scan")? })
         };
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
@@ -77,14 +70,7 @@ impl Build {
         }
         if let Some(lengths) = &self.lengths {
             target.raster_pass(recorder, "primitive/build_4_count", &lengths.count, side, VIEWS);
-            recorder.begin_pass("primitive/build_5_scan");
-            target.dispatch(recorder, &lengths.blocks, lists.div_ceil(u64::from(PRIMITIVE_SCAN_BLOCK)), 0);
-            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
-            target.dispatch(recorder, &lengths.sums, 1, 0);
-            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
-            target.dispatch(recorder, &lengths.places, lists.div_ceil(group), 0);
-            recorder.barrier(Access::COMPUTE, shaders);
-            recorder.end_pass();
+            lengths.scan.record(recorder, target, "primitive/build_5_scan", lists, 0, shaders);
         }
         target.raster_pass(recorder, "primitive/build_6_store", &self.store, side, VIEWS);
         target.status_pass(recorder, "primitive/build_7_status", &self.status);

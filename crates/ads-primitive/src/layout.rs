@@ -1,7 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Sizes};
-use rasray_shaders_glsl::constants::primitive::PRIMITIVE_SCAN_BLOCK;
+use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
 use crate::{Config, Header, Storage};
 
@@ -38,7 +37,7 @@ pub fn plan(config: &Config, entries: u64, near_triangles: u64) -> Result<Sizes,
     let lists = cells * u64::from(config.buckets);
     let blocks = match config.storage {
         Storage::Linked => 0,
-        Storage::Contiguous => lists.div_ceil(u64::from(PRIMITIVE_SCAN_BLOCK)),
+        Storage::Contiguous => Scan::sums(lists),
     };
     let sizes = [
         (1, size_of::<Header>() as u64),

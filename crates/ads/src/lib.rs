@@ -28,6 +28,7 @@ mod kernels;
 mod passes;
 mod pools;
 mod queue;
+mod scan;
 mod steps;
 mod structure;
 mod types;
@@ -41,6 +42,7 @@ pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use passes::{BuildPipelines, BuildTarget};
 pub use pools::Pools;
 pub use queue::{QueueCounters, QueueParts, RayQueue};
+pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{
     BuildStatus, Check, PoolSize, PoolStatus, Sizes, Structure, StructureKind, StructureReport, TraceMode,

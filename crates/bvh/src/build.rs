@@ -1,8 +1,8 @@
 //! The build on the device: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::bvh::{BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
+use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
 
 use crate::layout::union_levels;
 use crate::{Builder, Config};
@@ -25,9 +25,7 @@ enum OfBuilder {
 struct LbvhPipelines {
     codes: ComputePipeline,
     counts: ComputePipeline,
-    sums: ComputePipeline,
-    scan: ComputePipeline,
-    starts: ComputePipeline,
+    scan: Scan,
     scatter: ComputePipeline,
     unions: ComputePipeline,
     topology: ComputePipeline,
@@ -41,15 +39,13 @@ impl Build {
             Builder::Lbvh => OfBuilder::Lbvh(Box::new(LbvhPipelines {
                 codes: compute("build_2_codes")?,
                 counts: compute("build_3_counts")?,
-                sums: compute("build_4_sums")?,
-                scan: compute("build_5_scan")?,
-                starts: compute("build_6_starts")?,
-                scatter: compute("build_7_scatter")?,
-                unions: compute("build_9_unions")?,
-                topology: compute("build_10_topology")?,
+                scan: Scan::new(pipelines, "build_4_scan")?,
+                scatter: compute("build_5_scatter")?,
+                unions: compute("build_7_unions")?,
+                topology: compute("build_8_topology")?,
             })),
         };
-        Ok(Self { of_builder, records: compute("build_8_records")?, status: compute("build_11_status")? })
+        Ok(Self { of_builder, records: compute("build_6_records")?, status: compute("build_9_status")? })
     }
 
     /// Records what the host needs to know of the triangles. The host has written the header.
@@ -69,11 +65,11 @@ impl Build {
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
             pipelines.record_order(recorder, target);
         }
-        pass(recorder, target, "bvh/build_8_records", &self.records, 0, triangles);
+        pass(recorder, target, "bvh/build_6_records", &self.records, 0, triangles);
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
             pipelines.record_nodes(recorder, target);
         }
-        target.status_pass(recorder, "bvh/build_11_status", &self.status);
+        target.status_pass(recorder, "bvh/build_9_status", &self.status);
     }
 }
 
@@ -82,15 +78,13 @@ impl LbvhPipelines {
     fn record_order(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         let chunks = triangles.div_ceil(BVH_SORT_CHUNK);
+        let counts = u64::from(chunks) * u64::from(BVH_DIGIT_VALUES);
         pass(recorder, target, "bvh/build_2_codes", &self.codes, 0, triangles);
         // Four digits take the keys from the first buffer to the second and back twice.
         for digit in 0..BVH_DIGITS {
             pass(recorder, target, "bvh/build_3_counts", &self.counts, digit, chunks);
-            pass(recorder, target, "bvh/build_4_sums", &self.sums, digit, chunks);
-            // One workgroup, however large.
-            pass(recorder, target, "bvh/build_5_scan", &self.scan, digit, chunks.min(1));
-            pass(recorder, target, "bvh/build_6_starts", &self.starts, digit, chunks);
-            pass(recorder, target, "bvh/build_7_scatter", &self.scatter, digit, chunks);
+            self.scan.record(recorder, target, "bvh/build_4_scan", counts, digit, Access::COMPUTE);
+            pass(recorder, target, "bvh/build_5_scatter", &self.scatter, digit, chunks);
         }
     }
 
@@ -98,10 +92,10 @@ impl LbvhPipelines {
     fn record_nodes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
-            pass(recorder, target, "bvh/build_9_unions", &self.unions, level, boxes as u32);
+            pass(recorder, target, "bvh/build_7_unions", &self.unions, level, boxes as u32);
         }
         let nodes = triangles.saturating_sub(1);
-        pass(recorder, target, "bvh/build_10_topology", &self.topology, 0, nodes);
+        pass(recorder, target, "bvh/build_8_topology", &self.topology, 0, nodes);
     }
 }
 

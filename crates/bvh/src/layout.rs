@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Sizes};
+use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_UNION};
 
 use crate::{Builder, Config, Header, Node, Record};
@@ -17,7 +17,8 @@ fn scratch_words(builder: Builder, triangles: u64) -> u64 {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
         Builder::Lbvh => {
             let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
-            4 * triangles + (u64::from(BVH_DIGIT_VALUES) + 1) * chunks + 6 * unions(triangles)
+            let counts = u64::from(BVH_DIGIT_VALUES) * chunks;
+            4 * triangles + counts + Scan::sums(counts) + 6 * unions(triangles)
         }
     }
 }
@@ -58,8 +59,8 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 pub struct FormulaBytes {
     /// What traces read: header 96, 64 a node, 40 a triangle.
     pub traced: u64,
-    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1028 for
-    /// every 256 of them, and 24 a union of four boxes, unions of unions included, each rounded up.
+    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1024 for
+    /// every 256 of them, 4 for every 1024 of them, and 24 a union of four boxes, unions of unions included, each rounded up.
     pub scratch: u64,
 }
 
@@ -80,7 +81,8 @@ pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaByt
                 level = level.div_ceil(4);
                 boxes += level;
             }
-            16 * triangles + 1028 * triangles.div_ceil(256) + 24 * boxes
+            let chunks = triangles.div_ceil(256);
+            16 * triangles + 1024 * chunks + 4 * chunks.div_ceil(4) + 24 * boxes
         }
     };
     FormulaBytes { traced: 96 + 64 * nodes + 40 * triangles, scratch }

@@ -1,12 +1,12 @@
-// What: adds up numbers across a workgroup of PRIMITIVE_SCAN_THREADS threads.
+// What: the running sum across a workgroup of SCAN_THREADS threads.
 // Reads, writes: shared memory.
 // Source: Hillis and Steele 1986.
-#ifndef PRIMITIVE_SCAN_GLSL
-#define PRIMITIVE_SCAN_GLSL
+#ifndef ADS_SCAN_GLSL
+#define ADS_SCAN_GLSL
 
-#include "primitive/constants.glsl"
+#include "ads/constants.glsl"
 
-shared uint scan_values[PRIMITIVE_SCAN_THREADS];
+shared uint scan_values[SCAN_THREADS];
 
 // The sum of `value` over all threads up to and including this one. Every thread of the group calls it.
 uint scan_inclusive(uint value) {
@@ -14,7 +14,7 @@ uint scan_inclusive(uint value) {
     barrier();
     scan_values[thread] = value;
     barrier();
-    for (uint reach = 1u; reach < PRIMITIVE_SCAN_THREADS; reach *= 2u) {
+    for (uint reach = 1u; reach < SCAN_THREADS; reach *= 2u) {
         uint before = thread >= reach ? scan_values[thread - reach] : 0u;
         barrier();
         scan_values[thread] += before;
@@ -25,7 +25,7 @@ uint scan_inclusive(uint value) {
 
 // The sum over all threads, after scan_inclusive.
 uint scan_total() {
-    return scan_values[PRIMITIVE_SCAN_THREADS - 1u];
+    return scan_values[SCAN_THREADS - 1u];
 }
 
 #endif

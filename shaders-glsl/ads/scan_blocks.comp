@@ -1,0 +1,36 @@
+// What: replaces each number by the sum of those before it in its block of SCAN_BLOCK, and adds blocks up.
+// Reads: numbers. Writes: numbers, sums. One workgroup a block.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/scan_select.glsl"
+
+layout(local_size_x = SCAN_THREADS) in;
+
+layout(push_constant, scalar) uniform ScanConstants {
+    ScanRef scanned;
+    uint scan_step;
+};
+
+const uint SHARE = SCAN_BLOCK / SCAN_THREADS;
+
+void main() {
+    uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint count = scan_count(scanned, scan_step);
+    uint first = block * SCAN_BLOCK + gl_LocalInvocationID.x * SHARE;
+    uint numbers[SHARE];
+    uint sum = 0u;
+    for (uint i = 0u; i < SHARE; i++) {
+        numbers[i] = first + i < count ? scan_number(scanned, scan_step, first + i) : 0u;
+        sum += numbers[i];
+    }
+    uint before = scan_inclusive(sum) - sum;
+    for (uint i = 0u; i < SHARE; i++) {
+        if (first + i < count) {
+            scan_set_number(scanned, scan_step, first + i, before);
+        }
+        before += numbers[i];
+    }
+    if (gl_LocalInvocationID.x == 0u && block * SCAN_BLOCK < count) {
+        scan_set_sum(scanned, scan_step, block, scan_total());
+    }
+}

@@ -1,0 +1,32 @@
+// What: where the parts of the scratch pool are, in words. That of a build on the host: boxes (6 a triangle), then
+// the order of the leaves. That of a build on the device: keys (code and primitive) twice, counts by digit and
+// chunk, the sums of their scan, then the unions of boxes (unions.glsl).
+// Reads: header.
+#ifndef BVH_SCRATCH_GLSL
+#define BVH_SCRATCH_GLSL
+
+#include "ads/constants.glsl"
+#include "bvh/accessors.glsl"
+
+uint bvh_keys(BvhRef s, uint buffer_index) {
+    return 2u * buffer_index * BVH_HEADER(s).triangle_count;
+}
+
+uint bvh_chunks(BvhRef s) {
+    return (BVH_HEADER(s).triangle_count + BVH_SORT_CHUNK - 1u) / BVH_SORT_CHUNK;
+}
+
+// Counts by digit, then by chunk: their running sum is where each chunk's keys of a digit begin.
+uint bvh_counts(BvhRef s) {
+    return 4u * BVH_HEADER(s).triangle_count;
+}
+
+uint bvh_sums(BvhRef s) {
+    return bvh_counts(s) + BVH_DIGIT_VALUES * bvh_chunks(s);
+}
+
+uint bvh_unions(BvhRef s) {
+    return bvh_sums(s) + (BVH_DIGIT_VALUES * bvh_chunks(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
+}
+
+#endif

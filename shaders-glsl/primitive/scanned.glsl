@@ -1,0 +1,34 @@
+// What: the numbers that the scan of contiguous lists runs over: lengths become places, their sum the demand.
+// Reads, writes: lists, sums, header.demand.
+#ifndef PRIMITIVE_SCANNED_GLSL
+#define PRIMITIVE_SCANNED_GLSL
+
+#include "primitive/accessors.glsl"
+
+#define ScanRef PrimitiveRef
+
+uint scan_count(PrimitiveRef s, uint step) {
+    return primitive_list_count(s);
+}
+
+uint scan_number(PrimitiveRef s, uint step, uint i) {
+    return PRIMITIVE_LISTS(s)[i];
+}
+
+void scan_set_number(PrimitiveRef s, uint step, uint i, uint number) {
+    PRIMITIVE_LISTS(s)[i] = number;
+}
+
+uint scan_sum(PrimitiveRef s, uint step, uint block) {
+    return PRIMITIVE_SUMS(s)[block];
+}
+
+void scan_set_sum(PrimitiveRef s, uint step, uint block, uint sum) {
+    PRIMITIVE_SUMS(s)[block] = sum;
+}
+
+void scan_set_total(PrimitiveRef s, uint step, uint total) {
+    PRIMITIVE_HEADER(s).demand = total;
+}
+
+#endif
