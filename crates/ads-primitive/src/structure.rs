@@ -1,9 +1,9 @@
 //! Primitive lists as a structure.
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, Modules, PoolStatus,
-    Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
-    TraceKernelsDesc, TraceMode,
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
+    PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
+    TraceKernels, TraceKernelsDesc, TraceMode,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
@@ -220,6 +220,10 @@ impl Structure for PrimitiveLists {
         count: u32,
     ) -> Result<(), AdsError> {
         self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
+    }
+
+    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
+        Some(self.pools.inline_trace(self.config.constants()))
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

@@ -6,7 +6,9 @@ use rasray_gpu::{
     SetLayout,
 };
 
-use crate::{Addressing, AdsError, Geometry, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode};
+use crate::{
+    Addressing, AdsError, Geometry, InlineTrace, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode,
+};
 
 /// The header's name among the pools; it is the first.
 const HEADER: &str = "header";
@@ -208,6 +210,11 @@ impl Pools {
         }
         parts.push(("slack", slack));
         parts
+    }
+
+    /// How a shader of one's own reaches the pools, with the structure's specialisation constants.
+    pub fn inline_trace(&self, constants: Vec<(u32, u32)>) -> InlineTrace<'_> {
+        InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
     }
 
     /// Records a trace of the first `count` slots. Where nothing was ever built, fresh memory may hold anything,

@@ -1,6 +1,6 @@
 //! The contract between structures and everything that traces through them.
 
-use rasray_gpu::{Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
 use crate::{AdsError, Counters, Geometry, RayQueue};
 
@@ -107,6 +107,20 @@ impl StructureReport {
     }
 }
 
+/// What a shader of one's own needs to call the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
+/// `x_surface_at` of the structure's folder) beside its own work.
+#[derive(Clone, Debug)]
+pub struct InlineTrace<'a> {
+    /// Layout of the structure's set, which the shader finds at `STRUCTURE_SET`; empty by address.
+    pub layout: &'a SetLayout,
+    /// The set; absent by address.
+    pub set: Option<&'a BindingSet>,
+    /// What the structure's reference (`XRef`) holds: the header's device address, zero with descriptors.
+    pub address: u64,
+    /// Specialisation constants of the structure: id and bits. Ids of different structures do not collide.
+    pub constants: Vec<(u32, u32)>,
+}
+
 /// A structure that rays are traced through.
 ///
 /// One value is one set of buffers: for n frames in flight keep n values.
@@ -188,6 +202,12 @@ pub trait Structure {
         queue: &RayQueue,
         count: u32,
     ) -> Result<(), AdsError>;
+
+    /// How a shader of one's own traces through it, as it is until the next resize; absent where a structure has
+    /// no functions to call. Whether it is ready is in its status, which its functions look at.
+    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
+        None
+    }
 
     /// Options, paths and bytes.
     ///

@@ -1,9 +1,9 @@
 //! The BVH as a structure.
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, Modules, PoolStatus,
-    Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
-    TraceKernelsDesc, TraceMode,
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
+    PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
+    TraceKernels, TraceKernelsDesc, TraceMode,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
@@ -273,6 +273,10 @@ impl Structure for Bvh {
         count: u32,
     ) -> Result<(), AdsError> {
         self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
+    }
+
+    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
+        Some(self.pools.inline_trace(Vec::new()))
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
