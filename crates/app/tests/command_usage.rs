@@ -48,6 +48,7 @@ fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
         ("compare cornell --systems brute-force mmrt.sort=on", "mmrt", "--systems"),
         ("compare cornell --systems mmrt --report missing/r.json", "missing/r.json", "mkdir"),
         ("compare cornell --systems mmrt --report a --html ./a", "same file", "two files"),
+        ("compare cornell --systems mmrt --html a --markdown ./a", "same file", "two files"),
         ("compare broken.glb --systems mmrt --html broken.glb", "scene file", "report.json"),
         ("compare cornell --systems mmrt --check", "--check", "hard:E5"),
         ("compare cornell --systems mmrt --rays-file missing.rays", "missing.rays", "check the name"),

@@ -57,7 +57,7 @@ pub struct CompareArguments {
     #[arg(long)]
     pub check: bool,
     /// Show step by step what every system and the oracle do for one ray of the set, instead of comparing
-    #[arg(long, value_name = "INDEX", conflicts_with_all = ["image", "report", "html", "hits_file", "save_rays", "save_hits"])]
+    #[arg(long, value_name = "INDEX", conflicts_with_all = ["image", "report", "html", "markdown", "hits_file", "save_rays", "save_hits"])]
     pub replay: Option<u32>,
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
@@ -68,6 +68,9 @@ pub struct CompareArguments {
     /// Page with tables, pictures and graphs, whole in one file
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
+    /// Markdown table of all ray sets, a line a run
+    #[arg(long, value_name = "FILE")]
+    pub markdown: Option<PathBuf>,
     /// Rays for others and from others.
     #[command(flatten)]
     pub files: RayFileArguments,

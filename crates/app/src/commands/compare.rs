@@ -8,7 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::ray_files::{self, SaveTargets};
 use crate::report::figures::Figures;
-use crate::report::{Report, SceneRecord, html, table};
+use crate::report::{Report, SceneRecord, html, markdown, table};
 use crate::{camera, scene_source, systems, terminal};
 use std::ffi::OsStr;
 
@@ -100,6 +100,7 @@ pub(crate) fn compare(
 pub(super) struct Targets {
     report: Option<Destination>,
     html: Option<Destination>,
+    markdown: Option<Destination>,
     save: SaveTargets,
 }
 
@@ -108,15 +109,25 @@ impl Targets {
     pub(super) fn check(given: &CompareArguments, scene: &OsStr) -> Result<Self, AppError> {
         let report = destination(given.report.as_deref())?;
         let html = destination(given.html.as_deref())?;
-        if let (Some(report), Some(html)) = (&report, &html)
-            && report.same_as(html)
-        {
-            return Err(AppError::usage("--report and --html name the same file", "name two files"));
+        let markdown = destination(given.markdown.as_deref())?;
+        let named = [("--report", &report), ("--html", &html), ("--markdown", &markdown)];
+        for (index, (option, place)) in named.iter().enumerate() {
+            for (other, twin) in &named[..index] {
+                if let (Some(place), Some(twin)) = (place, twin)
+                    && place.same_as(twin)
+                {
+                    return Err(AppError::usage(
+                        format!("{other} and {option} name the same file"),
+                        "name two files",
+                    ));
+                }
+            }
         }
         keep_inputs("--report", report.as_ref(), scene)?;
         keep_inputs("--html", html.as_ref(), scene)?;
+        keep_inputs("--markdown", markdown.as_ref(), scene)?;
         let save = SaveTargets::check(given.files.save_rays.as_deref(), given.files.save_hits.as_deref())?;
-        Ok(Self { report, html, save })
+        Ok(Self { report, html, markdown, save })
     }
 
     /// Whether a page is wanted, and with it figures.
@@ -131,7 +142,7 @@ impl Targets {
 
     /// Whether a file keeps the runs.
     fn any(&self) -> bool {
-        self.report.is_some() || self.html.is_some()
+        self.report.is_some() || self.html.is_some() || self.markdown.is_some()
     }
 
     /// Writes the report and the page where they are wanted.
@@ -143,6 +154,9 @@ impl Targets {
     ) -> Result<(), AppError> {
         if let Some(place) = &self.report {
             place.write(report.to_json().as_bytes(), interrupt)?;
+        }
+        if let Some(place) = &self.markdown {
+            place.write(markdown(report).as_bytes(), interrupt)?;
         }
         if let Some(place) = &self.html {
             place.write(&html::page(report, figures)?, interrupt)?;

@@ -2,9 +2,11 @@
 
 pub mod figures;
 pub mod html;
+mod markdown;
 mod schema;
 mod table;
 
+pub use markdown::markdown;
 pub use schema::{
     Accuracy, Bound, Counters, Device, HardRecord, ImageError, Memory, Pass, RateRecord, Report, Run, SCHEMA,
     SceneRecord, Spread, Statistics, Timer, Times,

@@ -1,0 +1,187 @@
+//! The runs of a report side by side as one Markdown table, for pages that publish them.
+
+use super::schema::{Accuracy, Report, Run};
+use super::table::grouped;
+
+/// The system whose rate others are put in relation to, where a report has it.
+const YARDSTICK: (&str, &str) = ("bvh", "robust");
+
+/// Heads of the columns; those after the second are aligned to the right.
+const HEADS: [&str; 15] = [
+    "structure",
+    "rays",
+    "build ms",
+    "of it host",
+    "trace ms",
+    "Mrays/s",
+    "x bvh",
+    "KiB",
+    "B/triangle",
+    "cells/ray",
+    "entries/ray",
+    "tests/ray",
+    "missed",
+    "false",
+    "wrong",
+];
+
+/// The table, one row a run, with |dt|/t percentiles behind the counts of wrong answers. What was not measured is an
+/// empty cell. Counts are over the unambiguous rays, whose number heads the table with the scene and the device.
+pub fn markdown(report: &Report) -> String {
+    let heads: Vec<&str> = HEADS.into_iter().chain(["dt/t p50", "dt/t p99"]).collect();
+    let rules = (0..heads.len()).map(|column| if column < 2 { "---" } else { "---:" });
+    let mut text = title(report);
+    text += &row(heads.iter().map(|&head| head.to_owned()));
+    text += &row(rules.map(str::to_owned));
+    for run in report.runs.iter().filter(|run| run.ray_set.is_some()) {
+        text += &row(cells(report, run));
+    }
+    text
+}
+
+fn title(report: &Report) -> String {
+    let scene = &report.scene;
+    let device = &report.device;
+    let software = if device.software { ", a software driver: times are for ratios" } else { "" };
+    let judged = report.runs.iter().filter_map(|run| run.accuracy.as_ref()).map(judged);
+    let rays = match (judged.clone().min(), judged.max()) {
+        (Some(least), Some(most)) if least == most => format!("{} unambiguous rays a set. ", grouped(most)),
+        (Some(least), Some(most)) => {
+            format!("{} to {} unambiguous rays a set. ", grouped(least), grouped(most))
+        }
+        _ => String::new(),
+    };
+    let command = report.command.as_ref().map(|line| format!("\n```\n{line}\n```\n")).unwrap_or_default();
+    let triangles = grouped(scene.triangles);
+    let (scene, device) = (&scene.name, &device.name);
+    format!("**{scene}**, {triangles} triangles. {rays}Device: {device}{software}.\n{command}\n")
+}
+
+fn judged(accuracy: &Accuracy) -> u64 {
+    accuracy.rays - accuracy.ambiguous
+}
+
+fn row(cells: impl IntoIterator<Item = String>) -> String {
+    let cells: Vec<String> = cells.into_iter().collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+fn cells(report: &Report, run: &Run) -> Vec<String> {
+    let number =
+        |value: Option<f64>, digits: usize| value.map(|v| format!("{v:.digits$}")).unwrap_or_default();
+    let count = |value: Option<u64>| value.map(grouped).unwrap_or_default();
+    let tiny = |value: Option<f64>| value.map(|v| format!("{v:.1e}")).unwrap_or_default();
+    let bytes = run.memory.as_ref().and_then(|memory| memory.structure_bytes).map(|bytes| bytes as f64);
+    let counters = run.counters.as_ref();
+    let accuracy = run.accuracy.as_ref();
+    let triangles = (report.scene.triangles > 0).then_some(report.scene.triangles as f64);
+    vec![
+        name(report, run),
+        run.ray_set.clone().unwrap_or_default(),
+        number(run.times.build_ms, 2),
+        number(run.times.build_host_ms.filter(|&host| host > 0.0), 2),
+        number(run.times.trace_ms, 2),
+        number(run.times.mrays_per_s, 3),
+        number(relation(report, run), 2),
+        number(bytes.map(|bytes| bytes / 1024.0), 0),
+        number(bytes.zip(triangles).map(|(bytes, triangles)| bytes / triangles), 0),
+        number(counters.and_then(|c| c.cells_per_ray), 2),
+        number(counters.and_then(|c| c.nodes_per_ray), 2),
+        number(counters.and_then(|c| c.tests_per_ray), 2),
+        count(accuracy.map(|a| a.missed)),
+        count(accuracy.map(|a| a.false_hits)),
+        count(accuracy.and_then(|a| a.wrong_primitive)),
+        tiny(accuracy.and_then(|a| a.dt_rel_p50)),
+        tiny(accuracy.and_then(|a| a.dt_rel_p99)),
+    ]
+}
+
+/// System and preset, with the options in which runs of the same name differ.
+fn name(report: &Report, run: &Run) -> String {
+    let twins = report.runs.iter().filter(|other| {
+        (&other.system, &other.preset, &other.ray_set) == (&run.system, &run.preset, &run.ray_set)
+    });
+    let mut differing: Vec<String> = Vec::new();
+    for twin in twins {
+        for (option, value) in &run.options {
+            if twin.options.get(option) != Some(value) {
+                let word = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+                differing.push(format!("{option}={word}"));
+            }
+        }
+    }
+    differing.sort();
+    differing.dedup();
+    let name = format!("{} {}", run.system, run.preset);
+    if differing.is_empty() { name } else { format!("{name} {}", differing.join(" ")) }
+}
+
+/// Rays per second over those of the yardstick on the same rays; absent where the yardstick was not traced, or
+/// stands there more than once.
+fn relation(report: &Report, run: &Run) -> Option<f64> {
+    let mut yardsticks = report.runs.iter().filter(|other| {
+        (other.system.as_str(), other.preset.as_str()) == YARDSTICK && other.ray_set == run.ray_set
+    });
+    let yardstick = yardsticks.next()?;
+    if yardsticks.next().is_some() {
+        return None;
+    }
+    Some(run.times.mrays_per_s? / yardstick.times.mrays_per_s?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Device, Memory, SceneRecord, Times};
+    use serde_json::Value;
+
+    fn run(system: &str, storage: &str, rate: f64) -> Run {
+        Run {
+            system: system.to_owned(),
+            preset: "robust".to_owned(),
+            ray_set: Some("eye".to_owned()),
+            options: [("storage".to_owned(), Value::from(storage))].into(),
+            times: Times { mrays_per_s: Some(rate), ..Times::default() },
+            memory: Some(Memory { structure_bytes: Some(2048), ..Memory::default() }),
+            accuracy: Some(Accuracy { rays: 1500, ambiguous: 500, missed: 7, ..Accuracy::default() }),
+            ..Run::default()
+        }
+    }
+
+    fn report(runs: Vec<Run>) -> Report {
+        let scene = SceneRecord { name: "box".to_owned(), triangles: 16, sha256: None };
+        Report::new(Device::default(), scene, Some("rasray compare box".to_owned()), runs)
+    }
+
+    fn lines(text: &str) -> Vec<Vec<&str>> {
+        let rows = text.lines().filter(|line| line.starts_with('|'));
+        rows.map(|line| line.trim_matches('|').split('|').map(str::trim).collect()).collect()
+    }
+
+    #[test]
+    fn rates_are_put_in_relation_and_missing_figures_are_empty() {
+        let image = Run { integrator: Some("path".to_owned()), ..Run::default() };
+        let text = markdown(&report(vec![run("mmrt", "sb", 1.5), run("bvh", "tree", 3.0), image]));
+        assert!(text.contains("1,000 unambiguous rays") && text.contains("rasray compare box"), "{text}");
+        let rows = lines(&text);
+        assert_eq!(rows.len(), 4, "{text}");
+        assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+        let cell = |row: usize, head: &str| {
+            let column = rows[0].iter().position(|&h| h == head).expect("a column of that head");
+            rows[row][column]
+        };
+        assert_eq!(cell(2, "structure"), "mmrt robust");
+        assert_eq!((cell(2, "x bvh"), cell(3, "x bvh")), ("0.50", "1.00"));
+        assert_eq!((cell(2, "KiB"), cell(2, "B/triangle"), cell(2, "missed")), ("2", "128", "7"));
+        assert_eq!((cell(2, "build ms"), cell(2, "wrong"), cell(2, "dt/t p50")), ("", "", ""));
+    }
+
+    #[test]
+    fn runs_of_one_name_are_told_apart_by_their_options() {
+        let text = markdown(&report(vec![run("mmrt", "sb", 1.5), run("mmrt", "ll", 3.0)]));
+        let rows = lines(&text);
+        assert_eq!((rows[2][0], rows[3][0]), ("mmrt robust storage=sb", "mmrt robust storage=ll"));
+        let x = rows[0].iter().position(|&h| h == "x bvh").expect("the column");
+        assert_eq!(rows[2][x], "", "nothing to be put in relation to");
+    }
+}
