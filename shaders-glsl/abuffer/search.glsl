@@ -8,6 +8,7 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
+#include "ads/judge_plane.glsl"
 #include "ads/triangle.glsl"
 #include "abuffer/accessors.glsl"
 
@@ -20,53 +21,6 @@ struct AbufferSearch {
     uint link;            // next node; 0: begin the bucket
     bool in_bucket;       // the bucket has been begun
 };
-
-// Whether the plane of a fragment's triangle is hit within the cell and replaces the best hit so far, or
-// why it does not (TEST_*).
-uint abuffer_judge_plane(AbufferSearch search, vec3 eye, float cell_size, Ray ray, Hit best, uint primitive, out float t,
-    out vec2 barycentrics, out float t_error) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    t = 0.0;
-    barycentrics = vec2(0.0);
-    t_error = 0.0;
-    if (primitive == ray.exclude_primitive) {
-        return TEST_EXCLUDED;
-    }
-    geometry_vertices(primitive, a, b, c);
-    bool inside = triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error);
-    if (!inside && !triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
-        return TEST_PARALLEL;
-    }
-    if (!(t > (inside ? max(ray.t_min, t_error) : ray.t_min))) {
-        return TEST_BEFORE;
-    }
-    if (!(t >= search.t_low && t <= search.t_high)) {
-        return TEST_OUTSIDE_CELL;
-    }
-    if (!inside) {
-        vec3 from_eye = abs(ray.origin + t * ray.direction - eye);
-        float width = cell_size * max(from_eye.x, max(from_eye.y, from_eye.z));
-        // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
-        // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
-        vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
-        vec3 normal = cross(b - a, c - a);
-        float twice_area = length(normal);
-        vec3 outside = -vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) * twice_area / lengths;
-        if (max(outside.x, max(outside.y, outside.z)) > ABUFFER_PLANE_REACH * width) {
-            return TEST_OUT_OF_REACH;
-        }
-        // A ray that starts closer to the plane than a cell is wide may have left that very surface.
-        if (!(abs(dot(normal, ray.origin - a)) > width * twice_area)) {
-            return TEST_LEAVING;
-        }
-    }
-    if (!(t < ray.t_max)) {
-        return TEST_BEYOND;
-    }
-    return hit_is_better(best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER;
-}
 
 // Logs a fragment whose depth is not among those looked for.
 void abuffer_log_outside(AbufferRef s, uint link, float z) {
@@ -85,8 +39,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         return false;
     }
-    vec3 eye = ABUFFER_HEADER(s).eye;
-    float cell_size = 2.0 / float(ABUFFER_HEADER(s).resolution);
+    PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, 2.0 / float(ABUFFER_HEADER(s).resolution), 0.0, ABUFFER_PLANE_REACH);
     float z_in = origin_z + search.t_low * direction_z;
     float z_out = origin_z + search.t_high * direction_z;
     float rounding = 4.8e-7 * (abs(origin_z) + max(abs(search.t_low), abs(search.t_high)) * abs(direction_z));
@@ -152,16 +105,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     continue;
                 }
                 uint primitive = abuffer_data(s, current, 0u);
-                float t;
-                vec2 barycentrics;
-                float t_error;
                 state.tests++;
-                uint verdict = abuffer_judge_plane(search, eye, cell_size, ray, state.best, primitive, t, barycentrics, t_error);
-                trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
-                if (verdict == TEST_ACCEPTED) {
-                    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
-                    state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
-                }
+                test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
             } else if (node.z >= low && node.z < high) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
                 float t = clamp((node.z - origin_z) / direction_z, search.t_low, search.t_high);

@@ -15,7 +15,9 @@ struct GridMarch {
     ivec3 cell;
     float t_in;
     float t_out;
+    float error_in;       // bounds of the errors of t_in and t_out
     float t_error;
+    int entry_axis;       // the boundary that t_in belongs to; -1 in the first cell
     int step_axis;        // -1 in the last cell
     uint neighbours;      // bits of 3x3x3 cells around `cell` that are still to be visited as well
 };
@@ -43,6 +45,12 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
     return bits;
 }
 
+// Bound of the error of a crossing at t of a boundary across `axis`; -1: of no boundary but the end of the walk.
+float grid_crossing_error(GridMarch m, float t, int axis) {
+    float d = axis >= 0 ? abs(m.inverse[axis]) * abs(m.origin[axis]) : 0.0;
+    return 6.0e-8 * (8.0 * abs(t) + 2.0 * d);
+}
+
 void grid_find_exit(inout GridMarch m) {
     float t = m.t_end;
     m.step_axis = -1;
@@ -58,8 +66,7 @@ void grid_find_exit(inout GridMarch m) {
         }
     }
     m.t_out = max(t, m.t_in);
-    float d = m.step_axis >= 0 ? abs(m.inverse[m.step_axis]) * abs(m.origin[m.step_axis]) : 0.0;
-    m.t_error = 6.0e-8 * (8.0 * abs(m.t_out) + 2.0 * d);
+    m.t_error = grid_crossing_error(m, m.t_out, m.step_axis);
     uint touched = grid_touched(m, m.t_out, m.step_axis);
     m.neighbours |= touched;
     if (m.step_axis >= 0) {
@@ -101,7 +108,9 @@ bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_
     m.t_in = t0;
     m.t_end = t1;
     m.t_out = t0;
+    m.error_in = entry_slack;
     m.t_error = entry_slack;
+    m.entry_axis = -1;
     m.cell = clamp(ivec3(floor(origin + t0 * direction)), ivec3(0), size - 1);
     m.step_axis = -1;
     m.neighbours = grid_touched(m, t0, -1);
@@ -115,9 +124,24 @@ bool grid_next(inout GridMarch m) {
     }
     m.cell[m.step_axis] += m.direction[m.step_axis] > 0.0 ? 1 : -1;
     m.t_in = m.t_out;
+    m.error_in = m.t_error;
+    m.entry_axis = m.step_axis;
     m.neighbours = 0u;
     grid_find_exit(m);
     return true;
+}
+
+// Takes a walk that grid_begin has started to where another one of the same ray stood: what it had in `cell`, `t_in`,
+// `entry_axis` and `neighbours`.
+void grid_resume(inout GridMarch m, ivec3 cell, float t_in, int entry_axis, uint neighbours) {
+    m.cell = cell;
+    m.t_in = t_in;
+    if (entry_axis >= 0) {
+        m.entry_axis = entry_axis;
+        m.error_in = grid_crossing_error(m, t_in, entry_axis);
+    }
+    grid_find_exit(m);
+    m.neighbours = neighbours;
 }
 
 bool grid_take_neighbour(inout GridMarch m, out ivec3 cell) {

@@ -1,0 +1,76 @@
+// What: the three orthographic views along the axes of a cube of space, and what a triangle does to their cells:
+// which view it faces most, which cells' centres it covers, and the screen triangle that makes the rasterizer visit
+// at least those.
+// Reads, writes: nothing.
+// View 0 looks along x, 1 along y, 2 along z. In the frame of a view the origin is the lower corner of the cube, z is
+// depth, and the order of axes is turned, which is exact. A view has `resolution` cells a side and a border of one, as a
+// face of a cube around an eye has (ads/views.glsl); nothing lies in the border.
+#ifndef ADS_AXIS_VIEWS_GLSL
+#define ADS_AXIS_VIEWS_GLSL
+
+#include "ads/coverage.glsl"
+
+#define AXIS_VIEWS 3u
+
+// One view. Precise expressions take their values from such a local copy, not from a buffer.
+struct AxisView {
+    vec3 lower;          // metres: lower corner of the cube, axes of the world
+    float cell;          // metres: side of a cell
+    uint resolution;
+    uint axis;
+};
+
+// A point in the frame of a view, metres.
+vec3 axis_from_world(AxisView view, vec3 p) {
+    precise vec3 relative = p - view.lower;
+    return triangle_permute(relative, view.axis);
+}
+
+// The axes of the world from those of a view.
+vec3 axis_to_world(vec3 p, uint axis) {
+    return axis == 0u ? p.zxy : (axis == 1u ? p.yzx : p);
+}
+
+ivec3 axis_to_world(ivec3 p, uint axis) {
+    return axis == 0u ? p.zxy : (axis == 1u ? p.yzx : p);
+}
+
+// Running index of a cell, over all views.
+uint axis_cell_index(uint axis, ivec2 cell, uint resolution) {
+    return (axis * resolution + uint(cell.y)) * resolution + uint(cell.x);
+}
+
+// The view that a triangle faces most: its normal's largest component, ties to the lowest axis.
+uint axis_of_triangle(vec3 a, vec3 b, vec3 c) {
+    precise vec3 ab = b - a;
+    precise vec3 ac = c - a;
+    precise vec3 normal = ab.yzx * ac.zxy - ab.zxy * ac.yzx;
+    return triangle_major_axis(normal);
+}
+
+// A point of the view's frame on the screen of the view, which is [-1, 1] a side, as coverage.glsl knows it.
+vec3 axis_on_screen(AxisView view, vec3 p) {
+    return vec3(p.xy / view.cell * (2.0 / float(view.resolution)) - 1.0, 1.0);
+}
+
+// Clip-space corner `corner` of a screen triangle over every cell whose centre is within `margin` cells of the
+// triangle a, b, c (frame of the view), along both sides. The viewport holds the view with its border.
+vec4 axis_proposal(AxisView view, vec3 a, vec3 b, vec3 c, uint corner, float margin) {
+    return coverage_proposal_within(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), corner,
+        view.resolution, margin * 2.0 / float(view.resolution));
+}
+
+// The centre of a cell on the lower side of the cube, frame of the view.
+vec3 axis_center(AxisView view, ivec2 cell) {
+    precise vec2 center = (vec2(cell) + 0.5) * view.cell;
+    return vec3(center, 0.0);
+}
+
+// Whether the closed triangle a, b, c (frame of the view) covers the centre of a cell, with its depth and
+// barycentrics there.
+bool axis_at_center(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float z, out vec2 barycentrics) {
+    float error;
+    return triangle_intersect(axis_center(view, cell), vec3(0.0, 0.0, 1.0), a, b, c, z, barycentrics, error);
+}
+
+#endif

@@ -1,0 +1,80 @@
+// What: whether the plane of a fragment's triangle, standing for what is in the fragment's cell, becomes a ray's best
+// hit, and if not, why.
+// Reads: geometry. Writes: nothing.
+// Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
+#ifndef ADS_JUDGE_PLANE_GLSL
+#define ADS_JUDGE_PLANE_GLSL
+
+#include "contract/trace_log.glsl"
+#include "contract/trace_state.glsl"
+#include "ads/geometry.glsl"
+#include "ads/triangle.glsl"
+
+// How wide a cell is at a point, and how far planes count beyond their triangles.
+struct PlaneCell {
+    vec3 eye;             // metres: the point that cells widen from
+    float slope;          // width a metre of distance from the eye along its largest axis; 0 where all are equal
+    float width;          // metres, added to that
+    float reach;          // in widths
+};
+
+// The verdict (TEST_*) on the plane of a triangle that is met within [t_low, t_high].
+uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
+    out vec2 barycentrics, out float t_error) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    t = 0.0;
+    barycentrics = vec2(0.0);
+    t_error = 0.0;
+    if (primitive == ray.exclude_primitive) {
+        return TEST_EXCLUDED;
+    }
+    geometry_vertices(primitive, a, b, c);
+    bool inside = triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error);
+    if (!inside && !triangle_plane(ray.origin, ray.direction, a, b, c, t, barycentrics)) {
+        return TEST_PARALLEL;
+    }
+    if (!(t > (inside ? max(ray.t_min, t_error) : ray.t_min))) {
+        return TEST_BEFORE;
+    }
+    if (!(t >= t_low && t <= t_high)) {
+        return TEST_OUTSIDE_CELL;
+    }
+    if (!inside) {
+        vec3 from_eye = abs(ray.origin + t * ray.direction - cell.eye);
+        float width = cell.slope * max(from_eye.x, max(from_eye.y, from_eye.z)) + cell.width;
+        // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
+        // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
+        vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
+        vec3 normal = cross(b - a, c - a);
+        float twice_area = length(normal);
+        vec3 outside = -vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics) * twice_area / lengths;
+        if (max(outside.x, max(outside.y, outside.z)) > cell.reach * width) {
+            return TEST_OUT_OF_REACH;
+        }
+        // A ray that starts closer to the plane than a cell is wide may have left that very surface.
+        if (!(abs(dot(normal, ray.origin - a)) > width * twice_area)) {
+            return TEST_LEAVING;
+        }
+    }
+    if (!(t < ray.t_max)) {
+        return TEST_BEYOND;
+    }
+    return hit_is_better(best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+}
+
+// Judges a fragment's triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.
+void test_plane(PlaneCell cell, Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    uint verdict = judge_plane(cell, ray, best, primitive, t_low, t_high, t, barycentrics, t_error);
+    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    }
+}
+
+#endif
