@@ -87,7 +87,8 @@ pub fn single(
 }
 
 /// Every named system with every named preset that it has. An option goes to the systems that have
-/// it; `assignments` (`mmrt.samples=50`) address one system.
+/// it; `assignments` (`mmrt.samples=50`) address one system, which takes part once with each of several
+/// values (`mmrt.samples=50,100`) and with every combination of them.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
@@ -126,21 +127,25 @@ pub fn several(
             continue;
         }
         let entry = entry(*name);
-        let mut own = options.filtered(|option| entry.options.contains(&option));
-        for (_, over) in assigned.iter().filter(|(target, _)| target == name) {
-            own = own.overlaid(over);
+        let mut variants = vec![options.filtered(|option| entry.options.contains(&option))];
+        for (_, values) in assigned.iter().filter(|(target, _)| target == name) {
+            let combined = variants.iter().flat_map(|own| values.iter().map(|over| own.overlaid(over)));
+            variants = combined.collect();
         }
         for (position, preset) in presets.iter().enumerate() {
             if has_preset(entry, *preset) && !presets[..position].contains(preset) {
-                configs.push(single(*name, *preset, &own)?);
+                for own in &variants {
+                    configs.push(single(*name, *preset, own)?);
+                }
             }
         }
     }
     Ok(configs)
 }
 
-/// Reads `mmrt.samples=50` with the parser of the command line, so that both know the same values.
-fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
+/// Reads `mmrt.samples=50` or `mmrt.samples=50,100` with the parser of the command line, so that both know the
+/// same values.
+fn assignment(text: &str) -> Result<(SystemName, Vec<StructureOptions>), AppError> {
     #[derive(Parser)]
     #[command(no_binary_name = true, disable_help_flag = true)]
     struct One {
@@ -153,7 +158,7 @@ fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
             "write for example mmrt.samples=50",
         )
     };
-    let (target, value) = text.split_once('=').ok_or_else(shape)?;
+    let (target, values) = text.split_once('=').ok_or_else(shape)?;
     let (system, option) = target.split_once('.').ok_or_else(shape)?;
     let name = SystemName::from_str(system, false).map_err(|_| {
         AppError::usage(
@@ -167,9 +172,12 @@ fn assignment(text: &str) -> Result<(SystemName, StructureOptions), AppError> {
             who_has(option),
         ));
     }
-    let parsed = One::try_parse_from([format!("--{option}={value}")])
-        .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare")))?;
-    Ok((name, parsed.options))
+    let parse = |value| {
+        One::try_parse_from([format!("--{option}={value}")])
+            .map(|parsed| parsed.options)
+            .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare")))
+    };
+    Ok((name, values.split(',').map(parse).collect::<Result<_, _>>()?))
 }
 
 fn words<T: ValueEnum>(values: &[T]) -> String {
@@ -282,12 +290,35 @@ mod tests {
     }
 
     #[test]
+    fn several_values_make_as_many_contestants() {
+        let assigned = ["mmrt.samples=50,100".to_owned(), "mmrt.sort=on,off".to_owned()];
+        let names = [SystemName::Mmrt, SystemName::BruteForce];
+        let configs =
+            several(&names, &[Preset::Robust], &StructureOptions::default(), &assigned).expect("valid");
+        let shape: Vec<_> = configs.iter().map(|c| (c.name, c.options.samples, c.options.sort)).collect();
+        assert_eq!(shape.len(), 5);
+        assert_eq!(shape[4], (SystemName::BruteForce, None, None));
+        for (index, samples) in [(0, 50), (1, 50), (2, 100), (3, 100)] {
+            assert_eq!((shape[index].0, shape[index].1), (SystemName::Mmrt, Some(samples)));
+        }
+        assert!(shape[0].2.is_some() && shape[0].2 != shape[1].2 && shape[0].2 == shape[2].2);
+    }
+
+    #[test]
     fn in_a_comparison_what_nobody_has_is_refused() {
         let judge = [SystemName::BruteForce];
         let plain = StructureOptions::default();
         assert!(several(&judge, &[Preset::Robust], &with_buckets(), &[]).is_err());
         assert!(several(&judge, &[Preset::Published], &plain, &[]).is_err());
-        for bad in ["mmrt.samples=50", "mmrt", "nobody.sort=on", "brute-force.sort=on", "mmrt.sort=x"] {
+        for bad in [
+            "mmrt.samples=50",
+            "mmrt",
+            "nobody.sort=on",
+            "brute-force.sort=on",
+            "mmrt.sort=x",
+            "mmrt.sort=on,x",
+            "mmrt.sort=on,",
+        ] {
             let error = several(&judge, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
             assert_eq!(error.exit_code(), 2);
         }

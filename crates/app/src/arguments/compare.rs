@@ -23,7 +23,7 @@ Examples:
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
 them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one. Times of software
-devices are for ratios on that device.";
+devices are for ratios on that device. mmrt.buckets=1,4,8 takes part once with each value.";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
@@ -32,7 +32,7 @@ pub struct CompareArguments {
     /// A file (.gltf .glb .obj .ply), a built-in scene with parameters, or a hard case (hard:E5, hard:all)
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// Options for one system, such as mmrt.march=samples
+    /// Options for one system, such as mmrt.march=samples; of several values each takes part
     #[arg(value_name = "SYSTEM.OPTION=VALUE")]
     pub assignments: Vec<String>,
     /// What is compared
