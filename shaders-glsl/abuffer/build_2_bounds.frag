@@ -1,4 +1,4 @@
-// What: depth bounds of each cell.
+// What: depth bounds of each cell, storages with buckets only.
 // Reads: geometry, header. Writes: bounds.
 // Source: MMRT section 3.3, first geometry pass.
 #version 460
@@ -16,5 +16,6 @@ void main() {
         || !alpha_accepts(primitive_and_face.x, coverage.barycentrics)) {
         return;
     }
-    abuffer_widen_bounds(abuffer_built, cell, coverage.z, coverage.extent);
+    abuffer_widen_bounds(abuffer_built, cell, coverage.z);
+    abuffer_widen_extent(abuffer_built, cell, coverage.extent);
 }

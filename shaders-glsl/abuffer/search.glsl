@@ -10,7 +10,7 @@
 #include "ads/geometry.glsl"
 #include "ads/judge_plane.glsl"
 #include "ads/triangle.glsl"
-#include "abuffer/accessors.glsl"
+#include "abuffer/seek.glsl"
 
 // One search, able to stop between two nodes.
 struct AbufferSearch {
@@ -57,7 +57,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     }
     uint first = 0u;
     uint last = ABUFFER_BUCKETS - 1u;
-    if (ABUFFER_SKIP != 0u) {
+    if (ABUFFER_SKIP != 0u && abuffer_bucketed()) {
         if (low > bounds.z_max || high < bounds.z_min) {
             trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, low, high);
             return false;
@@ -73,43 +73,57 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     // Bounds that are no numbers must not lead beyond the lists of the cell.
     first = min(first, ABUFFER_BUCKETS - 1u);
     last = clamp(last, first, ABUFFER_BUCKETS - 1u);
+    bool backward = !away && abuffer_has_far_end();
+    bool end_early = ordered && ABUFFER_SKIP != 0u;
     for (uint step_index = search.in_bucket ? search.bucket : 0u; step_index <= last - first; step_index++) {
         uint bucket = away ? first + step_index : last - step_index;
-        uint link = search.link;
-        if (!search.in_bucket) {
-            link = away ? abuffer_head(s, search.cell, bucket) : abuffer_tail(s, search.cell, bucket);
+        uint list = abuffer_list(search.cell, bucket);
+        AbufferCursor cursor;
+        bool resumed = search.in_bucket;
+        if (resumed) {
+            cursor = abuffer_list_resume(s, list, backward, search.link);
+        } else {
+            cursor = abuffer_list_begin(s, list, backward);
         }
         search.in_bucket = false;
-        trace_log(STEP_LIST, bucket, link, 0u, low, high);
-        while (link != 0u) {
+        trace_log(STEP_LIST, bucket, cursor.link, 0u, low, high);
+        if (!resumed && end_early) {
+            abuffer_seek(s, list, low, high, cursor, state, work);
+        }
+        while (cursor.link != 0u) {
             if (work >= WORK_BUDGET) {
                 search.bucket = step_index;
-                search.link = link;
+                search.link = cursor.link;
                 search.in_bucket = true;
                 return true;
             }
             work++;
             state.entries++;
-            AbufferNode node = abuffer_node(s, link);
-            uint current = link;
-            link = away ? node.next : node.prev;
-            trace_log(STEP_ENTRY, current, 0u, 0u, node.z, node.z);
-            bool past = away ? node.z > high : node.z < low;
-            if (past && ordered && ABUFFER_SKIP != 0u) {
+            uint current = abuffer_list_next(s, cursor);
+            if (current == 0u) {
+                break;
+            }
+            float z = abuffer_z(s, current);
+            trace_log(STEP_ENTRY, current, 0u, 0u, z, z);
+            if (end_early && (backward ? z < low : z > high)) {
                 trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
-                return false;
+                // Read from the far side to the near one, buckets that follow hold smaller depths.
+                if (backward == !away) {
+                    return false;
+                }
+                break;
             }
             if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
-                if (node.z < low || node.z > high) {
-                    abuffer_log_outside(s, current, node.z);
+                if (z < low || z > high) {
+                    abuffer_log_outside(s, current, z);
                     continue;
                 }
                 uint primitive = abuffer_data(s, current, 0u);
                 state.tests++;
                 test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
-            } else if (node.z >= low && node.z < high) {
+            } else if (z >= low && z < high) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
-                float t = clamp((node.z - origin_z) / direction_z, search.t_low, search.t_high);
+                float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);
                 t = direction_z == 0.0 ? search.t_low : t;
                 uint primitive = PRIMITIVE_UNKNOWN;
                 bool better = t < state.best.t;
@@ -123,7 +137,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
                 uint verdict = excluded ? TEST_EXCLUDED : (!(t > ray.t_min) ? TEST_BEFORE
                     : (!(t < ray.t_max) ? TEST_BEYOND : (better ? TEST_ACCEPTED : TEST_NOT_BETTER)));
-                trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, node.z);
+                trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
                 if (verdict == TEST_ACCEPTED) {
                     trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
                     vec2 found = vec2(uintBitsToFloat(current), 0.0);
@@ -137,10 +151,9 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     state.best = Hit(t, primitive, found.x, found.y);
                 }
             } else {
-                abuffer_log_outside(s, current, node.z);
+                abuffer_log_outside(s, current, z);
             }
         }
-        search.link = 0u;
     }
     return false;
 }

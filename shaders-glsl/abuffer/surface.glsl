@@ -7,7 +7,7 @@
 #define ABUFFER_SURFACE_GLSL
 
 #include "scene/surface.glsl"
-#include "abuffer/accessors.glsl"
+#include "abuffer/nodes.glsl"
 #include "abuffer/attributes.glsl"
 
 // The size of a cell at a point: what the A-buffer cannot tell apart, metres.

@@ -1,6 +1,6 @@
 // What: the A-buffer's records and options.
 // Reads, writes: nothing.
-// Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.2 and 3.3, table 2: DLLB, decoupled.
+// Source: Vardis, Vasilakis, Papaioannou 2016 (MMRT), sections 3.2 and 3.3, table 2.
 #ifndef ABUFFER_TYPES_GLSL
 #define ABUFFER_TYPES_GLSL
 
@@ -15,23 +15,25 @@ layout(constant_id = 13) const uint ABUFFER_SORT = 1u;
 layout(constant_id = 14) const uint ABUFFER_SKIP = 1u;
 layout(constant_id = 15) const uint ABUFFER_PAYLOAD = ABUFFER_PAYLOAD_INDEX;
 layout(constant_id = 16) const uint ABUFFER_COVERAGE = ABUFFER_COVERAGE_EXACT;
+layout(constant_id = 17) const uint ABUFFER_STORAGE = ABUFFER_STORAGE_DLLB;
+layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 
-// State and sizes of one A-buffer. 136 bytes.
+// State and sizes of one A-buffer. 152 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, also those beyond the capacity
     uint capacity;        // fragments the pools hold
     uint near_demand;     // triangles that meet the near box
     uint near_capacity;
-    uint unsorted;        // lists longer than the reorder pass sorts
+    uint unsorted;        // lists longer than the reorder passes sort
     uint corrupted;       // list entries that named no node
     uint resolution;      // cells a side of a face, border not counted
     uint samples;         // marching samples a face, ABUFFER_MARCH_SAMPLES only
     float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
     float near_size;      // metres: half side of the near box
-    uint spare;
+    uint long_demand;     // lists too long for the first reorder pass
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
-    float spare_scale;
+    uint long_capacity;
     vec3 lower;           // bounds of the geometry relative to the eye, metres
     float spare_lower;
     vec3 upper;
@@ -41,16 +43,11 @@ struct AbufferHeader {
     uvec2 nodes_address;
     uvec2 data_address;
     uvec2 near_address;
+    uvec2 sums_address;
+    uvec2 long_address;
 };
 
-// ID node of table 2: 12 bytes. Links are node number + 1; 0 ends a list.
-struct AbufferNode {
-    float z;              // depth at the cell's centre, metres
-    uint next;            // away from the eye
-    uint prev;            // towards the eye
-};
-
-// Depths of a cell's fragments. Two words as published; with ABUFFER_ACCEPT_PLANE two more.
+// Depths of a cell's fragments, as far as the storage keeps them.
 struct AbufferBounds {
     bool empty;
     float z_min;

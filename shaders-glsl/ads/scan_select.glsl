@@ -16,6 +16,8 @@
 
 #if STRUCTURE == STRUCTURE_PRIMITIVE
 #include "primitive/scanned.glsl"
+#elif STRUCTURE == STRUCTURE_ABUFFER
+#include "abuffer/scanned.glsl"
 #elif STRUCTURE == STRUCTURE_BVH
 #include "bvh/scanned.glsl"
 #else

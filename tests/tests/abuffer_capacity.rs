@@ -2,7 +2,7 @@
 //! formed; and the check of lists notices every fault.
 
 use rasray_abuffer::{
-    ABuffer, Accept, Addressing, Config, Contents, Fault, formula_bytes, plan, well_formed,
+    ABuffer, Accept, Addressing, Config, Contents, Demand, Fault, Storage, formula_bytes, plan, well_formed,
 };
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
@@ -30,8 +30,13 @@ fn rays() -> Vec<Ray> {
     (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
 }
 
-fn config(addressing: Addressing) -> Config {
-    Config { addressing, ..Config::robust(16) }
+fn config(storage: Storage) -> Config {
+    Config { storage, ..Config::robust(16) }
+}
+
+/// Room for so many fragments and triangles around the eye.
+fn room(fragments: u64, near_triangles: u64) -> Demand {
+    Demand { fragments, near_triangles, long_lists: 0 }
 }
 
 /// Builds once, with the pools as they are.
@@ -61,15 +66,16 @@ fn check_well_formed(bench: &Bench, structure: &ABuffer) -> Contents {
     contents
 }
 
-fn every_edge_capacity(addressing: Addressing) {
+fn every_edge_capacity(config: Config) {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
     let geometry = bench.geometry(&triangles);
-    let config = config(addressing);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
 
     // Ample room: what the demand and the hits are.
-    structure.resize(bench.device(), &plan(&config, 1 << 20, 1 << 10).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, room(1 << 20, 1 << 10)).expect("in range"))
+        .expect("it fits");
     let status = build(&bench, &mut structure);
     assert!(status.complete);
     let (nodes, near) = (demand(&status, "nodes"), demand(&status, "near"));
@@ -77,15 +83,19 @@ fn every_edge_capacity(addressing: Addressing) {
     check_well_formed(&bench, &structure);
     let expected = trace(&bench, &structure, &rays);
 
-    let full = [0, 1, nodes - 1, nodes].map(|capacity| (capacity, near));
+    let full = [0, 1, nodes / 2, nodes - 1, nodes].map(|capacity| (capacity, near));
     let near_full = [0, 1, near - 1].map(|capacity| (nodes, capacity));
-    for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
-        let sizes = plan(&config, room, near_room).expect("in range");
+    for (nodes_room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
+        let sizes = plan(&config, room(nodes_room, near_room)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = build(&bench, &mut structure);
-        let fits = room >= nodes && near_room >= near;
-        assert_eq!(status.complete, fits, "room for {room} and {near_room}");
-        assert_eq!((demand(&status, "nodes"), demand(&status, "near")), (nodes, near), "room for {room}");
+        let fits = nodes_room >= nodes && near_room >= near;
+        assert_eq!(status.complete, fits, "{config:?}: room for {nodes_room} and {near_room}");
+        assert_eq!(
+            (demand(&status, "nodes"), demand(&status, "near")),
+            (nodes, near),
+            "room for {nodes_room}"
+        );
         check_well_formed(&bench, &structure);
         if fits {
             assert_eq!(structure.check(&status), Check::Complete);
@@ -94,34 +104,51 @@ fn every_edge_capacity(addressing: Addressing) {
         }
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
-            assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {near_room}, {mode:?}");
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+            assert_eq!(
+                counters.not_ready as usize,
+                rays.len(),
+                "room for {nodes_room} and {near_room}, {mode:?}"
+            );
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {nodes_room}");
         }
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {room} does not grow") };
+        let Check::Grow(sizes) = structure.check(&status) else {
+            panic!("room for {nodes_room} does not grow")
+        };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (nodes, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = build(&bench, &mut structure);
         assert!(status.complete, "once grown to its exact demand a build completes");
         check_well_formed(&bench, &structure);
-        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {near_room}");
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {nodes_room} and {near_room}");
     }
 }
 
 #[test]
-fn every_edge_capacity_with_descriptors() {
-    every_edge_capacity(Addressing::Descriptor);
+fn every_edge_capacity_of_every_storage() {
+    for storage in Storage::ALL {
+        every_edge_capacity(config(storage));
+    }
+}
+
+#[test]
+fn every_edge_capacity_of_inline_payload() {
+    for storage in [Storage::Ll, Storage::Dllb, Storage::Sb] {
+        every_edge_capacity(Config { inline: true, ..config(storage) });
+    }
 }
 
 #[test]
 fn every_edge_capacity_with_addresses() {
-    every_edge_capacity(Addressing::Address);
+    for storage in [Storage::Dllb, Storage::Sb] {
+        every_edge_capacity(Config { addressing: Addressing::Address, ..config(storage) });
+    }
 }
 
 #[test]
 fn a_structure_that_was_never_built_is_not_ready() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    let config = config(Addressing::Descriptor);
+    let config = config(Storage::Dllb);
     let structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     let rays = rays();
     let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
@@ -133,14 +160,21 @@ fn a_structure_that_was_never_built_is_not_ready() {
 fn formula_equals_allocations_without_slack() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    for (accept, buckets, resolution) in
-        [(Accept::Plane, 4, 16), (Accept::Interval, 1, 9), (Accept::Plane, 32, 5)]
-    {
-        let config = Config { accept, buckets, ..Config::robust(resolution) };
+    let robust = Config::robust;
+    let mut configs: Vec<Config> = Storage::ALL.map(config).into();
+    configs.extend(Storage::ALL.map(|storage| Config {
+        inline: true,
+        accept: Accept::Interval,
+        ..config(storage)
+    }));
+    configs.push(Config { accept: Accept::Interval, buckets: 1, ..robust(9) });
+    configs.push(Config { buckets: 32, ..robust(5) });
+    for config in configs {
         let before = bench.device().allocated_bytes();
         let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
-        let plan = |fragments| plan(&config, fragments, 7).expect("in range");
-        structure.resize(bench.device(), &plan(50_000)).expect("it fits");
+        structure
+            .resize(bench.device(), &plan(&config, room(50_000, 7)).expect("in range"))
+            .expect("it fits");
         let status = build(&bench, &mut structure);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
@@ -150,20 +184,32 @@ fn formula_equals_allocations_without_slack() {
         assert_eq!(report.stored, Some(demand(&status, "nodes")));
         assert_eq!(
             report.formula_bytes,
-            formula_bytes(&config, demand(&status, "nodes"), demand(&status, "near")).total()
+            formula_bytes(&config, room(demand(&status, "nodes"), demand(&status, "near"))).total()
         );
         // What is reported is what was allocated: downloads have that size, and so has device memory.
         assert_eq!(report.bytes(), structure.sizes().bytes());
         let contents = check_well_formed(&bench, &structure);
-        let words = [&contents.bounds, &contents.lists, &contents.nodes, &contents.data, &contents.near]
-            .iter()
-            .map(|pool| pool.len())
-            .sum::<usize>();
+        let words = [
+            &contents.bounds,
+            &contents.lists,
+            &contents.nodes,
+            &contents.data,
+            &contents.near,
+            &contents.sums,
+            &contents.long,
+        ]
+        .iter()
+        .map(|pool| pool.len())
+        .sum::<usize>();
         assert_eq!(words as u64 * 4 + size_of::<rasray_abuffer::Header>() as u64, report.bytes());
         let allocated = bench.device().allocated_bytes() - before;
         assert!(allocated >= report.bytes(), "{allocated} bytes allocated, {} reported", report.bytes());
         // Two host copies of the header, and every buffer rounded up.
-        assert!(allocated <= report.bytes() + 8 * 4096, "{allocated} allocated, {} reported", report.bytes());
+        assert!(
+            allocated <= report.bytes() + 10 * 4096,
+            "{allocated} allocated, {} reported",
+            report.bytes()
+        );
     }
 }
 
@@ -189,7 +235,7 @@ fn every_fault_of_a_list_is_noticed() {
     let geometry = bench.geometry(&scene());
     let config = Config { buckets: 2, ..Config::robust(16) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    structure.resize(bench.device(), &plan(&config, 50_000, 64).expect("in range")).expect("it fits");
+    structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
     assert!(build(&bench, &mut structure).complete);
     let good = check_well_formed(&bench, &structure);
     let (list, links) = long_list(&good);
@@ -229,6 +275,50 @@ fn every_fault_of_a_list_is_noticed() {
         // A list that runs in a circle ends all the same.
         ("a circle", Box::new(|c| c.nodes[next(links[2])] = links[0] as u32), |f| {
             matches!(f, Fault::Backward { .. } | Fault::Order { .. } | Fault::Dangling { .. })
+        }),
+    ];
+    for (name, spoil, is_expected) in faults {
+        let mut contents = good.clone();
+        spoil(&mut contents);
+        match well_formed(&contents) {
+            Ok(()) => panic!("{name} goes unnoticed"),
+            Err(fault) => assert!(is_expected(&fault), "{name}: {fault}"),
+        }
+    }
+}
+
+#[test]
+fn every_fault_of_a_contiguous_list_is_noticed() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&scene());
+    let config = config(Storage::Sb);
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
+    assert!(build(&bench, &mut structure).complete);
+    let good = check_well_formed(&bench, &structure);
+    let counts = good.lists.len() / 2;
+    let cell = (0..counts).find(|cell| good.lists[counts + cell] >= 3).expect("a cell has three fragments");
+    let node = 2 * good.lists[cell] as usize;
+    type Spoil<'a> = Box<dyn Fn(&mut Contents) + 'a>;
+    type Is = fn(&Fault) -> bool;
+    let faults: Vec<(&str, Spoil<'_>, Is)> = vec![
+        ("a count too many", Box::new(|c| c.lists[counts + cell] += 1), |f| {
+            matches!(f, Fault::Place { .. } | Fault::Order { .. })
+        }),
+        ("a place too far", Box::new(|c| c.lists[cell] += 1), |f| matches!(f, Fault::Place { .. })),
+        ("a count past the pool", Box::new(|c| c.lists[counts + cell] = 50_001), |f| {
+            matches!(f, Fault::Dangling { .. })
+        }),
+        ("a node that was lost", Box::new(|c| c.header.demand += 1), |f| matches!(f, Fault::Count { .. })),
+        ("two depths exchanged", Box::new(|c| c.nodes.swap(node, node + 4)), |f| {
+            matches!(f, Fault::Order { .. })
+        }),
+        ("no depth", Box::new(|c| c.nodes[node] = f32::NAN.to_bits()), |f| matches!(f, Fault::Depth { .. })),
+        ("a payload past the pool", Box::new(|c| c.nodes[node + 1] = 50_001), |f| {
+            matches!(f, Fault::Payload { .. })
+        }),
+        ("a payload twice", Box::new(|c| c.nodes[node + 1] = c.nodes[node + 3]), |f| {
+            matches!(f, Fault::Payload { .. })
         }),
     ];
     for (name, spoil, is_expected) in faults {

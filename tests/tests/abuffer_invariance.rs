@@ -1,7 +1,7 @@
 //! Options that may not change a hit of the A-buffer: every one is switched alone, and hits are compared
 //! bit for bit.
 
-use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March};
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Storage};
 use rasray_ads::{Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
@@ -75,6 +75,36 @@ const CHANGES: &[(&str, Change)] = &[
     ("8 buckets", |config| Config { buckets: 8, ..config }),
     ("32 buckets", |config| Config { buckets: 32, ..config }),
     ("1 bucket, sort off", |config| Config { buckets: 1, sort: false, ..config }),
+    ("ll", |config| Config { storage: Storage::Ll, ..config }),
+    ("ll, sort off", |config| Config { storage: Storage::Ll, sort: false, ..config }),
+    ("ll, 64 units a dispatch", |config| Config { storage: Storage::Ll, work_budget: Some(64), ..config }),
+    ("dll", |config| Config { storage: Storage::Dll, ..config }),
+    ("dll, inline, skip off", |config| Config { storage: Storage::Dll, inline: true, skip: false, ..config }),
+    ("dll, 7 units a dispatch", |config| Config { storage: Storage::Dll, work_budget: Some(7), ..config }),
+    ("llb", |config| Config { storage: Storage::Llb, ..config }),
+    ("llb, inline, address", |config| Config {
+        storage: Storage::Llb,
+        inline: true,
+        addressing: Addressing::Address,
+        ..config
+    }),
+    ("llb, 32 buckets, sort off", |config| Config {
+        storage: Storage::Llb,
+        buckets: 32,
+        sort: false,
+        ..config
+    }),
+    ("dllb, inline", |config| Config { inline: true, ..config }),
+    ("sb", |config| Config { storage: Storage::Sb, ..config }),
+    ("sb, inline", |config| Config { storage: Storage::Sb, inline: true, ..config }),
+    ("sb, sort off", |config| Config { storage: Storage::Sb, sort: false, ..config }),
+    ("sb, address, 7 units a dispatch", |config| Config {
+        storage: Storage::Sb,
+        addressing: Addressing::Address,
+        work_budget: Some(7),
+        ..config
+    }),
+    ("sb, room for nothing at first", |config| Config { storage: Storage::Sb, fragments: Some(0), ..config }),
     ("address", |config| Config { addressing: Addressing::Address, ..config }),
     ("address, 7 units a dispatch", |config| Config {
         addressing: Addressing::Address,

@@ -1,9 +1,9 @@
 //! Long lists, the near box, unusual resolutions and eyes, and rays with limits.
 
-use rasray_abuffer::{ABuffer, Config};
+use rasray_abuffer::{ABuffer, Config, Storage, well_formed};
 use rasray_ads::{BruteForce, Hit, PRIMITIVE_NONE, Ray, Structure};
 use rasray_gpu::Timing;
-use rasray_shaders_glsl::constants::abuffer::ABUFFER_SORT_LIMIT;
+use rasray_shaders_glsl::constants::abuffer::{ABUFFER_LONG_LIMIT, ABUFFER_SORT_LIMIT};
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -27,42 +27,89 @@ fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
     [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
 }
 
-/// 2,000 quads in one cell: lists of 500 are sorted, one of 2,000 is not, and hits are the same: each layer
-/// is found from both sides.
-#[test]
-fn a_deep_cell_finds_every_layer_sorted_or_not() {
-    const LAYERS: usize = 2000;
-    const { assert!(LAYERS > ABUFFER_SORT_LIMIT as usize) };
-    let bench = Bench::new();
-    let depth = |layer: usize| 1.0 + layer as f32 * 1.0e-3;
-    // Cell 8 of 16 spans 0 to 1/8 in x/z; the quads leave its border free.
-    let side = |layer: usize| [0.0125 * depth(layer), 0.1125 * depth(layer)];
-    let triangles: Vec<Triangle> =
-        (0..LAYERS).flat_map(|layer| quad(side(layer), side(layer), depth(layer))).collect();
+/// Layers in cell 8 of 16, which spans 0 to 1/8 in x/z, drawn in a scrambled order; they leave its border free. The
+/// two triangles of a layer meet in the cell's centre and leave a fragment each.
+fn layers(count: usize) -> Vec<Triangle> {
+    let mut order: Vec<usize> = (0..count).collect();
+    let mut random = Random::new(7);
+    for last in (1..count).rev() {
+        order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
+    }
+    order.into_iter().flat_map(|layer| quad(side(layer), side(layer), layer_depth(layer))).collect()
+}
+
+fn layer_depth(layer: usize) -> f32 {
+    1.0 + layer as f32 * 1.0e-3
+}
+
+fn side(layer: usize) -> [f32; 2] {
+    [0.0125 * layer_depth(layer), 0.1125 * layer_depth(layer)]
+}
+
+/// Rays from between two layers towards one of them, from both sides.
+fn rays_between_layers(layers: usize, count: usize) -> Vec<Ray> {
     let mut random = Random::new(2);
-    let rays: Vec<Ray> = (0..600)
+    (0..count)
         .map(|index| {
-            let layer = index * 617 % (LAYERS - 1);
-            let x = random.between(0.03, 0.1) * depth(layer);
-            let y = random.between(0.03, 0.1) * depth(layer);
+            let depth = layer_depth(index * 617 % (layers - 1));
+            let x = random.between(0.03, 0.1) * depth;
+            let y = random.between(0.03, 0.1) * depth;
             let direction = if index % 2 == 0 { 1.0 } else { -1.0 };
-            Ray::new([x, y, depth(layer) + 5.0e-4], [random.between(-1e-3, 1e-3), 0.0, direction])
+            Ray::new([x, y, depth + 5.0e-4], [random.between(-1e-3, 1e-3), 0.0, direction])
         })
-        .collect();
+        .collect()
+}
+
+/// 10,000 fragments in one cell: every storage sorts them, with one bucket and with several, and finds each layer
+/// from both sides.
+#[test]
+fn a_deep_cell_is_sorted_by_every_storage() {
+    const LAYERS: usize = 5_000;
+    const FRAGMENTS: u32 = 10_000;
+    const { assert!(FRAGMENTS > ABUFFER_SORT_LIMIT && FRAGMENTS < ABUFFER_LONG_LIMIT) };
+    let bench = Bench::new();
+    let triangles = layers(LAYERS);
+    let rays = rays_between_layers(LAYERS, 200);
     let expected = brute_force(&bench, &triangles, &rays);
     assert!(expected.iter().all(Hit::is_hit));
-    for (buckets, unsorted) in [(8, 0), (1, 1)] {
-        let config = Config { buckets, ..Config::robust(16) };
+    let mut configs: Vec<Config> =
+        Storage::ALL.map(|storage| Config { storage, buckets: 1, ..Config::robust(16) }).into();
+    // Lists of 5,000, and of fewer than one dispatch sorts.
+    configs.push(Config { buckets: 2, ..Config::robust(16) });
+    configs.push(Config { buckets: 16, ..Config::robust(16) });
+    configs.push(Config { storage: Storage::Sb, inline: true, ..Config::robust(16) });
+    for config in configs {
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
         let status = structure.status().expect("the header is readable");
-        assert_eq!((status.unsorted, status.corrupted), (unsorted, 0), "{buckets} buckets: {status:?}");
+        assert_eq!((status.unsorted, status.corrupted), (0, 0), "{config:?}: {status:?}");
+        let contents = structure.download(bench.device()).expect("the device works");
+        assert_eq!(contents.header.demand, FRAGMENTS);
+        well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
         let hits = bench.trace(&structure, &rays).hits;
         for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
             // Two triangles of a quad meet in its diagonal: the layer is what counts.
-            assert_eq!(hit.primitive / 2, expected.primitive / 2, "{buckets} buckets, {:?}", rays[ray]);
+            assert_eq!(hit.primitive / 2, expected.primitive / 2, "{config:?}, {:?}", rays[ray]);
             let difference = (hit.t - expected.t).abs();
-            assert!(difference <= 1.0e-6, "{buckets} buckets, ray {ray}: {} for {}", hit.t, expected.t);
+            assert!(difference <= 1.0e-6, "{config:?}, ray {ray}: {} for {}", hit.t, expected.t);
         }
+    }
+}
+
+/// More fragments in one linked list than the dispatches sort: it is counted, and hits are the same.
+#[test]
+fn a_list_beyond_the_limit_is_counted_and_searched_in_full() {
+    let layers_beyond = ABUFFER_LONG_LIMIT as usize / 2 + 100;
+    let bench = Bench::new();
+    let triangles = layers(layers_beyond);
+    let rays = rays_between_layers(layers_beyond, 60);
+    let expected = brute_force(&bench, &triangles, &rays);
+    let config = Config { storage: Storage::Ll, ..Config::robust(16) };
+    let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
+    let status = structure.status().expect("the header is readable");
+    assert_eq!((status.unsorted, status.corrupted), (1, 0), "{status:?}");
+    let hits = bench.trace(&structure, &rays).hits;
+    for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
+        assert_eq!(hit.primitive / 2, expected.primitive / 2, "{:?}", rays[ray]);
     }
 }
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::mem::offset_of;
 
-use rasray_abuffer::{Config, Header, Payload, plan};
+use rasray_abuffer::Header;
 use rasray_ads::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 use rasray_bvh as bvh;
 use rasray_gpu_scene::layout as scene;
@@ -193,7 +193,7 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 20] = [
+    const SHARED: [&str; 19] = [
         "Ray",
         "Hit",
         "TraceState",
@@ -204,7 +204,6 @@ fn records_are_the_same_in_all_modules() {
         "GeometryHeader",
         "QueueHeader",
         "AbufferHeader",
-        "AbufferNode",
         "BvhHeader",
         "BvhNode",
         "BvhRecord",
@@ -237,23 +236,21 @@ fn records_of_the_abuffer() {
         &shaders::ABUFFER_BUILD_RASTER,
         &shaders::ABUFFER_BUILD_2_BOUNDS,
         &shaders::ABUFFER_BUILD_3_SCALE,
-        &shaders::ABUFFER_BUILD_4_STORE,
-        &shaders::ABUFFER_BUILD_5_REORDER,
-        &shaders::ABUFFER_BUILD_6_STATUS,
+        &shaders::ABUFFER_BUILD_4_COUNT,
+        &shaders::ABUFFER_BUILD_5_SCAN_BLOCKS,
+        &shaders::ABUFFER_BUILD_5_SCAN_SUMS,
+        &shaders::ABUFFER_BUILD_5_SCAN_PLACES,
+        &shaders::ABUFFER_BUILD_6_STORE,
+        &shaders::ABUFFER_BUILD_7_REORDER,
+        &shaders::ABUFFER_BUILD_8_REORDER_LONG,
+        &shaders::ABUFFER_BUILD_9_STATUS,
         &shaders::ABUFFER_TRACE_CLOSEST,
     ];
     check_layout!(modules, Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
-        thickness, near_size, spare, eye, spare_scale, lower, spare_lower, upper, spare_upper,
-        bounds_address, lists_address, nodes_address, data_address, near_address,
+        thickness, near_size, long_demand, eye, long_capacity, lower, spare_lower, upper, spare_upper,
+        bounds_address, lists_address, nodes_address, data_address, near_address, sums_address, long_address,
     });
-    let node = [("z", 0), ("next", 4), ("prev", 8)].map(|(name, offset)| (name.to_owned(), offset, 4));
-    let sizes = plan(&Config { payload: Payload::Index, ..Config::robust(8) }, 1, 1).expect("in range");
-    let nodes = sizes.pools.iter().find(|pool| pool.name == "nodes").expect("the pool exists");
-    for shader in [&shaders::ABUFFER_BUILD_4_STORE, &shaders::ABUFFER_TRACE_CLOSEST] {
-        check(shader, "AbufferNode", &node, nodes.element_bytes as usize);
-        assert_eq!(read_by_us(shader)["AbufferNode"].stride, Some(nodes.element_bytes as usize));
-    }
 }
 
 #[test]
@@ -301,9 +298,7 @@ fn records_of_primitive_lists() {
 fn records_reached_by_address_are_the_same() {
     let direct = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST);
     let by_address = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_ADDRESS);
-    for name in ["AbufferHeader", "AbufferNode"] {
-        assert_eq!(direct[name], by_address[name], "{name}");
-    }
+    assert_eq!(direct["AbufferHeader"], by_address["AbufferHeader"]);
     let direct = read_by_us(&shaders::BVH_TRACE_CLOSEST);
     let by_address = read_by_us(&shaders::BVH_TRACE_CLOSEST_ADDRESS);
     for name in ["BvhHeader", "BvhNode", "BvhRecord"] {

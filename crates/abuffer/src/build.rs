@@ -1,11 +1,11 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, SceneBinding};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
-use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
+use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::cell_count;
-use crate::{Accept, Config, Payload};
+use crate::{Accept, Config, Payload, Storage};
 
 /// Faces of the cube.
 const VIEWS: u32 = 6;
@@ -14,11 +14,26 @@ const VIEWS: u32 = 6;
 #[derive(Debug)]
 pub(crate) struct Build {
     near: ComputePipeline,
-    bounds: RasterPipeline,
+    bounds: Option<RasterPipeline>,
     scale: Option<ComputePipeline>,
+    lengths: Option<Lengths>,
     store: RasterPipeline,
-    reorder: Option<ComputePipeline>,
+    reorder: Option<Reorder>,
     status: ComputePipeline,
+}
+
+/// What contiguous lists need before they are stored.
+#[derive(Debug)]
+struct Lengths {
+    count: RasterPipeline,
+    scan: Scan,
+}
+
+/// What sorts lists.
+#[derive(Debug)]
+struct Reorder {
+    all: ComputePipeline,
+    long: ComputePipeline,
 }
 
 impl Build {
@@ -39,44 +54,76 @@ impl Build {
             });
         }
         let store = match (attributes, alpha) {
-            (true, _) => "build_4_store.attributes",
-            (false, true) => "build_4_store.alpha",
-            (false, false) => "build_4_store",
+            (true, _) => "build_6_store.attributes",
+            (false, true) => "build_6_store.alpha",
+            (false, false) => "build_6_store",
         };
         let bounds = if alpha { "build_2_bounds.alpha" } else { "build_2_bounds" };
-        let plane = config.accept == Accept::Plane;
+        let count = if alpha { "build_4_count.alpha" } else { "build_4_count" };
+        let raster = |name| pipelines.raster("build_raster", name);
+        let bucketed = config.storage.is_bucketed();
+        let scaled = bucketed && config.accept == Accept::Plane;
+        let lengths = || -> Result<Lengths, AdsError> {
+            Ok(Lengths { count: raster(count)?, scan: Scan::new(pipelines, "build_5_scan")? })
+        };
+        let reorder = || -> Result<Reorder, AdsError> {
+            Ok(Reorder {
+                all: pipelines.compute("build_7_reorder")?,
+                long: pipelines.compute("build_8_reorder_long")?,
+            })
+        };
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            bounds: pipelines.raster("build_raster", bounds)?,
-            scale: plane.then(|| pipelines.compute("build_3_scale")).transpose()?,
-            store: pipelines.raster("build_raster", store)?,
-            reorder: config.sort.then(|| pipelines.compute("build_5_reorder")).transpose()?,
-            status: pipelines.compute("build_6_status")?,
+            bounds: bucketed.then(|| raster(bounds)).transpose()?,
+            scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
+            lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
+            store: raster(store)?,
+            reorder: config.sort.then(reorder).transpose()?,
+            status: pipelines.compute("build_9_status")?,
         })
     }
 
     /// Records all passes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config.resolution);
+        let lists = cells * u64::from(config.lists());
         let groups = |items: u64| items.div_ceil(u64::from(ABUFFER_GROUP_SIZE));
         let triangles = u64::from(target.geometry.triangle_count());
         let side = config.resolution + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        let cleared = ["bounds", "lists", "nodes"];
+        // Backward links of new nodes are zero; everything else of a node is written.
+        let cleared: &[&str] = if config.storage.is_doubly_linked() {
+            &["bounds", "lists", "nodes"]
+        } else {
+            &["bounds", "lists"]
+        };
         let readers = shaders | Access::VERTEX_READ;
-        target.pools.record_header(recorder, "abuffer/build_0_clear", &cleared, readers);
+        target.pools.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
-        target.raster_pass(recorder, "abuffer/build_2_bounds", &self.bounds, side, VIEWS);
+        if let Some(bounds) = &self.bounds {
+            target.raster_pass(recorder, "abuffer/build_2_bounds", bounds, side, VIEWS);
+        }
         if let Some(scale) = &self.scale {
             target.compute_pass(recorder, "abuffer/build_3_scale", scale, groups(cells), 0, shaders);
         }
-        target.raster_pass(recorder, "abuffer/build_4_store", &self.store, side, VIEWS);
-        if let Some(reorder) = &self.reorder {
-            let lists = groups(cells * u64::from(config.buckets));
-            target.compute_pass(recorder, "abuffer/build_5_reorder", reorder, lists, 0, Access::COMPUTE);
+        if let Some(lengths) = &self.lengths {
+            target.raster_pass(recorder, "abuffer/build_4_count", &lengths.count, side, VIEWS);
+            lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
-        target.status_pass(recorder, "abuffer/build_6_status", &self.status);
+        target.raster_pass(recorder, "abuffer/build_6_store", &self.store, side, VIEWS);
+        if let Some(reorder) = &self.reorder {
+            let readers = Access::COMPUTE;
+            target.compute_pass(recorder, "abuffer/build_7_reorder", &reorder.all, groups(lists), 0, readers);
+            recorder.begin_pass("abuffer/build_8_reorder_long");
+            let long = groups(target.pools.sizes().elements("long"));
+            for round in 0..ABUFFER_LONG_ROUNDS {
+                target.dispatch(recorder, &reorder.long, long, round);
+                recorder.barrier(Access::COMPUTE, readers);
+            }
+            recorder.end_pass();
+        }
+        target.status_pass(recorder, "abuffer/build_9_status", &self.status);
     }
 }

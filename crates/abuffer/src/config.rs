@@ -42,12 +42,67 @@ pub enum Coverage {
     Exact,
 }
 
+/// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One linked list a cell, read from its near end.
+    Ll,
+    /// One doubly linked list a cell, read from either end.
+    Dll,
+    /// A linked list a depth bucket.
+    Llb,
+    /// A doubly linked list a depth bucket: the paper's own.
+    Dllb,
+    /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
+    Sb,
+}
+
+impl Storage {
+    /// Every storage.
+    pub const ALL: [Self; 5] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ll => "ll",
+            Self::Dll => "dll",
+            Self::Llb => "llb",
+            Self::Dllb => "dllb",
+            Self::Sb => "sb",
+        }
+    }
+
+    /// Whether a cell has depth bounds and a list a bucket.
+    pub fn is_bucketed(self) -> bool {
+        matches!(self, Self::Llb | Self::Dllb)
+    }
+
+    /// Whether nodes link both ways.
+    pub fn is_doubly_linked(self) -> bool {
+        matches!(self, Self::Dll | Self::Dllb)
+    }
+
+    fn number(self) -> u32 {
+        match self {
+            Self::Ll => numbers::ABUFFER_STORAGE_LL,
+            Self::Dll => numbers::ABUFFER_STORAGE_DLL,
+            Self::Llb => numbers::ABUFFER_STORAGE_LLB,
+            Self::Dllb => numbers::ABUFFER_STORAGE_DLLB,
+            Self::Sb => numbers::ABUFFER_STORAGE_SB,
+        }
+    }
+}
+
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
-    /// Depth buckets a cell, 1 to 32.
+    /// How a cell's fragments are kept. Changes no hit.
+    pub storage: Storage,
+    /// Payload within the nodes instead of in a pool of its own. Changes no hit.
+    pub inline: bool,
+    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]). Changes no hit.
     pub buckets: u32,
     /// How rays step.
     pub march: March,
@@ -80,6 +135,8 @@ impl Config {
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
+            storage: Storage::Dllb,
+            inline: false,
             buckets: 4,
             march: March::Exact,
             samples: 100,
@@ -143,10 +200,15 @@ impl Config {
         Ok(())
     }
 
+    /// Lists a cell.
+    pub fn lists(&self) -> u32 {
+        if self.storage.is_bucketed() { self.buckets } else { 1 }
+    }
+
     /// Specialisation constants: id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         vec![
-            (10, self.buckets),
+            (10, self.lists()),
             (
                 11,
                 match self.march {
@@ -178,6 +240,8 @@ impl Config {
                     Coverage::Exact => numbers::ABUFFER_COVERAGE_EXACT,
                 },
             ),
+            (17, self.storage.number()),
+            (18, u32::from(self.inline)),
         ]
     }
 
@@ -186,9 +250,9 @@ impl Config {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         let switch = |on: bool| if on { "on" } else { "off" }.to_owned();
         let mut options = vec![
-            ("storage", "dllb".to_owned()),
+            ("storage", self.storage.name().to_owned()),
+            ("inline", switch(self.inline)),
             ("resolution", self.resolution.to_string()),
-            ("buckets", self.buckets.to_string()),
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
             ("payload", lower(&self.payload)),
@@ -196,6 +260,9 @@ impl Config {
             ("sort", switch(self.sort)),
             ("skip", switch(self.skip)),
         ];
+        if self.storage.is_bucketed() {
+            options.push(("buckets", self.buckets.to_string()));
+        }
         if self.march == March::Samples {
             options.push(("samples", self.samples.to_string()));
         }

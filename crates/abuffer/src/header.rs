@@ -16,7 +16,7 @@ pub struct Header {
     pub near_demand: u32,
     /// Triangles the near list holds.
     pub near_capacity: u32,
-    /// Lists too long to be sorted.
+    /// Lists longer than the reorder passes sort.
     pub unsorted: u32,
     /// List entries that named no node.
     pub corrupted: u32,
@@ -28,12 +28,12 @@ pub struct Header {
     pub thickness: f32,
     /// Half side of the near box, metres.
     pub near_size: f32,
-    /// Zero.
-    pub spare: u32,
+    /// Lists too long for the first reorder pass.
+    pub long_demand: u32,
     /// Common centre of the faces, metres relative to the frame origin.
     pub eye: [f32; 3],
-    /// Zero.
-    pub spare_scale: f32,
+    /// Long lists there is room for.
+    pub long_capacity: u32,
     /// Lower corner of the geometry relative to the eye, metres.
     pub lower: [f32; 3],
     /// Zero.
@@ -52,4 +52,8 @@ pub struct Header {
     pub data_address: [u32; 2],
     /// Device address of the near list.
     pub near_address: [u32; 2],
+    /// Device address of the sums of the scan.
+    pub sums_address: [u32; 2],
+    /// Device address of the long lists.
+    pub long_address: [u32; 2],
 }

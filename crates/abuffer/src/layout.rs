@@ -1,14 +1,14 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Sizes};
+use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
-use crate::{Accept, Config, Header, Payload};
+use crate::{Accept, Config, Header, Payload, Storage};
 
 /// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 6] = ["header", "bounds", "lists", "nodes", "data", "near"];
+pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data", "near", "sums", "long"];
 
-/// Bytes of an ID node: depth, next, previous (MMRT table 2).
-pub(crate) const NODE_BYTES: u64 = 12;
+/// Room for long lists where nothing has been counted.
+const LONG_LISTS: u64 = 64;
 
 /// Cells of all six faces, each with a border of one cell.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -16,36 +16,71 @@ pub fn cell_count(resolution: u32) -> u64 {
     6 * side * side
 }
 
-/// Bytes of a fragment's payload.
-pub(crate) fn data_bytes(payload: Payload) -> u64 {
+/// What a build found: how much of each pool it asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Fragments.
+    pub fragments: u64,
+    /// Triangles around the eye.
+    pub near_triangles: u64,
+    /// Lists that one dispatch does not sort.
+    pub long_lists: u64,
+}
+
+/// Words of a fragment's payload.
+pub(crate) fn data_words(payload: Payload) -> u64 {
     match payload {
-        Payload::Index => 4,
-        Payload::Attributes => 16,
+        Payload::Index => 1,
+        Payload::Attributes => 4,
     }
 }
 
-fn bounds_bytes(accept: Accept) -> u64 {
-    match accept {
-        Accept::Interval | Accept::Thickness => 8,
-        Accept::Plane => 16,
+/// Words of a node: depth, links, and the payload where it is inline; a contiguous node names it where it is not.
+pub(crate) fn node_words(config: &Config) -> u64 {
+    let links = match config.storage {
+        Storage::Ll | Storage::Llb => 1,
+        Storage::Dll | Storage::Dllb => 2,
+        Storage::Sb => u64::from(!config.inline),
+    };
+    1 + links + if config.inline { data_words(config.payload) } else { 0 }
+}
+
+/// Words of a list: one end, both ends, or first place and count.
+pub(crate) fn list_words(storage: Storage) -> u64 {
+    match storage {
+        Storage::Ll | Storage::Llb => 1,
+        Storage::Dll | Storage::Dllb | Storage::Sb => 2,
     }
 }
 
-/// What an A-buffer of this configuration allocates to hold `fragments` fragments and
-/// `near_triangles` triangles around the eye.
+/// Words of a cell's bounds: both ends where there are buckets; for plane acceptance the extent, and beside ends
+/// the buckets' scale.
+pub(crate) fn bounds_words(config: &Config) -> u64 {
+    match (config.storage.is_bucketed(), config.accept == Accept::Plane) {
+        (true, true) => 4,
+        (true, false) => 2,
+        (false, true) => 1,
+        (false, false) => 0,
+    }
+}
+
+/// What an A-buffer of this configuration allocates to hold what a build may ask for.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit links can name.
-pub fn plan(config: &Config, fragments: u64, near_triangles: u64) -> Result<Sizes, AdsError> {
+pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let cells = cell_count(config.resolution);
+    let lists = cells * u64::from(config.lists());
     let sizes = [
         (1, size_of::<Header>() as u64),
-        (cells, bounds_bytes(config.accept)),
-        (cells * u64::from(config.buckets), 8),
-        (fragments, NODE_BYTES),
-        (fragments, data_bytes(config.payload)),
-        (near_triangles, 4),
+        (cells, 4 * bounds_words(config)),
+        (lists, 4 * list_words(config.storage)),
+        (demand.fragments, 4 * node_words(config)),
+        (demand.fragments, if config.inline { 0 } else { 4 * data_words(config.payload) }),
+        (demand.near_triangles, 4),
+        (if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }, 4),
+        (demand.long_lists, 8),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -63,19 +98,21 @@ pub fn plan(config: &Config, fragments: u64, near_triangles: u64) -> Result<Size
 
 /// The first guess where nothing has been counted: a fragment a cell.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
-    plan(config, config.fragments.unwrap_or_else(|| cell_count(config.resolution)), 64)
+    let fragments = config.fragments.unwrap_or_else(|| cell_count(config.resolution));
+    let long_lists = if config.sort { LONG_LISTS } else { 0 };
+    plan(config, Demand { fragments, near_triangles: 64, long_lists })
 }
 
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell: bounds 8, head and tail of each bucket 8.
+    /// Per cell, `m_p` of the table.
     pub cells: u64,
-    /// Per cell with plane acceptance: extent and scale 8.
+    /// Per cell with plane acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
-    /// Per fragment: node 12 and payload 4 or 16.
+    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16.
     pub fragments: u64,
-    /// Header, and 4 per triangle of the near list.
+    /// Header, 4 per triangle of the near list, 8 per long list, and 4 per 1024 cells for the scan of SB.
     pub rest: u64,
 }
 
@@ -88,14 +125,25 @@ impl FormulaBytes {
 
 /// The page's formula. It follows the paper's table and does not look at [`plan`], so that the two
 /// check each other.
-pub fn formula_bytes(config: &Config, fragments: u64, near_triangles: u64) -> FormulaBytes {
+pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let side = u64::from(config.resolution + 2);
     let cells = side * side * 6;
+    let buckets = u64::from(config.buckets);
+    // Columns of table 2: bytes a cell, bytes a fragment, and bytes for the scale of buckets.
+    let (per_cell, per_fragment, scale) = match config.storage {
+        Storage::Sb => (8, if config.inline { 4 } else { 8 }, 0),
+        Storage::Ll => (4, 8, 0),
+        Storage::Dll => (8, 12, 0),
+        Storage::Llb => (8 + 4 * buckets, 8, 4),
+        Storage::Dllb => (8 + 8 * buckets, 12, 4),
+    };
+    let payload = if config.payload == Payload::Index { 4 } else { 16 };
+    let sums = if config.storage == Storage::Sb { cells.div_ceil(1024) } else { 0 };
     FormulaBytes {
-        cells: cells * (8 + 8 * u64::from(config.buckets)),
-        plane: if config.accept == Accept::Plane { cells * 8 } else { 0 },
-        fragments: fragments * if config.payload == Payload::Index { 12 + 4 } else { 12 + 16 },
-        rest: 136 + 4 * near_triangles,
+        cells: cells * per_cell,
+        plane: if config.accept == Accept::Plane { cells * (4 + scale) } else { 0 },
+        fragments: demand.fragments * (per_fragment + payload),
+        rest: 152 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
     }
 }
 
@@ -103,16 +151,46 @@ pub fn formula_bytes(config: &Config, fragments: u64, near_triangles: u64) -> Fo
 mod tests {
     use super::*;
 
+    const DEMAND: Demand = Demand { fragments: 12_345, near_triangles: 7, long_lists: 3 };
+
     #[test]
     fn plan_equals_formula() {
-        for (buckets, accept, payload) in [
-            (1, Accept::Interval, Payload::Attributes),
-            (4, Accept::Plane, Payload::Index),
-            (32, Accept::Thickness, Payload::Index),
-        ] {
-            let config = Config { buckets, accept, payload, ..Config::robust(64) };
-            let sizes = plan(&config, 12_345, 7).expect("options are in range");
-            assert_eq!(sizes.bytes(), formula_bytes(&config, 12_345, 7).total());
+        for storage in Storage::ALL {
+            for (inline, buckets, accept, payload) in [
+                (false, 1, Accept::Interval, Payload::Attributes),
+                (false, 4, Accept::Plane, Payload::Index),
+                (true, 4, Accept::Plane, Payload::Index),
+                (true, 8, Accept::Interval, Payload::Attributes),
+                (false, 32, Accept::Thickness, Payload::Index),
+            ] {
+                let config = Config { storage, inline, buckets, accept, payload, ..Config::robust(64) };
+                let bytes = plan(&config, DEMAND).expect("options are in range").bytes();
+                assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
+                let more = Demand { fragments: DEMAND.fragments + 1, ..DEMAND };
+                assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
+            }
+        }
+    }
+
+    /// Table 2 of the paper, decoupled, with four buckets: bytes a cell and bytes a fragment beside the payload.
+    #[test]
+    fn decoupled_storages_have_the_papers_bytes() {
+        let table = [
+            (Storage::Sb, 8, 8),
+            (Storage::Ll, 4, 8),
+            (Storage::Dll, 8, 12),
+            (Storage::Llb, 8 + 4 * 4, 8),
+            (Storage::Dllb, 8 + 8 * 4, 12),
+        ];
+        for (storage, per_cell, per_fragment) in table {
+            let config = Config { storage, ..Config::published(64) };
+            let sizes = plan(&config, DEMAND).expect("options are in range");
+            let bytes = |names: [&str; 2]| {
+                let named = sizes.pools.iter().filter(|pool| names.contains(&pool.name));
+                named.map(|pool| pool.elements * pool.element_bytes).sum::<u64>()
+            };
+            assert_eq!(bytes(["bounds", "lists"]), cell_count(64) * per_cell, "{storage:?}");
+            assert_eq!(bytes(["nodes", "data"]), DEMAND.fragments * (per_fragment + 16), "{storage:?}");
         }
     }
 
@@ -121,7 +199,7 @@ mod tests {
     #[test]
     fn formula_agrees_with_the_papers_table() {
         let config = Config { payload: Payload::Attributes, accept: Accept::Interval, ..Config::robust(480) };
-        let formula = formula_bytes(&config, 2_400_000, 0);
+        let formula = formula_bytes(&config, Demand { fragments: 2_400_000, ..Demand::default() });
         let per_cell = formula.cells / cell_count(480);
         let total = (720 * 480 + 6 * 480 * 480) * per_cell + formula.fragments;
         let mebibytes = total as f64 / f64::from(1 << 20);
@@ -130,10 +208,12 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
+        let message = |config: &Config, demand| plan(config, demand).unwrap_err().to_string();
         let config = Config { buckets: 33, ..Config::robust(64) };
-        assert!(plan(&config, 0, 0).unwrap_err().to_string().contains("buckets is 33"));
+        assert!(message(&config, Demand::default()).contains("buckets is 33"));
         let config = Config { resolution: 0, ..Config::robust(64) };
-        assert!(plan(&config, 0, 0).is_err());
-        assert!(plan(&Config::robust(64), 1 << 32, 0).unwrap_err().to_string().contains("nodes"));
+        assert!(message(&config, Demand::default()).contains("resolution is 0"));
+        let many = Demand { fragments: 1 << 32, ..Demand::default() };
+        assert!(message(&Config::robust(64), many).contains("nodes"));
     }
 }

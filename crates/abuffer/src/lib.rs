@@ -2,9 +2,9 @@
 //! around the eye in per-cell, per-bucket lists, and rays are traced through the cells.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "A multiview and multilayer approach for interactive ray
-//! tracing", I3D 2016 (MMRT). The list storage is DLLB, the paper's own: doubly linked lists in depth
-//! buckets, with payload decoupled from the nodes. See `docs/systems/mmrt.md` for passes, bytes,
-//! options, limits and departures.
+//! tracing", I3D 2016 (MMRT). Lists are kept in one of the storages the paper compares ([`Storage`]), with payload
+//! in a pool of its own or within the nodes. See `docs/systems/mmrt.md` for passes, bytes, options, limits
+//! and departures.
 //!
 //! [`ABuffer`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
@@ -15,9 +15,9 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Config, Coverage, March, Payload};
+pub use config::{Accept, Config, Coverage, March, Payload, Storage};
 pub use header::Header;
-pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;
 pub use structure::ABuffer;
 pub use validate::{Contents, Fault, well_formed};

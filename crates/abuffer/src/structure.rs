@@ -9,7 +9,7 @@ use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::build::Build;
-use crate::layout::{first_plan, formula_bytes, plan};
+use crate::layout::{Demand, first_plan, formula_bytes, plan};
 use crate::{Accept, Config, Contents, Header};
 
 /// A multiview, multilayer A-buffer.
@@ -89,6 +89,7 @@ impl ABuffer {
         Header {
             capacity: self.pools.sizes().elements("nodes") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
+            long_capacity: self.pools.sizes().elements("long") as u32,
             resolution: self.config.resolution,
             samples: self.config.samples,
             thickness: self.config.thickness,
@@ -102,6 +103,8 @@ impl ABuffer {
             nodes_address: self.pools.address_of("nodes"),
             data_address: self.pools.address_of("data"),
             near_address: self.pools.address_of("near"),
+            sums_address: self.pools.address_of("sums"),
+            long_address: self.pools.address_of("long"),
             ..Header::default()
         }
     }
@@ -128,6 +131,8 @@ impl ABuffer {
             nodes: words("nodes")?,
             data: words("data")?,
             near: words("near")?,
+            sums: words("sums")?,
+            long: words("long")?,
         })
     }
 
@@ -142,7 +147,9 @@ impl ABuffer {
         device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
         device.upload_slice(self.pools.pool("nodes"), 0, &contents.nodes)?;
         device.upload_slice(self.pools.pool("data"), 0, &contents.data)?;
-        device.upload_slice(self.pools.pool("near"), 0, &contents.near)
+        device.upload_slice(self.pools.pool("near"), 0, &contents.near)?;
+        device.upload_slice(self.pools.pool("sums"), 0, &contents.sums)?;
+        device.upload_slice(self.pools.pool("long"), 0, &contents.long)
     }
 }
 
@@ -194,6 +201,11 @@ impl Structure for ABuffer {
                     demand: header.near_demand.into(),
                     capacity: header.near_capacity.into(),
                 },
+                PoolStatus {
+                    name: "long",
+                    demand: header.long_demand.into(),
+                    capacity: header.long_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -205,10 +217,11 @@ impl Structure for ABuffer {
         if status.complete {
             return Check::Complete;
         }
-        let fragments = demand("nodes").max(self.pools.sizes().elements("nodes"));
-        let near = demand("near").max(self.pools.sizes().elements("near"));
+        let grown = |name| demand(name).max(self.pools.sizes().elements(name));
+        let demand =
+            Demand { fragments: grown("nodes"), near_triangles: grown("near"), long_lists: grown("long") };
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
-        plan(&self.config, fragments, near).map_or(Check::Complete, Check::Grow)
+        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
@@ -241,23 +254,23 @@ impl Structure for ABuffer {
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
-        let (fragments, near) = (u64::from(header.demand), u64::from(header.near_demand));
+        let demand = Demand {
+            fragments: header.demand.into(),
+            near_triangles: header.near_demand.into(),
+            long_lists: header.long_demand.into(),
+        };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
-            "nodes" | "data" => fragments,
-            "near" => near,
+            "nodes" | "data" => demand.fragments,
+            "near" => demand.near_triangles,
+            "long" => demand.long_lists,
             _ => pool.elements,
         });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, fragments, near).total(),
-            stored: Some(fragments),
+            formula_bytes: formula_bytes(&self.config, demand).total(),
+            stored: Some(demand.fragments),
         })
     }
-}
-
-/// Whether this configuration stores what plane acceptance needs.
-pub(crate) fn bounds_words(config: &Config) -> usize {
-    if config.accept == Accept::Plane { 4 } else { 2 }
 }

@@ -1,7 +1,7 @@
 //! Checks the contents of a built A-buffer.
 
-use crate::structure::bounds_words;
-use crate::{Config, Header, cell_count};
+use crate::layout::{bounds_words, data_words, node_words};
+use crate::{Config, Header, Storage, cell_count};
 
 /// All pools as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -12,14 +12,59 @@ pub struct Contents {
     pub header: Header,
     /// Bounds of each cell.
     pub bounds: Vec<u32>,
-    /// Head and tail of each bucket of each cell.
+    /// Head (and tail) of each list; of contiguous lists all first places, then all counts.
     pub lists: Vec<u32>,
-    /// Depth, next, previous of each node.
+    /// Depth, inline payload, and next, previous or place of the payload, of each node.
     pub nodes: Vec<u32>,
-    /// Payload of each node.
+    /// Payload of each fragment, where it is not inline.
     pub data: Vec<u32>,
     /// Triangles of the near box.
     pub near: Vec<u32>,
+    /// What the scan of contiguous lists left behind.
+    pub sums: Vec<u32>,
+    /// Lists that one dispatch does not sort, and how far each is.
+    pub long: Vec<u32>,
+}
+
+impl Contents {
+    /// Nodes that were stored.
+    fn stored(&self) -> usize {
+        self.header.demand.min(self.header.capacity) as usize
+    }
+
+    fn node(&self, link: u32) -> &[u32] {
+        let words = node_words(&self.config) as usize;
+        &self.nodes[words * (link as usize - 1)..][..words]
+    }
+
+    fn z(&self, link: u32) -> f32 {
+        f32::from_bits(self.node(link)[0])
+    }
+
+    /// Where the payload of a node is in its pool; of no meaning where it is inline.
+    fn payload_place(&self, link: u32) -> u32 {
+        if self.config.storage == Storage::Sb { self.node(link)[1] } else { link - 1 }
+    }
+
+    /// The first word of payload: what orders fragments of one depth.
+    fn payload(&self, link: u32) -> u32 {
+        let words = data_words(self.config.payload) as usize;
+        if self.config.inline {
+            self.node(link)[1]
+        } else {
+            self.data[self.payload_place(link) as usize * words]
+        }
+    }
+
+    /// The links of a node: next, and previous where it has both.
+    fn links(&self, link: u32) -> &[u32] {
+        let inline = if self.config.inline { data_words(self.config.payload) as usize } else { 0 };
+        &self.node(link)[1 + inline..]
+    }
+
+    fn head(&self, list: usize) -> u32 {
+        if self.config.storage.is_doubly_linked() { self.lists[2 * list] } else { self.lists[list] }
+    }
 }
 
 /// What is wrong with a list.
@@ -57,6 +102,26 @@ pub enum Fault {
         prev: u32,
         /// What should be.
         expected: u32,
+    },
+    /// A contiguous list does not begin where the one before it ends.
+    #[error("cell {cell}: the list begins at place {first}, expected {expected}")]
+    Place {
+        /// Cell.
+        cell: usize,
+        /// What is stored.
+        first: u32,
+        /// What should be.
+        expected: usize,
+    },
+    /// A contiguous node names a payload that does not exist or is another's.
+    #[error("cell {cell}: node {link} names the payload {place}, which does not exist or is another's")]
+    Payload {
+        /// Cell.
+        cell: usize,
+        /// The node's link.
+        link: u32,
+        /// What is stored.
+        place: u32,
     },
     /// The tail is not the last node.
     #[error("cell {cell}, bucket {bucket}: the tail is {tail}, the last node is {last}")]
@@ -104,50 +169,97 @@ pub enum Fault {
 /// # Errors
 /// The first fault found.
 pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
-    let buckets = contents.config.buckets as usize;
-    let stored = contents.header.demand.min(contents.header.capacity) as usize;
-    let stride = bounds_words(&contents.config);
-    let sorted = contents.config.sort && contents.header.unsorted == 0;
+    let config = &contents.config;
+    let buckets = config.lists() as usize;
+    let stored = contents.stored();
+    // What is not complete is not sorted.
+    let sorted = config.sort && contents.header.unsorted == 0 && contents.header.demand as usize == stored;
+    let mut named = vec![false; stored];
     let mut linked = 0;
-    for cell in 0..cell_count(contents.config.resolution) as usize {
-        let z_min = f32::from_bits(!contents.bounds[cell * stride]);
-        let z_max = f32::from_bits(contents.bounds[cell * stride + 1]);
+    let mut place = 0;
+    for cell in 0..cell_count(config.resolution) as usize {
         for bucket in 0..buckets {
-            let list = 2 * (cell * buckets + bucket);
-            let (mut link, mut last, mut previous) = (contents.lists[list], 0, (f32::MIN, 0));
-            while link != 0 {
-                if link as usize > stored || linked >= stored {
-                    return Err(Fault::Dangling { cell, bucket, link });
+            let links = if config.storage == Storage::Sb {
+                contiguous(contents, cell, &mut place)?
+            } else {
+                follow(contents, cell, bucket, linked)?
+            };
+            for &link in &links {
+                check_depth(contents, cell, bucket, link)?;
+                if config.storage == Storage::Sb && !config.inline {
+                    let place = contents.payload_place(link);
+                    match named.get_mut(place as usize) {
+                        Some(named) if !*named => *named = true,
+                        _ => return Err(Fault::Payload { cell, link, place }),
+                    }
                 }
-                linked += 1;
-                let node = &contents.nodes[3 * (link as usize - 1)..][..3];
-                let z = f32::from_bits(node[0]);
-                if !(z > 0.0 && z >= z_min && z <= z_max) {
-                    return Err(Fault::Depth {
-                        cell,
-                        bucket,
-                        link,
-                        z: z.to_string(),
-                        z_min: z_min.to_string(),
-                        z_max: z_max.to_string(),
-                    });
-                }
-                if node[2] != last {
-                    return Err(Fault::Backward { cell, bucket, link, prev: node[2], expected: last });
-                }
-                let words = contents.data.len() / (contents.nodes.len() / 3).max(1);
-                let key = (z, contents.data[(link as usize - 1) * words]);
-                if sorted && (key.0 < previous.0 || (key.0 == previous.0 && key.1 < previous.1)) {
-                    return Err(Fault::Order { cell, bucket, link });
-                }
-                previous = key;
-                last = link;
-                link = node[1];
             }
-            if contents.lists[list + 1] != last {
-                return Err(Fault::Tail { cell, bucket, tail: contents.lists[list + 1], last });
+            let key = |link| (contents.z(link), contents.payload(link));
+            if let Some(pair) = links.windows(2).find(|pair| sorted && key(pair[0]) > key(pair[1])) {
+                return Err(Fault::Order { cell, bucket, link: pair[1] });
             }
+            linked += links.len();
         }
     }
     if linked == stored { Ok(()) } else { Err(Fault::Count { stored, linked }) }
+}
+
+/// The links of a contiguous list, as far as they were stored; `place` is where it should begin.
+fn contiguous(contents: &Contents, cell: usize, place: &mut usize) -> Result<Vec<u32>, Fault> {
+    let lists = contents.lists.len() / 2;
+    let (first, count) = (contents.lists[cell], contents.lists[lists + cell] as usize);
+    if first as usize != *place {
+        return Err(Fault::Place { cell, first, expected: *place });
+    }
+    *place = place.saturating_add(count);
+    if *place > contents.header.demand as usize {
+        return Err(Fault::Dangling {
+            cell,
+            bucket: 0,
+            link: place.saturating_add(1).min(u32::MAX as usize) as u32,
+        });
+    }
+    let stored = contents.stored();
+    Ok(((first as usize).min(stored)..(*place).min(stored)).map(|place| place as u32 + 1).collect())
+}
+
+/// The links of a linked list in order; `linked` nodes are in lists before it.
+fn follow(contents: &Contents, cell: usize, bucket: usize, linked: usize) -> Result<Vec<u32>, Fault> {
+    let doubly = contents.config.storage.is_doubly_linked();
+    let list = cell * contents.config.lists() as usize + bucket;
+    let stored = contents.stored();
+    let mut links = Vec::new();
+    let (mut link, mut last) = (contents.head(list), 0);
+    while link != 0 {
+        if link as usize > stored || linked + links.len() >= stored {
+            return Err(Fault::Dangling { cell, bucket, link });
+        }
+        let found = contents.links(link);
+        if doubly && found[1] != last {
+            return Err(Fault::Backward { cell, bucket, link, prev: found[1], expected: last });
+        }
+        links.push(link);
+        last = link;
+        link = found[0];
+    }
+    if doubly && contents.lists[2 * list + 1] != last {
+        return Err(Fault::Tail { cell, bucket, tail: contents.lists[2 * list + 1], last });
+    }
+    Ok(links)
+}
+
+/// Without buckets there are no bounds: then a depth is any positive number.
+fn check_depth(contents: &Contents, cell: usize, bucket: usize, link: u32) -> Result<(), Fault> {
+    let (mut z_min, mut z_max) = (0.0, f32::MAX);
+    if contents.config.storage.is_bucketed() {
+        let word = cell * bounds_words(&contents.config) as usize;
+        z_min = f32::from_bits(!contents.bounds[word]);
+        z_max = f32::from_bits(contents.bounds[word + 1]);
+    }
+    let z = contents.z(link);
+    if z > 0.0 && z >= z_min && z <= z_max {
+        return Ok(());
+    }
+    let [z, z_min, z_max] = [z, z_min, z_max].map(|depth| depth.to_string());
+    Err(Fault::Depth { cell, bucket, link, z, z_min, z_max })
 }

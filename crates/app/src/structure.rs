@@ -33,10 +33,14 @@ pub enum Preset {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Storage {
-    /// Doubly linked list per depth bucket
-    Dllb,
+    /// One linked list per cell
+    Ll,
+    /// One doubly linked list per cell
+    Dll,
     /// Linked list per depth bucket
     Llb,
+    /// Doubly linked list per depth bucket
+    Dllb,
     /// One behind the other, counted first
     Sb,
 }
@@ -142,6 +146,14 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub storage: Option<Storage>,
+    /// Keep what a fragment carries within its list [the other word: --decoupled]
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "on")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inline: Option<Switch>,
+    /// Keep what a fragment carries beside its list, the same as --inline=off
+    #[arg(long, conflicts_with = "inline")]
+    #[serde(skip)]
+    pub decoupled: bool,
     /// What a fragment carries
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -201,7 +213,11 @@ impl StructureOptions {
     pub fn given(&self) -> Map<String, Value> {
         // By way of text, where a number keeps the digits that were typed: 0.1, not 0.10000000149.
         let text = serde_json::to_string(self).expect("numbers and words");
-        serde_json::from_str(&text).expect("an object of what was given")
+        let mut given: Map<String, Value> = serde_json::from_str(&text).expect("an object of what was given");
+        if self.decoupled {
+            given.insert("inline".to_owned(), Value::from("off"));
+        }
+        given
     }
 
     /// The options that were given and whose names `keep` accepts.
@@ -254,5 +270,13 @@ mod tests {
         assert_eq!((kept.buckets, kept.sort, kept.thickness), (None, Some(Switch::On), Some(0.1)));
         assert_eq!(kept.given().len(), 2);
         assert_eq!(kept.given()["thickness"].to_string(), "0.1");
+    }
+
+    #[test]
+    fn decoupled_is_another_word_for_not_inline() {
+        let base = StructureOptions { inline: Some(Switch::On), ..Default::default() };
+        let over = StructureOptions { decoupled: true, ..Default::default() };
+        assert_eq!(base.overlaid(&over).inline, Some(Switch::Off));
+        assert_eq!(over.overlaid(&base).inline, Some(Switch::On));
     }
 }

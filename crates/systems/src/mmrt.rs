@@ -1,6 +1,6 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload};
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload, Storage};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,10 +18,11 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 14] = [
+const OPTIONS: [&str; 15] = [
     "resolution",
     "buckets",
     "storage",
+    "inline",
     "payload",
     "march",
     "samples",
@@ -54,8 +55,11 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "thickness" => config.thickness = given.length()?,
             "sort" => config.sort = given.switch()?,
             "skip" => config.skip = given.switch()?,
-            // One word each so far: a value is checked, and nothing else is chosen.
-            "storage" => given.choice(&[("dllb", ())])?,
+            "storage" => {
+                config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
+            }
+            "inline" => config.inline = given.switch()?,
+            // One word so far: a value is checked, and nothing else is chosen.
             "views" => given.choice(&[("cube", ())])?,
             "payload" => {
                 config.payload =

@@ -12,7 +12,8 @@ layout(push_constant, scalar) uniform AbufferBuildConstants {
 
 void main() {
     bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
-        && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity;
+        && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
+        && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity;
     uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

@@ -1,9 +1,10 @@
 // What: stores each fragment: a node in the list of its cell and bucket, its payload beside it.
-// Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand.
+// Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand; without
+// buckets the bounds' extent.
 // Source: MMRT section 3.3, second geometry pass.
 #version 460
 #include "contract/extensions.glsl"
-#include "abuffer/accessors.glsl"
+#include "abuffer/lists.glsl"
 #include "abuffer/raster.glsl"
 #include "contract/alpha.glsl"
 #ifdef PAYLOAD_ATTRIBUTES
@@ -20,7 +21,18 @@ void main() {
         || !alpha_accepts(primitive, coverage.barycentrics)) {
         return;
     }
-    uint link = abuffer_allocate(abuffer_built);
+    float z = coverage.z;
+    uint bucket = 0u;
+    if (abuffer_bucketed()) {
+        AbufferBounds bounds = abuffer_bounds(abuffer_built, cell);
+        // The bounds pass may have seen a depth that differs in the last bit.
+        z = clamp(z, bounds.z_min, bounds.z_max);
+        bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
+    } else {
+        abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+    }
+    uint list = abuffer_list(cell, bucket);
+    uint link = abuffer_allocate(abuffer_built, list);
     if (link == 0u) {
         return;
     }
@@ -32,9 +44,5 @@ void main() {
 #else
     abuffer_set_data(abuffer_built, link, 0u, primitive);
 #endif
-    AbufferBounds bounds = abuffer_bounds(abuffer_built, cell);
-    // The bounds pass may have seen a depth that differs in the last bit.
-    float z = clamp(coverage.z, bounds.z_min, bounds.z_max);
-    uint bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
-    abuffer_push(abuffer_built, cell, bucket, link, z);
+    abuffer_push(abuffer_built, list, link, z);
 }

@@ -1,0 +1,19 @@
+// What: the length of each list, contiguous storage only.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists.
+// Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored one behind the other.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/lists.glsl"
+#include "abuffer/raster.glsl"
+#include "contract/alpha.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    uint cell;
+    CellCoverage coverage;
+    if (abuffer_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, coverage)
+        && alpha_accepts(primitive_and_face.x, coverage.barycentrics)) {
+        abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
+    }
+}

@@ -1,0 +1,36 @@
+// What: sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
+// Reads: lists, nodes, data, long lists. Writes: lists, nodes, long lists, header.unsorted.
+// Source: MMRT section 3.3, reorder pass; the paper cuts lists that are longer than a private array.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/sort_contiguous.glsl"
+#include "abuffer/sort_linked.glsl"
+
+layout(local_size_x = ABUFFER_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+    uint build_round;
+};
+
+void main() {
+    uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (place >= min(ABUFFER_HEADER(abuffer_built).long_demand, ABUFFER_HEADER(abuffer_built).long_capacity)) {
+        return;
+    }
+    uint list = ABUFFER_LONG(abuffer_built)[2u * place];
+    uint progress = ABUFFER_LONG(abuffer_built)[2u * place + 1u];
+    if (progress == ABUFFER_LONG_DONE) {
+        return;
+    }
+    uint result = SORT_DONE;
+    if (abuffer_contiguous()) {
+        result = abuffer_sort_contiguous(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS, progress);
+    } else {
+        result = abuffer_sort_linked(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS);
+    }
+    ABUFFER_LONG(abuffer_built)[2u * place + 1u] = result == SORT_DONE ? ABUFFER_LONG_DONE : progress;
+    if (result != SORT_DONE && build_round == ABUFFER_LONG_ROUNDS - 1u) {
+        atomicAdd(ABUFFER_HEADER(abuffer_built).unsorted, 1u);
+    }
+}

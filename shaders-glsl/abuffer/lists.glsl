@@ -1,0 +1,140 @@
+// What: the lists of a cell, behind which stands one of several storages: how a fragment is put into one, and
+// how one is read from either end.
+// Reads, writes: lists, nodes, header.demand, header.corrupted.
+// Source: MMRT section 3.3 and table 2. Linked: a head, doubly linked also a tail, of each bucket. Contiguous: a
+// first place of each cell, and behind all of those the counts.
+#ifndef ABUFFER_LISTS_GLSL
+#define ABUFFER_LISTS_GLSL
+
+#include "abuffer/nodes.glsl"
+
+// Running index of the list of a cell's bucket. Storages without buckets have one bucket.
+uint abuffer_list(uint cell, uint bucket) {
+    return cell * ABUFFER_BUCKETS + bucket;
+}
+
+uint abuffer_list_count(AbufferRef s) {
+    return abuffer_cell_count(s) * ABUFFER_BUCKETS;
+}
+
+// Word of a linked list's head; a tail is the next word.
+uint abuffer_head_word(uint list) {
+    return abuffer_doubly() ? 2u * list : list;
+}
+
+// Links of the first and the last node of a contiguous list, zeros where it is empty. Nodes past the end of the pool
+// are counted and left out.
+uvec2 abuffer_ends(AbufferRef s, uint list) {
+    uint first = ABUFFER_LISTS(s)[list];
+    uint count = ABUFFER_LISTS(s)[abuffer_list_count(s) + list];
+    uint stored = abuffer_stored(s);
+    if (count == 0u) {
+        return uvec2(0u);
+    }
+    if (first >= stored || count > stored - first) {
+        atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
+        return uvec2(0u);
+    }
+    return uvec2(first + 1u, first + count);
+}
+
+// Adds one to the length of a contiguous list, ahead of the scan that turns lengths into places.
+void abuffer_count_one(AbufferRef s, uint list) {
+    atomicAdd(ABUFFER_LISTS(s)[list], 1u);
+}
+
+// Takes a node for a fragment of a list; 0 where there is no room, which is counted.
+uint abuffer_allocate(AbufferRef s, uint list) {
+    uint node = 0u;
+    if (abuffer_contiguous()) {
+        uint count = abuffer_list_count(s);
+        node = ABUFFER_LISTS(s)[list] + atomicAdd(ABUFFER_LISTS(s)[count + list], 1u);
+        uint end = list + 1u < count ? ABUFFER_LISTS(s)[list + 1u] : ABUFFER_HEADER(s).demand;
+        if (node >= end) {
+            // More than the count pass saw would land in another list.
+            atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
+            return 0u;
+        }
+    } else {
+        node = atomicAdd(ABUFFER_HEADER(s).demand, 1u);
+    }
+    return node < ABUFFER_HEADER(s).capacity ? node + 1u : 0u;
+}
+
+// Puts a node with its depth into its list. Linked: in front. Nodes start out zeroed, so `prev` of the newest
+// is 0. The only writer of the old head's `prev` is the one that took its place, and the only writer of the
+// tail is the one that found the list empty.
+void abuffer_push(AbufferRef s, uint list, uint link, float z) {
+    abuffer_set_z(s, link, z);
+    if (abuffer_contiguous()) {
+        return;
+    }
+    uint word = abuffer_head_word(list);
+    uint old = atomicExchange(ABUFFER_LISTS(s)[word], link);
+    abuffer_set_next(s, link, old);
+    if (!abuffer_doubly()) {
+        return;
+    }
+    if (old == 0u) {
+        ABUFFER_LISTS(s)[word + 1u] = link;
+    } else {
+        abuffer_set_prev(s, old, link);
+    }
+}
+
+// A list that is being read.
+struct AbufferCursor {
+    uint link;            // the next node; 0 at the end
+    uint last;            // the node that ends the list, contiguous only
+    bool backward;        // towards the eye where the list is sorted
+};
+
+// Whether lists can be read from their far end.
+bool abuffer_has_far_end() {
+    return abuffer_doubly() || abuffer_contiguous();
+}
+
+// Begins a list at its far end (if it has one) or at its near end.
+AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
+    if (abuffer_contiguous()) {
+        uvec2 ends = abuffer_ends(s, list);
+        return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
+    }
+    uint word = abuffer_head_word(list);
+    return AbufferCursor(ABUFFER_LISTS(s)[backward ? word + 1u : word], 0u, backward);
+}
+
+// A list that has been read up to `link`.
+AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint link) {
+    AbufferCursor cursor = AbufferCursor(link, 0u, backward);
+    if (abuffer_contiguous()) {
+        cursor.last = abuffer_list_begin(s, list, backward).last;
+    }
+    return cursor;
+}
+
+// Whether a link names a node that was stored; one that does not is counted.
+bool abuffer_is_stored(AbufferRef s, uint link) {
+    if (link - 1u < abuffer_stored(s)) {
+        return true;
+    }
+    atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
+    return false;
+}
+
+// The next node of a list that has not ended. A link past the end is counted, ends the list and gives 0.
+uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
+    uint link = cursor.link;
+    if (!abuffer_is_stored(s, link)) {
+        cursor.link = 0u;
+        return 0u;
+    }
+    if (abuffer_contiguous()) {
+        cursor.link = link == cursor.last ? 0u : (cursor.backward ? link - 1u : link + 1u);
+    } else {
+        cursor.link = cursor.backward ? abuffer_prev(s, link) : abuffer_next(s, link);
+    }
+    return link;
+}
+
+#endif

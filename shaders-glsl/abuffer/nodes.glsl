@@ -1,0 +1,81 @@
+// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 names none.
+// Reads, writes: nodes, data, header.demand.
+// Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own, inline payload between a
+// node's depth and its links.
+#ifndef ABUFFER_NODES_GLSL
+#define ABUFFER_NODES_GLSL
+
+#include "abuffer/accessors.glsl"
+
+// Nodes that were stored.
+uint abuffer_stored(AbufferRef s) {
+    return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand);
+}
+
+uint abuffer_node_word(uint link) {
+    return (link - 1u) * abuffer_node_stride();
+}
+
+// Depth at the cell's centre, metres.
+float abuffer_z(AbufferRef s, uint link) {
+    return uintBitsToFloat(ABUFFER_NODES(s)[abuffer_node_word(link)]);
+}
+
+void abuffer_set_z(AbufferRef s, uint link, float z) {
+    ABUFFER_NODES(s)[abuffer_node_word(link)] = floatBitsToUint(z);
+}
+
+// The link away from the eye; not of contiguous nodes.
+uint abuffer_next(AbufferRef s, uint link) {
+    return ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word()];
+}
+
+void abuffer_set_next(AbufferRef s, uint link, uint next) {
+    ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word()] = next;
+}
+
+// The link towards the eye; of nodes that link both ways.
+uint abuffer_prev(AbufferRef s, uint link) {
+    return ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word() + 1u];
+}
+
+void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
+    ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word() + 1u] = prev;
+}
+
+// A word of a fragment's payload. A contiguous node that names a payload past the end is counted and gives 0.
+uint abuffer_data(AbufferRef s, uint link, uint word) {
+    if (ABUFFER_INLINE != 0u) {
+        return ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word];
+    }
+    uint place = link - 1u;
+    if (abuffer_contiguous()) {
+        place = ABUFFER_NODES(s)[abuffer_node_word(link) + 1u];
+        if (place >= abuffer_stored(s)) {
+            atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
+            return 0u;
+        }
+    }
+    return ABUFFER_DATA(s)[place * abuffer_data_stride() + word];
+}
+
+// Stores a word of payload, before anything is sorted: until then payload and node have one number.
+void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
+    if (ABUFFER_INLINE != 0u) {
+        ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word] = value;
+        return;
+    }
+    if (abuffer_contiguous()) {
+        ABUFFER_NODES(s)[abuffer_node_word(link) + 1u] = link - 1u;
+    }
+    ABUFFER_DATA(s)[(link - 1u) * abuffer_data_stride() + word] = value;
+}
+
+// The order of sorted lists: by depth, ties by the first word of payload.
+bool abuffer_comes_first(AbufferRef s, uint left, uint right) {
+    float left_z = abuffer_z(s, left);
+    float right_z = abuffer_z(s, right);
+    return left_z < right_z || (left_z == right_z && abuffer_data(s, left, 0u) <= abuffer_data(s, right, 0u));
+}
+
+#endif

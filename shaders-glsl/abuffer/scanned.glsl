@@ -1,0 +1,34 @@
+// What: the numbers that the scan of contiguous lists runs over: lengths become places, their sum the demand.
+// Reads, writes: lists, sums, header.demand.
+#ifndef ABUFFER_SCANNED_GLSL
+#define ABUFFER_SCANNED_GLSL
+
+#include "abuffer/lists.glsl"
+
+#define ScanRef AbufferRef
+
+uint scan_count(AbufferRef s, uint step) {
+    return abuffer_list_count(s);
+}
+
+uint scan_number(AbufferRef s, uint step, uint i) {
+    return ABUFFER_LISTS(s)[i];
+}
+
+void scan_set_number(AbufferRef s, uint step, uint i, uint number) {
+    ABUFFER_LISTS(s)[i] = number;
+}
+
+uint scan_sum(AbufferRef s, uint step, uint block) {
+    return ABUFFER_SUMS(s)[block];
+}
+
+void scan_set_sum(AbufferRef s, uint step, uint block, uint sum) {
+    ABUFFER_SUMS(s)[block] = sum;
+}
+
+void scan_set_total(AbufferRef s, uint step, uint total) {
+    ABUFFER_HEADER(s).demand = total;
+}
+
+#endif

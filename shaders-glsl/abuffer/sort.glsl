@@ -1,0 +1,10 @@
+// What: what a share of the sorting of a list says of it.
+// Reads, writes: nothing.
+#ifndef ABUFFER_SORT_GLSL
+#define ABUFFER_SORT_GLSL
+
+#define SORT_DONE 0u
+#define SORT_MORE 1u
+#define SORT_TOO_LONG 2u
+
+#endif
