@@ -11,6 +11,8 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use std::collections::HashMap;
+
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_LEAF_SHIFT, BVH_NONE};
 
 use crate::Node;
@@ -47,9 +49,10 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     if boxes.is_empty() {
         return Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::new() };
     }
-    let indices: Vec<u32> = (0..boxes.len() as u32).collect();
-    let normalized = normalized(boxes);
-    let mut shape = PlocBuilder::with_capacity(boxes.len()).build(
+    let (distinct, groups) = grouped(boxes);
+    let indices: Vec<u32> = (0..distinct.len() as u32).collect();
+    let normalized = normalized(&distinct);
+    let mut shape = PlocBuilder::with_capacity(distinct.len()).build(
         PlocSearchDistance::High,
         &normalized,
         indices,
@@ -59,7 +62,23 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     let mut optimizer = ReinsertionOptimizer::default();
     optimizer.run(&mut shape, REINSERTED, None);
     collapse(&mut shape, leaf, NODE_COST);
-    flatten(&shape, boxes)
+    flatten(&shape, boxes, &groups, leaf as usize)
+}
+
+/// The boxes that differ, in order of appearance, and the triangles of each. Clustering takes time in the square
+/// of the number of boxes that are the same, since all their unions cost the same.
+fn grouped(boxes: &[Box3]) -> (Vec<Box3>, Vec<Vec<u32>>) {
+    let mut places: HashMap<[[u32; 3]; 2], usize> = HashMap::with_capacity(boxes.len());
+    let (mut distinct, mut groups) = (Vec::new(), Vec::<Vec<u32>>::new());
+    for (triangle, bounds) in boxes.iter().enumerate() {
+        let place = *places.entry(bounds.map(|corner| corner.map(f32::to_bits))).or_insert(distinct.len());
+        if place == distinct.len() {
+            distinct.push(*bounds);
+            groups.push(Vec::with_capacity(1));
+        }
+        groups[place].push(triangle as u32);
+    }
+    (distinct, groups)
 }
 
 /// The boxes in units of the whole, so that no area overflows however large or small the scene is.
@@ -74,27 +93,49 @@ fn normalized(boxes: &[Box3]) -> Vec<Aabb> {
     boxes.iter().map(|b| Aabb::new(corner(b[0]).into(), corner(b[1]).into())).collect()
 }
 
-/// Lays the shape out depth first and gives every child its exact box.
-fn flatten(shape: &Bvh2, boxes: &[Box3]) -> Tree {
+/// What becomes a child.
+enum Part {
+    /// A node of the shape.
+    Node(usize),
+    /// Triangles that the shape does not tell apart.
+    Triangles(Vec<u32>),
+}
+
+/// Lays the shape out depth first and gives every child its exact box. More than `leaf` triangles in one place are
+/// halved until they fit.
+fn flatten(shape: &Bvh2, boxes: &[Box3], groups: &[Vec<u32>], leaf: usize) -> Tree {
     let mut tree = Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::with_capacity(boxes.len()) };
-    let mut pending = vec![(0_usize, BVH_NONE)];
-    while let Some((source, link)) = pending.pop() {
-        let node = &shape.nodes[source];
-        let first = node.first_index as usize;
-        let (reference, bounds) = if node.is_leaf() {
-            let primitives = &shape.primitive_indices[first..first + node.prim_count as usize];
-            let run = (primitives.len() as u32 - 1) << BVH_LEAF_SHIFT | tree.order.len() as u32;
-            tree.order.extend_from_slice(primitives);
-            let bounds = primitives.iter().map(|&primitive| boxes[primitive as usize]).reduce(union);
-            (BVH_LEAF | run, bounds.unwrap_or_default())
-        } else {
-            let number = tree.nodes.len() as u32;
-            tree.nodes.push(Node::empty(link));
-            pending.push((first + 1, 2 * number + 1));
-            pending.push((first, 2 * number));
-            (number, Box3::default())
+    let mut pending = vec![(Part::Node(0), BVH_NONE)];
+    while let Some((part, link)) = pending.pop() {
+        let [first, second] = match part {
+            Part::Node(source) => {
+                let node = &shape.nodes[source];
+                let first = node.first_index as usize;
+                if node.is_leaf() {
+                    let inside = &shape.primitive_indices[first..first + node.prim_count as usize];
+                    let triangles = inside.iter().flat_map(|group| &groups[*group as usize]).copied();
+                    pending.push((Part::Triangles(triangles.collect()), link));
+                    continue;
+                }
+                [Part::Node(first), Part::Node(first + 1)]
+            }
+            Part::Triangles(triangles) if triangles.len() <= leaf.max(1) => {
+                let run = (triangles.len() as u32 - 1) << BVH_LEAF_SHIFT | tree.order.len() as u32;
+                let bounds = triangles.iter().map(|&triangle| boxes[triangle as usize]).reduce(union);
+                tree.order.extend_from_slice(&triangles);
+                set_child(&mut tree, link, BVH_LEAF | run, bounds.unwrap_or_default());
+                continue;
+            }
+            Part::Triangles(mut triangles) => {
+                let second = triangles.split_off(triangles.len() / 2);
+                [Part::Triangles(triangles), Part::Triangles(second)]
+            }
         };
-        set_child(&mut tree, link, reference, bounds);
+        let number = tree.nodes.len() as u32;
+        tree.nodes.push(Node::empty(link));
+        pending.push((second, 2 * number + 1));
+        pending.push((first, 2 * number));
+        set_child(&mut tree, link, number, Box3::default());
     }
     for number in (1..tree.nodes.len()).rev() {
         let node = tree.nodes[number];
@@ -109,5 +150,37 @@ fn set_child(tree: &mut Tree, link: u32, reference: u32, bounds: Box3) {
         tree.root = reference;
     } else {
         tree.nodes[(link >> 1) as usize].set_child(link & 1, reference, bounds);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles and levels of the tree, each triangle once.
+    fn shape(tree: &Tree) -> (usize, usize) {
+        let mut triangles = tree.order.clone();
+        triangles.sort_unstable();
+        assert!(triangles.iter().enumerate().all(|(place, triangle)| place == *triangle as usize));
+        let mut levels = vec![1_usize; tree.nodes.len()];
+        for (number, node) in tree.nodes.iter().enumerate().skip(1) {
+            levels[number] = levels[(node.parent >> 1) as usize] + 1;
+        }
+        (triangles.len(), levels.into_iter().max().unwrap_or(0))
+    }
+
+    #[test]
+    fn triangles_in_one_place_are_halved() {
+        let point = [[0.25_f32; 3]; 2];
+        for (count, leaf) in [(1, 4), (4, 4), (5, 4), (700, 1), (100_000, 4)] {
+            let tree = build(&vec![point; count], leaf);
+            let levels = count.div_ceil(leaf as usize).next_power_of_two().ilog2() as usize;
+            assert_eq!(shape(&tree), (count, levels), "{count} triangles, {leaf} a leaf");
+        }
+        // Among others that are apart.
+        let mut boxes: Vec<Box3> = (0..100).map(|i| [[i as f32; 3], [i as f32 + 0.5; 3]]).collect();
+        boxes.extend([point; 100]);
+        let (triangles, levels) = shape(&build(&boxes, 2));
+        assert!(triangles == 200 && levels < 40, "{levels} levels");
     }
 }
