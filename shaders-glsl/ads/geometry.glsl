@@ -14,7 +14,6 @@ struct GeometryHeader {
     uint vertex_count;
     uint triangle_count;
     uint draw_count;
-    float largest_coordinate; // max-norm over all positions, metres
 };
 
 layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryHeaderBuffer {

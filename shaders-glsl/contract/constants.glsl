@@ -17,10 +17,6 @@
 // In Hit.primitive: a fragment without a known triangle; a and b are the structure's.
 #define PRIMITIVE_UNKNOWN 0xFFFFFFFEu
 
-// Ray flags.
-// The ray only asks whether anything is hit.
-#define RAY_OCCLUDED 1u
-
 // Draw flags.
 #define DRAW_ALPHA_MASKED 1u
 #define DRAW_STATIC 2u

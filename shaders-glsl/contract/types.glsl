@@ -13,7 +13,7 @@ struct Ray {
     vec3 direction;           // need not be unit, must be finite and not zero
     float t_max;              // may be +infinity
     uint exclude_primitive;   // never hit; PRIMITIVE_NONE excludes nothing
-    uint flags;               // RAY_*
+    uint flags;               // 0: kept for what a ray may ask beyond this, none so far
     float cone_width;         // metres at the origin
     float cone_spread;        // radians, growth of the width per metre
 };

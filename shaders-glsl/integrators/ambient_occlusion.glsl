@@ -15,9 +15,7 @@ Ray ambient_occlusion_ray(Surface s, float range, uint pixel, uint sample_index)
     vec2 random = vec2(random_float(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_U)),
                        random_float(pixel, sample_index, random_dimension(0u, RANDOM_BSDF_V)));
     vec3 direction = basis_around(s.geometric_normal) * cosine_hemisphere(random);
-    Ray ray = spawn_ray(s, normalize(direction), range);
-    ray.flags = RAY_OCCLUDED;
-    return ray;
+    return spawn_ray(s, normalize(direction), range);
 }
 
 #endif

@@ -128,9 +128,7 @@ LightSample light_sample(Surface s, vec4 random) {
 // The ray that asks whether the sample is seen from the surface.
 Ray light_shadow_ray(Surface s, LightSample chosen) {
     if (chosen.distance < LIGHT_INFINITY) return spawn_segment(s, chosen.target);
-    Ray ray = spawn_ray(s, chosen.direction, LIGHT_INFINITY);
-    ray.flags = RAY_OCCLUDED;
-    return ray;
+    return spawn_ray(s, chosen.direction, LIGHT_INFINITY);
 }
 
 // 1/sr with which light_sample chooses `position` on `primitive` from `origin`; 0 if it never does.

@@ -38,7 +38,7 @@ Ray spawn_segment(Surface s, vec3 target) {
     vec3 towards = target - origin;
     float distance = length(towards);
     if (!(distance > 0.0)) return ray_inactive();
-    return Ray(origin, 0.0, towards / distance, distance * (1.0 - 1.0 / 1048576.0), s.primitive, RAY_OCCLUDED,
+    return Ray(origin, 0.0, towards / distance, distance * (1.0 - 1.0 / 1048576.0), s.primitive, 0u,
                0.0, 0.0);
 }
 

@@ -35,7 +35,7 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Makes the header buffer (16 bytes, written by the host) and the binding set.
+    /// Makes the header buffer (12 bytes, written by the host) and the binding set.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -46,14 +46,12 @@ impl Geometry {
             usage: BufferUsage::STORAGE,
             location: MemoryLocation::Upload,
         })?;
-        let largest = desc.bounds.iter().flatten().fold(0.0_f32, |largest, x| largest.max(x.abs()));
         header.write(
             0,
             bytes_of(&GeometryHeader {
                 vertex_count: desc.vertex_count,
                 triangle_count: desc.triangle_count,
                 draw_count: desc.draw_count,
-                largest_coordinate: largest,
             }),
         )?;
         let layout = device.create_set_layout("geometry", 4)?;

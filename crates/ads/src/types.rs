@@ -17,7 +17,7 @@ pub struct Ray {
     pub t_max: f32,
     /// Never hit; `PRIMITIVE_NONE` excludes nothing.
     pub exclude_primitive: u32,
-    /// `RAY_*` bits.
+    /// 0: kept for what a ray may ask beyond this, none so far.
     pub flags: u32,
     /// Width of the ray cone at the origin, metres.
     pub cone_width: f32,
@@ -184,8 +184,6 @@ pub struct GeometryHeader {
     pub triangle_count: u32,
     /// Draws.
     pub draw_count: u32,
-    /// Largest coordinate in magnitude, metres.
-    pub largest_coordinate: f32,
 }
 
 /// Book-keeping of a [`crate::RayQueue`].
