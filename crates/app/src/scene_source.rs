@@ -3,6 +3,7 @@
 use crate::arguments::SceneArguments;
 use crate::environment;
 use crate::error::AppError;
+use crate::report::SceneRecord;
 use crate::structure::Switch;
 use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
@@ -20,6 +21,13 @@ pub struct LoadedScene {
     pub triangles: u64,
     /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
+}
+
+impl LoadedScene {
+    /// What reports say of it.
+    pub fn record(&self) -> SceneRecord {
+        SceneRecord { name: self.scene.name.clone(), triangles: self.triangles, sha256: self.sha256.clone() }
+    }
 }
 
 /// Extensions that make a name a file's.

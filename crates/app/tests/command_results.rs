@@ -115,6 +115,23 @@ fn a_hard_case_fails_the_check_only_where_a_target_was_missed() {
 }
 
 #[test]
+fn an_error_on_one_hard_case_keeps_the_cases_before_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let line = "compare hard:all --systems mmrt --rays 3 --device broken --report r.json";
+    let output = rasray(folder.path(), line);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the device was lost"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("warning: 2 of "), "{}", stderr(&output));
+    let kept = report(&folder.path().join("r.json")).runs;
+    let ids: Vec<_> = kept.iter().filter_map(|run| run.ray_set.as_deref()).collect();
+    assert_eq!(ids, ["G1", "G2"]);
+    // With nothing whole there is nothing to keep.
+    let output = rasray(folder.path(), "compare hard:G3 --systems mmrt --device broken --report n.json");
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(!folder.path().join("n.json").exists());
+}
+
+#[test]
 fn a_device_that_is_absent_or_fails_ends_with_3_and_leaves_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     for device in ["absent", "broken"] {

@@ -8,7 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::ray_files::{self, SaveTargets};
 use crate::report::figures::Figures;
-use crate::report::{Report, SceneRecord, html, markdown, table};
+use crate::report::{Report, html, markdown, origin, table};
 use crate::{camera, scene_source, systems, terminal};
 use std::ffi::OsStr;
 
@@ -81,7 +81,7 @@ pub(crate) fn compare(
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));
     }
 
-    let report = Report::new(backend.device(), SceneRecord::of(&loaded), Some(line.to_owned()), runs);
+    let report = Report::new(origin(line), backend.device(), loaded.record(), runs);
     ray_files::save(&targets.save, &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
     terminal::print(&table(&report))?;

@@ -7,7 +7,7 @@ use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::ray_files::{self, HitsFile};
-use crate::report::{HardRecord, Report, Run, SceneRecord, columns, table};
+use crate::report::{HardRecord, Report, Run, SceneRecord, columns, origin, table};
 use crate::systems::{self, SystemConfig};
 use crate::terminal;
 use rasray_hard_cases::{HardFile, Loading, Scale};
@@ -48,6 +48,7 @@ pub(super) fn compare(
     let mut whole = Comparison::default();
     let mut triangles = 0;
     let mut finished = 0;
+    let mut failed = None;
     for id in &ids {
         if interrupt.requested() {
             break;
@@ -56,7 +57,15 @@ pub(super) fn compare(
             whole.runs.push(read_file(&file)?);
         } else {
             let subject = Subject { id, systems: &systems, hits_files: &hits_files, targets: &targets };
-            let (one, count) = trace(given, subject, backend.as_mut(), interrupt)?;
+            let (one, count) = match trace(given, subject, backend.as_mut(), interrupt) {
+                Ok(traced) => traced,
+                // What was whole before is kept.
+                Err(error) if finished > 0 && given.replay.is_none() => {
+                    failed = Some(error);
+                    break;
+                }
+                Err(error) => return Err(error),
+            };
             if let Some(text) = &one.replay {
                 terminal::print(text)?;
             }
@@ -76,9 +85,16 @@ pub(super) fn compare(
         return Ok(());
     }
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, sha256: None };
-    let report = Report::new(backend.device(), scene, Some(line.to_owned()), whole.runs);
+    let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
     terminal::print(&table(&report))?;
+    if let Some(error) = failed {
+        terminal::warn(&format!(
+            "{finished} of {} cases were whole before the error, and only they are reported",
+            ids.len()
+        ));
+        return Err(error);
+    }
     report.runs.iter().try_for_each(check_whole)?;
     if finished < ids.len() {
         return Err(AppError::interrupted(

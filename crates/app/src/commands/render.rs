@@ -8,7 +8,7 @@ use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::report::{Report, Run, SceneRecord, table};
+use crate::report::{Report, Run, origin, table};
 use crate::systems::{self, SystemConfig, word};
 use crate::{camera, scene_source, terminal};
 
@@ -52,7 +52,7 @@ pub(crate) fn render(
 
     let run = run_of(&system, &frame, &output);
     let whole = check_whole(&run);
-    let report = Report::new(backend.device(), SceneRecord::of(&loaded), Some(line.to_owned()), vec![run]);
+    let report = Report::new(origin(line), backend.device(), loaded.record(), vec![run]);
     if let Some(place) = &report_target {
         place.write(report.to_json().as_bytes(), interrupt)?;
     }

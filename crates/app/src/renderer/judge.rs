@@ -1,15 +1,13 @@
 //! Hits against the oracle, and how their errors in t are distributed.
 
-use std::collections::BTreeMap;
-
 use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion, common_hits};
 use rasray_reference::oracle::Verdict;
 
 use super::stage::device_error;
 use crate::error::AppError;
+use crate::report::Accuracy;
 use crate::report::figures::DepthErrors;
-use crate::report::{Accuracy, RateRecord};
 
 /// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
 const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
@@ -37,40 +35,7 @@ pub(super) fn accuracy(
         StructureKind::Fragment => FRAGMENT_TOLERANCE,
     };
     let confusion = HitConfusion::measure(verdicts, hits, tolerance).map_err(device_error)?;
-    let dt = confusion.dt_rel;
-    Ok(Accuracy {
-        rays: confusion.rays,
-        ambiguous: confusion.ambiguous,
-        ambiguous_lost: confusion.ambiguous_lost.count + confusion.ambiguous_wrong.count,
-        missed: confusion.missed.count,
-        false_hits: confusion.false_hits.count,
-        wrong_primitive: confusion.wrong_primitive.map(|rate| rate.count),
-        t_off: Some(confusion.t_off.count),
-        dt_rel_count: dt.map(|dt| dt.count as u64),
-        dt_rel_p50: dt.map(|dt| dt.p50),
-        dt_rel_p90: dt.map(|dt| dt.p90),
-        dt_rel_p99: dt.map(|dt| dt.p99),
-        dt_rel_p999: dt.map(|dt| dt.p999),
-        dt_rel_max: dt.map(|dt| dt.max),
-        non_finite: confusion.non_finite.count,
-        rates: rates(&confusion),
-    })
-}
-
-/// Every rate that could have happened, by name.
-fn rates(confusion: &HitConfusion) -> BTreeMap<String, RateRecord> {
-    [
-        ("missed", Some(confusion.missed)),
-        ("false_hits", Some(confusion.false_hits)),
-        ("wrong_primitive", confusion.wrong_primitive),
-        ("t_off", Some(confusion.t_off)),
-        ("ambiguous_lost", Some(confusion.ambiguous_lost)),
-        ("ambiguous_wrong", Some(confusion.ambiguous_wrong)),
-        ("non_finite", Some(confusion.non_finite)),
-    ]
-    .into_iter()
-    .filter_map(|(name, rate)| Some((name.to_owned(), RateRecord::of(rate?)?)))
-    .collect()
+    Ok(Accuracy::from(&confusion))
 }
 
 /// The histogram of |dt|/t of a run.

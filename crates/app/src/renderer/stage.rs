@@ -238,15 +238,8 @@ impl Built {
     /// Options and paths as the structure resolved them.
     pub(super) fn resolved(&self) -> Result<Resolved, AppError> {
         let report = self.structure.report().map_err(device_error)?;
-        let options = report.options.into_iter().map(|(name, value)| {
-            // Numbers stay numbers in the report.
-            let value = value.parse::<f64>().map_or(Value::String(value.clone()), |number| {
-                value.parse::<u64>().map_or_else(|_| Value::from(number), Value::from)
-            });
-            (name.to_owned(), value)
-        });
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
-        Ok((options.collect(), paths.collect()))
+        Ok((rasray_report::options(report.options), paths.collect()))
     }
 
     /// Bytes of the structure, by part, with its formula.

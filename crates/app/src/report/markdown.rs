@@ -1,7 +1,7 @@
 //! The runs of a report side by side as one Markdown table, for pages that publish them.
 
-use super::schema::{Accuracy, Report, Run};
-use super::table::grouped;
+use super::words::grouped;
+use rasray_report::{Accuracy, Report, Run};
 
 /// The system whose rate others are put in relation to, where a report has it.
 const YARDSTICK: (&str, &str) = ("bvh", "robust");
@@ -150,7 +150,7 @@ mod tests {
 
     fn report(runs: Vec<Run>) -> Report {
         let scene = SceneRecord { name: "box".to_owned(), triangles: 16, sha256: None };
-        Report::new(Device::default(), scene, Some("rasray compare box".to_owned()), runs)
+        Report::new(crate::report::origin("rasray compare box"), Device::default(), scene, runs)
     }
 
     fn lines(text: &str) -> Vec<Vec<&str>> {

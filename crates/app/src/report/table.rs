@@ -1,30 +1,8 @@
 //! The report as text for people.
 
-use super::schema::{Bound, HardRecord, RateRecord, Report, Run, Statistics};
+use super::words::{bytes, columns, grouped};
+use rasray_report::{Bound, HardRecord, RateRecord, Report, Run, Statistics};
 use std::fmt::Write;
-
-/// Aligned columns: the first `left` to the left, the others to the right.
-pub(crate) fn columns(rows: &[Vec<String>], left: usize) -> String {
-    let count = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let mut widths = vec![0; count];
-    for (column, cell) in rows.iter().flat_map(|row| row.iter().enumerate()) {
-        widths[column] = widths[column].max(cell.chars().count());
-    }
-    let mut text = String::new();
-    for row in rows {
-        let mut line = String::new();
-        for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-            _ = if column < left {
-                write!(line, "  {cell:<width$}")
-            } else {
-                write!(line, "  {cell:>width$}")
-            };
-        }
-        text += line.trim_end();
-        text.push('\n');
-    }
-    text
-}
 
 fn milliseconds(value: f64) -> String {
     format!("{value:.3} ms")
@@ -36,34 +14,6 @@ fn apart(least: f64, quartiles: Option<(f64, f64)>, greatest: f64) -> String {
         Some((first, third)) => format!("({least:.3} [{first:.3} to {third:.3}] {greatest:.3})"),
         None => format!("({least:.3} to {greatest:.3})"),
     }
-}
-
-/// Bytes with a binary unit, exact below 1 KiB.
-pub(crate) fn bytes(value: u64) -> String {
-    const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
-    let mut scaled = value as f64;
-    let mut unit = "B";
-    for next in UNITS {
-        if scaled < 1024.0 {
-            break;
-        }
-        scaled /= 1024.0;
-        unit = next;
-    }
-    if unit == "B" { format!("{value} B") } else { format!("{scaled:.2} {unit}") }
-}
-
-/// A whole number with its thousands apart.
-pub(crate) fn grouped(value: u64) -> String {
-    let digits = value.to_string();
-    let mut text = String::new();
-    for (position, digit) in digits.chars().enumerate() {
-        if position > 0 && (digits.len() - position).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
 }
 
 fn section(text: &mut String, title: &str, rows: Vec<Vec<String>>) {
@@ -332,16 +282,8 @@ pub fn table(report: &Report) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Accuracy, Device, SceneRecord, Spread, Times};
+    use crate::report::{Accuracy, Device, Origin, SceneRecord, Spread, Times};
     use rasray_metrics::Rate;
-
-    #[test]
-    fn numbers_for_people() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(1_234_567), "1,234,567");
-        assert_eq!(bytes(1023), "1023 B");
-        assert_eq!(bytes(3 << 20), "3.00 MiB");
-    }
 
     #[test]
     fn several_runs_get_a_line_each_and_what_is_missing_a_dash() {
@@ -357,7 +299,7 @@ mod tests {
         let device = Device { name: "d".to_owned(), driver: "e".to_owned(), software: true };
         let scene = SceneRecord { name: "box".to_owned(), triangles: 12_000, sha256: None };
         let runs = vec![run("mmrt", Some(accuracy)), run("brute-force", None)];
-        let text = table(&Report::new(device, scene, None, runs));
+        let text = table(&Report::new(Origin::default(), device, scene, runs));
         assert!(text.contains("12,000 triangles") && text.contains("ratios on that device"), "{text}");
         assert!(text.contains("1 (0.1000 %)"), "{text}");
         let last = text.lines().last().expect("a summary");
@@ -390,7 +332,7 @@ mod tests {
             ..Default::default()
         };
         let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
-        let report = Report::new(Device::default(), scene, None, vec![run.clone(), run]);
+        let report = Report::new(Origin::default(), Device::default(), scene, vec![run.clone(), run]);
         let text = table(&report);
         for words in [
             "at most 0.2996 %",
@@ -406,7 +348,7 @@ mod tests {
         assert!(text.lines().any(|line| line.trim_end().ends_with("NOT MET")), "{text}");
         // Very many runs have a line each and no more.
         let many = vec![report.runs[0].clone(); RUNS_IN_FULL + 1];
-        let text = table(&Report::new(Device::default(), report.scene, None, many));
+        let text = table(&Report::new(Origin::default(), Device::default(), report.scene, many));
         assert!(!text.contains("NOT MET: because") && text.contains("--report"), "{text}");
         assert_eq!(text.lines().filter(|line| line.ends_with("NOT MET")).count(), RUNS_IN_FULL + 1);
     }

@@ -20,7 +20,7 @@ const ARGUMENTS: &str = "RASRAY_TEST_ARGUMENTS";
 pub const READY: &str = "RASRAY_TEST_READY";
 
 /// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample,
-/// `broken` fails, `unfinished` leaves a ray unanswered, `absent` cannot be opened.
+/// `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `absent` cannot be opened.
 pub struct Scripted {
     device: String,
 }
@@ -98,6 +98,9 @@ impl Backend for Scripted {
 
     fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError> {
         say_ready();
+        if self.device == "broken" && job.case.id == "G3" {
+            return Err(AppError::device("the device was lost", "restart it"));
+        }
         // The first system meets its target, the others do not.
         let run = |(place, system): (usize, &rasray_app::systems::SystemConfig)| Run {
             system: rasray_app::systems::word(&system.name),

@@ -23,14 +23,26 @@ pub(super) fn decades(title: &str, values: impl Iterator<Item = f64>) -> Value {
     })
 }
 
-/// A logarithmic axis that ends where the values do, with labels at 1, 2 and 5.
+/// A logarithmic axis that ends where the values do, with labels at powers of ten, and at 2 and 5 between them
+/// where the powers are few.
 pub(super) fn close_log(title: &str, values: impl Iterator<Item = f64>) -> Value {
-    let (low, high) = exponents(values).unwrap_or((0.0, 1.0));
-    let ticks = if high - low > 2.5 { json!(1) } else { json!("D2") };
-    json!({
-        "type": "log", "title": {"text": title}, "range": [low - 0.2, high + 0.2],
-        "dtick": ticks, "exponentformat": "none", "automargin": true,
-    })
+    let (low, high) = exponents(values).map_or((-0.2, 1.2), |(low, high)| (low - 0.2, high + 0.2));
+    let mut axis = json!({
+        "type": "log", "title": {"text": title}, "range": [low, high],
+        "exponentformat": "none", "automargin": true,
+    });
+    if high - low > 2.9 {
+        axis["dtick"] = json!(1);
+    } else if high - low > 1.3 {
+        axis["dtick"] = json!("D2");
+    } else {
+        // So few that each is written out: a 5 alone would not say of which power.
+        let powers = (low.floor() as i32..=high.floor() as i32).map(|power| 10_f64.powi(power));
+        let ticks = powers.flat_map(|power| [power, 2.0 * power, 5.0 * power]);
+        let inside = |tick: &f64| (low..=high).contains(&tick.log10());
+        axis["tickvals"] = ticks.filter(inside).collect();
+    }
+    axis
 }
 
 /// A linear axis from zero.
@@ -69,6 +81,15 @@ mod tests {
         assert_eq!(axis["range"], json!([-6.15, -2.85]));
         assert_eq!(decades("t", [1.0].into_iter())["range"], json!([-0.15, 1.15]));
         assert_eq!(decades("t", [].into_iter())["range"], json!([-1.15, 0.15]));
+    }
+
+    #[test]
+    fn the_few_labels_of_a_short_axis_are_written_out() {
+        let axis = close_log("t", [3500.0, 9500.0].into_iter());
+        assert_eq!(axis["tickvals"], json!([5000.0, 10000.0]));
+        let axis = close_log("t", [0.011, 0.82].into_iter());
+        assert_eq!((&axis["tickvals"], &axis["dtick"]), (&Value::Null, &json!("D2")));
+        assert_eq!(close_log("t", [0.01, 9.0].into_iter())["dtick"], json!(1));
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Stacked bars, one a run: time per pass and memory per part.
 
 use super::super::bytes;
-use super::super::schema::{Memory, Pass, Report, Run};
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, contestant, part_colour};
 use super::section::{Plot, Section};
+use rasray_report::{Memory, Pass, Report, Run};
 use serde_json::{Value, json};
 
 /// Parts that get a colour of their own; the rest share the last one.
@@ -201,8 +201,9 @@ pub(super) fn memory(report: &Report) -> Option<Section> {
     Section::of_plots(
         "memory",
         "Memory",
-        "The structure's allocations by part, in MiB. A diamond is what the formula of the system's page \
-         gives for the counted fragments, entries and cells; a line is the room in the pools.",
+        "The structure's allocations by part, in MiB; a part named slack is room that nothing takes up, which \
+         the summary leaves out. A diamond is what the formula of the system's page gives for the counted \
+         fragments, entries and cells; a line is all that is allocated, slack included.",
         plots,
     )
 }

@@ -1,11 +1,11 @@
 //! How |dt|/t is distributed: histograms, and percentiles beside each other.
 
 use super::super::figures::{DepthErrors, Figures};
-use super::super::schema::{Accuracy, Report};
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, contestant, look};
 use super::section::{Plot, Section};
+use rasray_report::{Accuracy, Report};
 use serde_json::{Value, json};
 
 /// |dt|/t where bin `index` begins.

@@ -1,10 +1,10 @@
 //! Everything a run says, in parts that open on demand: options, paths and every number of the JSON.
 
-use super::super::schema::Report;
 use super::markup::Markup;
 use super::names::{contestant, workload};
 use super::section::Section;
 use crate::error::AppError;
+use rasray_report::Report;
 use serde_json::Value;
 
 /// Fields that are tables of their own, before all others.
@@ -87,7 +87,7 @@ fn table(body: &mut Markup, title: &'static str, rows: &[[String; 2]]) {
     );
 }
 
-fn pass_table(body: &mut Markup, run: &super::super::schema::Run) {
+fn pass_table(body: &mut Markup, run: &rasray_report::Run) {
     if run.passes.is_empty() {
         return;
     }

@@ -1,9 +1,9 @@
 //! The frame of the page: head, title, device, navigation, parts, notices and scripts.
 
 use super::super::grouped;
-use super::super::schema::Report;
 use super::markup::Markup;
 use super::section::Section;
+use rasray_report::Report;
 use serde_json::Value;
 use std::borrow::Cow;
 

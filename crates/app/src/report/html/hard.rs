@@ -1,10 +1,11 @@
 //! Hard cases: what each demands and which run met it.
 
 use super::super::grouped;
-use super::super::schema::{HardRecord, Report, Run};
 use super::markup::Markup;
 use super::names::{MOST_HARD_CASES, contestant, hard_cases};
 use super::section::Section;
+use super::sortable::{Heading, table};
+use rasray_report::{HardRecord, Report, Run};
 
 /// The verdict in words, and the name of its look.
 fn verdict(hard: &HardRecord) -> (&'static str, &'static str) {
@@ -46,8 +47,9 @@ fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
             names.push(name);
         }
     }
-    let heading = ["contestant", "met", "not met", "one run cannot tell"];
-    table(body, "Verdicts of each contestant", &heading, 1, |rows| {
+    let verdicts = ["met", "not met", "one run cannot tell"].map(|name| Heading::number(name, None));
+    let headings = [Heading::words("contestant")].into_iter().chain(verdicts);
+    table(body, "Verdicts of each contestant", headings, |rows| {
         for name in &names {
             let count = |wanted: Option<bool>| {
                 let own = runs.iter().filter(|(run, hard)| contestant(run) == *name && hard.met == wanted);
@@ -67,8 +69,8 @@ fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
 }
 
 fn verdicts(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
-    let heading = ["case", "contestant", "verdict", "why", "looked at", "target", "what the case is"];
-    table(body, "Every verdict", &heading, heading.len(), |rows| {
+    let headings = ["case", "contestant", "verdict", "why", "looked at", "target", "what the case is"];
+    table(body, "Every verdict", headings.map(Heading::words), |rows| {
         for (run, hard) in runs {
             let (words, look) = verdict(hard);
             rows.element("tr", &[], |row| {
@@ -83,28 +85,4 @@ fn verdicts(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
             rows.fixed("\n");
         }
     });
-}
-
-/// A table that sorts; the first `words` columns hold words, the others numbers.
-fn table(
-    body: &mut Markup,
-    title: &'static str,
-    heading: &[&'static str],
-    words: usize,
-    rows: impl FnOnce(&mut Markup),
-) {
-    let scrolled = [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)];
-    body.element("div", &scrolled, |body| {
-        body.element("table", &[("class", "sortable")], |table| {
-            table.leaf("caption", &[], title).fixed("<thead><tr>");
-            for (column, name) in heading.iter().enumerate() {
-                let attributes = [("scope", "col"), ("class", "number")];
-                table.leaf("th", &attributes[..if column < words { 1 } else { 2 }], name);
-            }
-            table.fixed("</tr></thead>\n<tbody>\n");
-            rows(table);
-            table.fixed("</tbody>");
-        });
-    });
-    body.fixed("\n");
 }

@@ -1,7 +1,6 @@
 //! Images against the reference: a slider between any two, all of them side by side, maps of FLIP.
 
 use super::super::figures::{Figures, Images, SystemImage};
-use super::super::schema::Report;
 use super::markup::Markup;
 use super::misfit;
 use super::names::contestant;
@@ -9,6 +8,7 @@ use super::picture::{MAGMA, address, colour, ramp};
 use super::section::Section;
 use crate::error::AppError;
 use crate::output::tone_map;
+use rasray_report::Report;
 
 /// The images; absent unless images were compared.
 ///

@@ -15,13 +15,14 @@ mod names;
 mod pareto;
 mod picture;
 mod section;
+mod sortable;
 mod speed_error;
 mod summary;
 mod work;
 
 use super::figures::Figures;
-use super::schema::Report;
 use crate::error::AppError;
+use rasray_report::Report;
 
 /// The page as UTF-8 text.
 ///

@@ -1,6 +1,6 @@
 //! How runs are named, grouped and coloured, the same in every part of the page.
 
-use super::super::schema::Run;
+use rasray_report::Run;
 
 /// Colours that people with any colour vision tell apart, after Okabe and Ito; black is left out
 /// because it vanishes on a dark page, and yellow is last because it is faint on a light one.

@@ -2,13 +2,13 @@
 
 use super::super::figures::DepthErrors;
 use super::super::grouped;
-use super::super::schema::{Report, Run};
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, contestant, look};
 use super::pareto::{Point, front};
 use super::section::{Plot, Section};
 use rasray_metrics::Rate;
+use rasray_report::{Report, Run};
 use serde_json::{Value, json};
 
 /// A run in a plot.
@@ -44,10 +44,11 @@ pub(super) fn judged(run: &Run) -> Option<u64> {
     accuracy.rays.checked_sub(accuracy.ambiguous).filter(|rays| *rays > 0)
 }
 
-/// Missed, false and wrong hits.
+/// Missed, false and wrong hits. Where the primitive is unknown, a hit is wrong if rounding does not explain its t.
 fn errors(run: &Run) -> Option<u64> {
     let accuracy = run.accuracy.as_ref()?;
-    Some(accuracy.missed + accuracy.false_hits + accuracy.wrong_primitive.unwrap_or(0))
+    let wrong = accuracy.wrong_primitive.or(accuracy.t_off).unwrap_or(0);
+    Some(accuracy.missed + accuracy.false_hits + wrong)
 }
 
 /// Millions of rays a second.
@@ -130,8 +131,8 @@ pub(super) fn section(report: &Report) -> Option<Section> {
         "Speed against error",
         "Each run is a point; the line is the Pareto front: for a run on it no other run is faster without \
          being less exact. The front is decided by the measured numbers. A colour is a system, a symbol a \
-         preset, a bar the 95 % interval of a rate. Where the structure does not know the primitive, wrong hits are not counted. Hollow \
-         symbols mark errors of exactly zero.",
+         preset, a bar the 95 % interval of a rate. Where the structure does not know the primitive, a hit is wrong \
+         if rounding does not explain its t. Hollow symbols mark errors of exactly zero.",
         plots,
     )
 }

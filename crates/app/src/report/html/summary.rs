@@ -1,10 +1,11 @@
 //! The table with one row a run; a click on a heading sorts it.
 
-use super::super::schema::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
 use super::super::{bytes, grouped};
 use super::markup::Markup;
 use super::names::{contestant, workload};
 use super::section::Section;
+use super::sortable::{Heading, table};
+use rasray_report::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
 
 /// What a cell says and what it is sorted by.
 struct Cell {
@@ -229,9 +230,10 @@ pub(super) fn section(report: &Report) -> Option<Section> {
         if runs.is_empty() {
             continue;
         }
+        // Only columns in which some run has a value.
         let columns: Vec<&Column> =
             COLUMNS.iter().filter(|column| runs.iter().any(|run| (column.cell)(run).is_some())).collect();
-        table(&mut body, title, &runs, &columns);
+        rows(&mut body, title, &runs, &columns);
         for column in columns {
             if !explained.iter().any(|known| known.heading == column.heading) {
                 explained.push(column);
@@ -270,27 +272,15 @@ fn certainty(body: &mut Markup, statistics: &Statistics) {
     );
 }
 
-/// One row a run, and only columns in which some run has a value.
-fn table(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
-    let scrolled = [("class", "scrolled"), ("tabindex", "0"), ("role", "region"), ("aria-label", title)];
-    body.element("div", &scrolled, |body| {
-        body.element("table", &[("class", "sortable")], |table| {
-            table.leaf("caption", &[], title).fixed("<thead><tr>");
-            for name in ["system", "preset", "rays"] {
-                table.leaf("th", &[("scope", "col")], name);
-            }
-            for column in columns {
-                let meaning = [("scope", "col"), ("class", "number"), ("title", column.meaning)];
-                table.leaf("th", &meaning, column.heading);
-            }
-            table.fixed("</tr></thead>\n<tbody>\n");
-            for run in runs {
-                row(table, run, columns);
-            }
-            table.fixed("</tbody>");
-        });
+/// One row a run.
+fn rows(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
+    let numbers = columns.iter().map(|column| Heading::number(column.heading, Some(column.meaning)));
+    let headings = ["system", "preset", "rays"].map(Heading::words).into_iter().chain(numbers);
+    table(body, title, headings, |table| {
+        for run in runs {
+            row(table, run, columns);
+        }
     });
-    body.fixed("\n");
 }
 
 fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {

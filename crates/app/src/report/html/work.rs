@@ -2,12 +2,12 @@
 
 use super::super::figures::{Figures, WorkMap};
 use super::super::grouped;
-use super::super::schema::Report;
 use super::markup::Markup;
 use super::names::contestant;
 use super::picture::{VIRIDIS, address, colour, ramp};
 use super::section::Section;
 use crate::error::AppError;
+use rasray_report::Report;
 
 /// A quantity that the maps hold.
 struct Quantity {
@@ -72,14 +72,16 @@ pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Secti
             body.leaf(
                 "p",
                 &[],
-                "One ray through each pixel's centre. All maps of a quantity share one logarithmic scale.",
+                "One ray through each pixel's centre. All maps of a quantity share one logarithmic scale; runs that \
+                 spent none of it have no map.",
             );
         }
         shown = true;
         body.leaf("h3", &[], quantity.title);
         legend(&mut body, quantity, most)?;
         body.fixed("<div class=\"pictures\">\n");
-        for map in &figures.work {
+        // A structure without the quantity has no map of it.
+        for map in figures.work.iter().filter(|map| (quantity.values)(map).iter().any(|count| *count > 0)) {
             picture(&mut body, report, map, quantity, most)?;
         }
         body.fixed("</div>\n");

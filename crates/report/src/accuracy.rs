@@ -1,8 +1,8 @@
 //! How right a run was: hits against the oracle, images against the reference, hard cases against what
 //! is stated of them.
 
-use super::absent;
-use rasray_metrics::Rate;
+use crate::schema::absent;
+use rasray_metrics::{HitConfusion, Rate};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -47,9 +47,43 @@ pub struct Accuracy {
     /// Answers that are not finite numbers.
     pub non_finite: u64,
     /// Rates with their intervals by name: `missed`, `false_hits`, `wrong_primitive`, `t_off`,
-    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`. One that could not have happened is absent.
+    /// `ambiguous_lost`, `ambiguous_wrong`, `non_finite`; `errors` where a law bounds their share. One that could
+    /// not have happened is absent.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rates: BTreeMap<String, RateRecord>,
+}
+
+impl From<&HitConfusion> for Accuracy {
+    fn from(confusion: &HitConfusion) -> Self {
+        let dt = confusion.dt_rel;
+        let rates = [
+            ("missed", Some(confusion.missed)),
+            ("false_hits", Some(confusion.false_hits)),
+            ("wrong_primitive", confusion.wrong_primitive),
+            ("t_off", Some(confusion.t_off)),
+            ("ambiguous_lost", Some(confusion.ambiguous_lost)),
+            ("ambiguous_wrong", Some(confusion.ambiguous_wrong)),
+            ("non_finite", Some(confusion.non_finite)),
+        ];
+        let rates = rates.into_iter();
+        Self {
+            rays: confusion.rays,
+            ambiguous: confusion.ambiguous,
+            ambiguous_lost: confusion.ambiguous_lost.count + confusion.ambiguous_wrong.count,
+            missed: confusion.missed.count,
+            false_hits: confusion.false_hits.count,
+            wrong_primitive: confusion.wrong_primitive.map(|rate| rate.count),
+            t_off: Some(confusion.t_off.count),
+            dt_rel_count: dt.map(|dt| dt.count as u64),
+            dt_rel_p50: dt.map(|dt| dt.p50),
+            dt_rel_p90: dt.map(|dt| dt.p90),
+            dt_rel_p99: dt.map(|dt| dt.p99),
+            dt_rel_p999: dt.map(|dt| dt.p999),
+            dt_rel_max: dt.map(|dt| dt.max),
+            non_finite: confusion.non_finite.count,
+            rates: rates.filter_map(|(name, rate)| Some((name.to_owned(), RateRecord::of(rate?)?))).collect(),
+        }
+    }
 }
 
 /// A rate and how sure it is.
@@ -66,7 +100,7 @@ pub struct RateRecord {
     pub bound: Bound,
     /// Where the true rate lies with 95 % confidence.
     pub interval: [f64; 2],
-    /// The same such that all rates of the report hold together, see [`super::Statistics`].
+    /// The same such that all rates of the report hold together, see [`crate::Statistics`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub family_interval: Option<[f64; 2]>,
 }

@@ -1,9 +1,6 @@
-//! The schema `rasray-report/1`. A measurement that was not made is an absent field, never 0.
+//! A report and its runs. A measurement that was not made is an absent field, never 0.
 
-mod accuracy;
-
-pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
-
+use crate::accuracy::{Accuracy, HardRecord, ImageError};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -12,7 +9,7 @@ use std::collections::BTreeMap;
 pub const SCHEMA: &str = "rasray-report/1";
 
 /// JSON cannot say that a number is not finite, so such a number is absent.
-fn absent(value: &Option<f64>) -> bool {
+pub(crate) fn absent(value: &Option<f64>) -> bool {
     !value.is_some_and(f64::is_finite)
 }
 
@@ -22,9 +19,9 @@ fn absent(value: &Option<f64>) -> bool {
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: String,
-    /// Version of the command.
+    /// Version of the program.
     pub version: String,
-    /// Commit that the command was built from.
+    /// Commit that the program was built from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub commit: Option<String>,
     /// The command line as it was typed, words joined by spaces.

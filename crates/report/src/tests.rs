@@ -27,7 +27,8 @@ fn run(counts: &[(&str, u64, u64)]) -> Run {
 
 fn report(runs: Vec<Run>) -> Report {
     let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
-    Report::new(Device::default(), scene, Some("rasray compare box".to_owned()), runs)
+    let command = Some("rasray compare box".to_owned());
+    Report::new(Origin { command, ..Origin::default() }, Device::default(), scene, runs)
 }
 
 #[test]

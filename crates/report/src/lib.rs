@@ -1,0 +1,87 @@
+//! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write.
+
+mod accuracy;
+mod schema;
+#[cfg(test)]
+mod tests;
+
+pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
+pub use schema::{
+    Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, Spread, Statistics, Timer, Times,
+};
+
+use rasray_metrics::confidence_of_each;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Confidence of each interval by itself.
+const CONFIDENCE: f64 = 0.95;
+
+/// Confidence that all family intervals of a report hold.
+const FAMILY_CONFIDENCE: f64 = 0.95;
+
+/// What makes a report.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Origin {
+    /// Version of the program.
+    pub version: String,
+    /// Commit that it was built from, where known.
+    pub commit: Option<String>,
+    /// The command line as it was typed.
+    pub command: Option<String>,
+}
+
+impl Report {
+    /// A report of `runs` on a device and a scene. Gives each rate the interval that it has as one of all the
+    /// report's rates.
+    pub fn new(origin: Origin, device: Device, scene: SceneRecord, mut runs: Vec<Run>) -> Self {
+        let statistics = widen_intervals(&mut runs);
+        Self {
+            schema: SCHEMA.to_owned(),
+            version: origin.version,
+            commit: origin.commit,
+            command: origin.command,
+            device,
+            scene,
+            statistics,
+            runs,
+        }
+    }
+
+    /// The report as JSON text with a line break at its end. A number that is not finite is left out
+    /// like one that was not measured: JSON has no word for it.
+    pub fn to_json(&self) -> String {
+        let mut text =
+            serde_json::to_string_pretty(self).expect("strings, numbers and maps with string keys");
+        text.push('\n');
+        text
+    }
+}
+
+/// Options as a report has them: numbers stay numbers.
+pub fn options<'a>(resolved: impl IntoIterator<Item = (&'a str, String)>) -> BTreeMap<String, Value> {
+    let value = |text: String| match (text.parse::<u64>(), text.parse::<f64>()) {
+        (Ok(whole), _) => Value::from(whole),
+        (_, Ok(number)) => Value::from(number),
+        _ => Value::from(text),
+    };
+    resolved.into_iter().map(|(name, text)| (name.to_owned(), value(text))).collect()
+}
+
+/// Gives every rate its family interval; absent if there are no rates.
+fn widen_intervals(runs: &mut [Run]) -> Option<Statistics> {
+    let accuracies = || runs.iter().filter_map(|run| run.accuracy.as_ref());
+    let rates = accuracies().map(|accuracy| accuracy.rates.len() as u64).sum();
+    let each = confidence_of_each(FAMILY_CONFIDENCE, rates)?;
+    for accuracy in runs.iter_mut().filter_map(|run| run.accuracy.as_mut()) {
+        for rate in accuracy.rates.values_mut() {
+            rate.family_interval = rate.counted().interval_at(each);
+        }
+    }
+    Some(Statistics {
+        rates,
+        confidence: CONFIDENCE,
+        family_confidence: FAMILY_CONFIDENCE,
+        confidence_of_each: each,
+    })
+}
