@@ -6,6 +6,7 @@ pub mod image_truth;
 pub mod invariance;
 pub mod random;
 pub mod shapes;
+pub mod tier;
 pub mod visits;
 
 pub use rasray_hard_cases as hard_cases;

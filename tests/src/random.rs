@@ -1,24 +1,22 @@
 //! Numbers for tests: the same on every machine.
 
-/// A counter-based generator: number `i` of a seed does not depend on the ones before it.
-#[derive(Clone, Copy, Debug)]
+use rasray_hard_cases::Stream;
+
+/// The generator of the hard cases, started from a seed alone.
+#[derive(Clone, Debug)]
 pub struct Random {
-    state: u64,
+    stream: Stream,
 }
 
 impl Random {
     /// A stream of numbers.
     pub fn new(seed: u64) -> Self {
-        Self { state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) }
+        Self { stream: Stream::of_seed(seed) }
     }
 
-    /// 64 random bits (splitmix64).
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+        self.stream.bits()
     }
 
     /// In [low, high).

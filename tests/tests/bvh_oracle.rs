@@ -7,6 +7,7 @@ use rasray_tests::conformance::{Prepared, measure};
 use rasray_tests::hard_cases::{self, Expectation, HardCase, Scale, Triangle};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
+use rasray_tests::tier::is_full;
 
 /// 64 units of rounding beyond the oracle's own bounds, as in the conformance table.
 const ROUNDING: f64 = 64.0 / 16_777_216.0;
@@ -14,7 +15,7 @@ const ROUNDING: f64 = 64.0 / 16_777_216.0;
 const BATCH: usize = 100_000;
 
 fn batches() -> usize {
-    if std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1") { 100 } else { 1 }
+    if is_full() { 100 } else { 1 }
 }
 
 fn spheres() -> Vec<Triangle> {

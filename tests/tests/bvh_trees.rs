@@ -10,6 +10,7 @@ use rasray_tests::conformance::loadable;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 /// Triangles of a hard case up to which every run builds it.
@@ -73,7 +74,6 @@ fn all_trees_of(builder: Builder) {
     let points = vec![[[0.25; 3]; 3]; 65];
     let mut room = sphere([0.5, 0.5, 0.5], 0.25, 20);
     room.extend(closed_box([-3.0; 3], [3.0; 3]));
-    let full = std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1");
     let mut scenes = vec![
         ("nothing".to_owned(), Vec::new()),
         ("the same triangle 700 times".to_owned(), twins),
@@ -88,7 +88,7 @@ fn all_trees_of(builder: Builder) {
         let case = hard_cases::case(id, Scale::QUICK).expect("the id is in the catalogue");
         let kept = loadable(&case.triangles).iter().map(|&index| case.triangles[index as usize]).collect();
         let kept: Vec<Triangle> = kept;
-        if full || kept.len() <= LARGEST {
+        if is_full() || kept.len() <= LARGEST {
             scenes.push((id.to_owned(), kept));
         }
     }
@@ -98,7 +98,7 @@ fn all_trees_of(builder: Builder) {
     for (index, (name, triangles)) in scenes.iter().enumerate() {
         let mut trees = vec![&mut by_descriptor];
         // Every scene in the full tier, every third otherwise: modules differ only in how pools are reached.
-        if full || index % 3 == 0 {
+        if is_full() || index % 3 == 0 {
             trees.push(&mut by_address);
         }
         for bvh in trees {

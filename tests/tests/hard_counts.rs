@@ -10,6 +10,7 @@ use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::Oracle;
 use rasray_tests::hard_cases::{self, HardCase, Scale};
 use rasray_tests::harness::Bench;
+use rasray_tests::tier::is_full;
 
 const RAYS: usize = 10_000;
 
@@ -50,7 +51,7 @@ fn upload(bench: &Bench, positions: &[[f32; 3]], indices: &[u32]) -> Result<Geom
 
 #[test]
 fn ten_million_triangles_are_traced_or_refused() {
-    if std::env::var_os("RASRAY_FULL").is_none_or(|value| value != "1") {
+    if !is_full() {
         eprintln!("skipped: set RASRAY_FULL to 1 for ten million triangles");
         return;
     }

@@ -13,16 +13,13 @@ use rasray_tests::harness::{Bench, oracle_ray};
 use rasray_tests::invariance::{Answers, LAWS, SUBJECTS, Subject, Value, first_difference, law, pairwise};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 
 const EYE: [f32; 3] = [0.125, -0.25, 0.375];
 
-fn full() -> bool {
-    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
-}
-
 /// Rays a comparison: what the full tier affords, and what every run does.
 fn ray_count() -> usize {
-    if full() { 2000 } else { 400 }
+    if is_full() { 2000 } else { 400 }
 }
 
 /// Scattered layers, a sphere, and a room around them. `twins` adds triangles that coincide with others.
@@ -138,7 +135,7 @@ fn options_in_pairs_change_no_hit() {
         let options = speed_options(&subject);
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
         let mut rows = pairwise(&options.iter().map(|(_, values)| values.len()).collect::<Vec<_>>());
-        if !full() {
+        if !is_full() {
             // The full tier holds them all.
             rows.truncate(6);
         }
@@ -184,7 +181,7 @@ fn builds_and_traces_repeat() {
     let (triangles, rays) = (scene(true), rays(ray_count()));
     for subject in Subject::all(&bench) {
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
-        for _ in 0..if full() { 20 } else { 2 } {
+        for _ in 0..if is_full() { 20 } else { 2 } {
             let found = subject.answers(&bench, EYE, &triangles, &rays);
             assert_same(&format!("{}: repeated", subject.name()), &rays, &expected, &found);
         }
@@ -247,7 +244,7 @@ fn the_number_of_driver_threads_changes_no_hit() {
     let one = answers("1");
     assert_eq!(one.len(), SYSTEMS.iter().map(|system| system.presets.len()).sum::<usize>());
     assert!(one.iter().all(|line| line.contains("closest: [[")), "{one:?}");
-    for threads in if full() { &["2", "1", "2"][..] } else { &["2"] } {
+    for threads in if is_full() { &["2", "1", "2"][..] } else { &["2"] } {
         assert_eq!(one, answers(threads), "{threads} driver threads");
     }
 }

@@ -7,13 +7,13 @@ use rasray_reference::oracle::{self, Oracle, Verdict};
 use rasray_reference::views::{CellChord, cells_along};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tests::visits::{exact_face_chords, unresolved};
 
 /// Rays per case: every ray tests every triangle once.
 fn rays_per_case(triangles: usize) -> usize {
-    let full = std::env::var("RASRAY_FULL").is_ok_and(|value| value == "1");
-    let tests = if full { 200_000_000 } else { 4_000_000 };
-    (tests / triangles.max(1)).clamp(20, if full { 20_000 } else { 1000 })
+    let tests = if is_full() { 200_000_000 } else { 4_000_000 };
+    (tests / triangles.max(1)).clamp(20, if is_full() { 20_000 } else { 1000 })
 }
 
 fn both(triangles: &[Triangle], rays: &[oracle::Ray]) -> [Vec<Verdict>; 2] {

@@ -9,13 +9,10 @@ use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
-
-fn full() -> bool {
-    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
-}
 
 /// Scattered layers, spheres of small and of tiny triangles, slivers, and a room around them.
 fn scene() -> Vec<Triangle> {
@@ -78,9 +75,9 @@ fn assert_exact(what: &str, bench: &Bench, structure: &PrimitiveLists, rays: &[R
 fn hits_are_those_of_brute_force() {
     let bench = Bench::new();
     let triangles = scene();
-    let rounds = if full() { 100 } else { 1 };
+    let rounds = if is_full() { 100 } else { 1 };
     for round in 0..rounds {
-        let rays = rays(round, if full() { 100_000 } else { 20_000 }, 9.0);
+        let rays = rays(round, if is_full() { 100_000 } else { 20_000 }, 9.0);
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");

@@ -46,8 +46,3 @@ pub fn finish(device: Device) -> Vec<String> {
     drop(device);
     log.messages()
 }
-
-/// Whether the large counts are asked for.
-pub fn is_full() -> bool {
-    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
-}

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rasray_faults::{Failure, device, finish, is_full, picture, spec};
+use rasray_faults::{Failure, device, finish, picture, spec};
 use rasray_gpu::faults::{At, Injected, With, calls_of, inject, live_objects};
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, vk};
+use rasray_tests::tier::is_full;
 
 /// Systems whose renders are failed, the smallest and one built by the rasterizer, with the number of calls that the
 /// quick tier spreads over a render.

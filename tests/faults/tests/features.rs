@@ -1,9 +1,10 @@
 //! Devices that lack a feature or have small limits: the same hits, or an error that names what is missing.
 
-use rasray_faults::{Failure, device, device_with, finish, hits, is_full, requirements, spec, specs};
+use rasray_faults::{Failure, device, device_with, finish, hits, requirements, spec, specs};
 use rasray_gpu::faults::{with_limits, without};
 use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
 use rasray_systems::Spec;
+use rasray_tests::tier::is_full;
 
 /// Rays of each comparison.
 const RAYS: u32 = 1000;

@@ -1,3 +1,6 @@
+/// What the state of SplitMix64 grows by.
+const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+
 /// Random numbers that depend on a case, a seed and an index, and on nothing drawn before.
 #[derive(Clone, Debug)]
 pub struct Stream {
@@ -14,9 +17,14 @@ impl Stream {
         Self { state: mix(mix(name ^ seed) ^ index) }
     }
 
+    /// The numbers of a seed alone.
+    pub fn of_seed(seed: u64) -> Self {
+        Self { state: seed.wrapping_mul(STEP) }
+    }
+
     /// 64 random bits (SplitMix64).
     pub fn bits(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        self.state = self.state.wrapping_add(STEP);
         mix(self.state)
     }
 

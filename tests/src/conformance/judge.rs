@@ -73,7 +73,8 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         }
         Demand::Law { resolution, per_cell, laws, .. } => {
             let law = laws.iter().find(|law| law.case == case.id);
-            let limit = law.map_or(per_cell, |law| law.per_cell) / f64::from(resolution);
+            let general = per_cell / f64::from(resolution);
+            let limit = law.map_or(general, |law| law.limit(resolution));
             if low > limit {
                 let what = format!(
                     "the error rate is {rate:.4}, at least {low:.4}: more than {limit:.4}: {:?}",

@@ -23,4 +23,4 @@ pub use judge::{FALSE_ALARM, confidence, judge};
 pub use measure::{Measured, compare, device_hit, measure};
 pub use prepare::{Prepared, loadable};
 pub use rounds::trace_in_rounds;
-pub use rows::{Cases, DEEP, Demand, Deviation, Law, ROWS, Row, Tier, comparisons};
+pub use rows::{Cases, Curve, DEEP, Demand, Deviation, Law, ROWS, Row, Tier, comparisons};

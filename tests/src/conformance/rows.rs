@@ -35,8 +35,31 @@ pub struct Law {
     pub case: &'static str,
     /// Why it has more errors than others.
     pub reason: &'static str,
-    /// The error rate is at most this over the resolution.
+    /// Of the unambiguous rays, times the resolution.
     pub per_cell: f64,
+    /// How the limit falls.
+    pub curve: Curve,
+}
+
+/// How the largest rate of a law falls with the resolution N.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curve {
+    /// `per_cell / N`: each ray meets one border, whose share of the rays is as wide as a cell.
+    Line,
+    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance that is
+    /// as wide as a cell and does not depend on the others.
+    Chances,
+}
+
+impl Law {
+    /// The largest rate at a resolution.
+    pub fn limit(&self, resolution: u32) -> f64 {
+        let width = self.per_cell / f64::from(resolution);
+        match self.curve {
+            Curve::Line => width,
+            Curve::Chances => -(-width).exp_m1(),
+        }
+    }
 }
 
 /// A case on which a row does not meet its demand.
@@ -131,6 +154,24 @@ impl Row {
     /// Whether every answer must be right.
     pub fn is_exact(&self) -> bool {
         matches!(self.demand, Demand::Exact { .. })
+    }
+
+    /// What bounds its answers on a case, in words.
+    pub fn limit(&self, case: &str) -> String {
+        let deviation = self.deviations.iter().find(|deviation| deviation.case == case);
+        match (self.demand, deviation) {
+            (Demand::Exact { rounding }, _) => format!("t within {rounding:.1e} of the oracle's bounds"),
+            (Demand::Law { .. }, Some(Deviation { reason, at_least_rate, at_most_rate, .. })) => {
+                format!("a deviation between {at_least_rate} and {at_most_rate}: {reason}")
+            }
+            (Demand::Law { resolution, per_cell, laws, .. }, None) => {
+                let law = laws.iter().find(|law| law.case == case);
+                let general = per_cell / f64::from(resolution);
+                let limit = law.map_or(general, |law| law.limit(resolution));
+                let reason = law.map_or_else(String::new, |law| format!(": {}", law.reason));
+                format!("at most {limit:.4} with {resolution} cells a side{reason}")
+            }
+        }
     }
 
     /// The command that traces one ray of a case with this row's system and prints what it did.

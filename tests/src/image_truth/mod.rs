@@ -17,4 +17,4 @@ pub use scenes::{
     box_around, box_faces, diffuse, glass, glowing, looking, octahedron_sphere, parallel, scene_of, square,
     unlit,
 };
-pub use stage::{Picture, Stage, System, full_tier};
+pub use stage::{Picture, Stage, System};

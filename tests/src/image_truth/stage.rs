@@ -40,11 +40,6 @@ pub struct Stage<'a> {
     view: View,
 }
 
-/// Whether the large counts are asked for (`RASRAY_FULL=1`).
-pub fn full_tier() -> bool {
-    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
-}
-
 impl<'a> Stage<'a> {
     /// Uploads the scene and builds the structure around the camera.
     ///

@@ -4,9 +4,10 @@ use glam::DVec3;
 use rasray_scene::{Camera, Environment, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Plastic, Stage, System, assert_refused, assert_truth, full_tier, metal_albedo, parallel, plastic_albedo,
-    scene_of, square,
+    Plastic, Stage, System, assert_refused, assert_truth, metal_albedo, parallel, plastic_albedo, scene_of,
+    square,
 };
+use rasray_tests::tier::is_full;
 
 use super::grey;
 
@@ -48,7 +49,7 @@ fn camera(index: usize, cosine: f64) -> Camera {
 #[test]
 fn metal_and_plastic_reflect_what_their_lobes_integrate_to() {
     let bench = Bench::new();
-    let samples = if full_tier() { 256 } else { 12 };
+    let samples = if is_full() { 256 } else { 12 };
     let right = scene(MATERIALS.into_iter());
     let smoother =
         scene(MATERIALS.into_iter().map(|(color, metallic, rough)| (color, metallic, rough * 0.8)));

@@ -5,8 +5,9 @@ use glam::DVec3;
 use rasray_scene::{Camera, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Estimate, Stage, System, assert_refused, assert_truth, full_tier, parallel, scene_of, square, unlit,
+    Estimate, Stage, System, assert_refused, assert_truth, parallel, scene_of, square, unlit,
 };
+use rasray_tests::tier::is_full;
 
 use super::{RESOLUTION, by_system, grey, law};
 
@@ -70,7 +71,7 @@ fn tolerance(reflections: u32) -> f64 {
 #[test]
 fn every_reflection_dims_by_the_same_factor_and_rises_by_the_same_step() {
     let bench = Bench::new();
-    let counts: &[(u32, u32)] = if full_tier() {
+    let counts: &[(u32, u32)] = if is_full() {
         &[(1, 2), (3, 2), (10, 64), (50, 256), (100, 512)]
     } else {
         &[(1, 2), (3, 2), (10, 4), (50, 4)]

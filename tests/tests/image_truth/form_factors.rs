@@ -6,15 +6,16 @@ use glam::DVec3;
 use rasray_scene::{Camera, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Estimate, Stage, System, assert_refused, assert_truth, beside_sphere, convex_occlusion, diffuse,
-    full_tier, glowing, octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles,
-    polygon_irradiance, scene_of, square,
+    Estimate, Stage, System, assert_refused, assert_truth, beside_sphere, convex_occlusion, diffuse, glowing,
+    octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles, polygon_irradiance, scene_of,
+    square,
 };
+use rasray_tests::tier::is_full;
 
 use super::{RESOLUTION, SYSTEMS, by_system, grey, law};
 
 fn samples(quick: u32) -> u32 {
-    if full_tier() { 16 * quick } else { quick }
+    if is_full() { 16 * quick } else { quick }
 }
 
 /// A white unit square from the origin along x and z, and an emitter.

@@ -4,9 +4,10 @@ use glam::DVec3;
 use rasray_scene::{Environment, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, System, assert_refused, assert_truth, box_around, enclosure, full_tier, glass, glowing, looking,
+    Stage, System, assert_refused, assert_truth, box_around, enclosure, glass, glowing, looking,
     octahedron_sphere, scene_of,
 };
+use rasray_tests::tier::is_full;
 
 use super::{SYSTEMS, by_system, grey, law};
 
@@ -29,7 +30,7 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
         let size = by_system(system, 64, 32);
         let stage = Stage::new(&bench, &room(ALBEDO), camera.clone(), size, system);
         let bounces: &[u32] = by_system(system, &[0, 1, 3, 24], &[0, 3]);
-        let samples = if full_tier() { 128 } else { 8 };
+        let samples = if is_full() { 128 } else { 8 };
         let slack = |bounces| law(system, 2 * bounces + 1);
         for &bounces in bounces {
             let name = format!("furnace, {bounces} bounces, {system:?}");
@@ -68,7 +69,7 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
     let [mut stage, mut broken] =
         [1.0, 0.97].map(|color| Stage::new(&bench, &lossless(color), camera(0), 32, System::BruteForce));
     let (path, broken_path) = (stage.path(24), broken.path(24));
-    let samples = if full_tier() { 128 } else { 8 };
+    let samples = if is_full() { 128 } else { 8 };
     for (i, name) in ["mirror", "glass", "thin glass"].into_iter().enumerate() {
         // What is still in the glass after 24 scatterings is below a thousandth.
         let slack = 1e-3;

@@ -4,16 +4,17 @@ use glam::DVec3;
 use rasray_scene::{Camera, Environment, Material, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, System, assert_refused, assert_truth, box_around, box_faces, full_tier, glass,
-    interface_transmission, normal_reflectance, parallel, scene_of, square, unlit,
+    Stage, System, assert_refused, assert_truth, box_around, box_faces, glass, interface_transmission,
+    normal_reflectance, parallel, scene_of, square, unlit,
 };
+use rasray_tests::tier::is_full;
 
 use super::{RESOLUTION, grey, law};
 
 const SIZE: u32 = 32;
 
 fn samples(quick: u32) -> u32 {
-    if full_tier() { 16 * quick } else { quick }
+    if is_full() { 16 * quick } else { quick }
 }
 
 /// Width that each stack has for itself.
@@ -91,7 +92,7 @@ fn stacks_of_glass_let_through_what_their_interfaces_leave() {
         [1.5, 1.6].map(|ior| Stage::new(&bench, &before_lamp(ior), camera(0), SIZE, System::BruteForce));
     for (number, stack) in stacks().iter().enumerate() {
         // The quick tier leaves out the four plates.
-        if number == 2 && !full_tier() {
+        if number == 2 && !is_full() {
             continue;
         }
         let truth = grey(interface_transmission(&stack.interfaces));

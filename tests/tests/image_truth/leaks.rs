@@ -4,8 +4,9 @@ use glam::DVec3;
 use rasray_scene::{Environment, Light, Material, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Picture, SIGMAS, Stage, System, box_around, diffuse, full_tier, glowing, looking, scene_of, square,
+    Picture, SIGMAS, Stage, System, box_around, diffuse, glowing, looking, scene_of, square,
 };
+use rasray_tests::tier::is_full;
 
 use super::{RESOLUTION, law};
 
@@ -33,7 +34,7 @@ fn mean(picture: &Picture) -> f64 {
 #[test]
 fn no_light_enters_a_closed_box() {
     let bench = Bench::new();
-    let paths = if full_tier() { 10_000_000 } else { 100_000 };
+    let paths = if is_full() { 10_000_000 } else { 100_000 };
     let picture = inside(&bench, &closed_box(), System::BruteForce, paths);
     assert!(picture.pixels.iter().flatten().all(|x| *x == 0.0), "brightest: {}", mean(&picture));
     // A scratch of a hundredth of the box lets light in.

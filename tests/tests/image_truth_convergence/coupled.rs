@@ -56,11 +56,11 @@ fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
         }
         shares.push(coupled.share);
     }
-    // More cells, fewer wrong hits.
+    // More cells, fewer wrong hits; the factor is a bound of regression.
     assert!(shares[2] < 0.8 * shares[1], "four times the cells: {shares:?}");
 }
 
-/// One occlusion ray a pixel: the share of wrong answers is at most 12 over the cells a side.
+/// One occlusion ray a pixel: the share of wrong answers is at most 12 over the cells a side, a bound of regression.
 #[test]
 fn wrong_occlusion_falls_with_the_size_of_a_cell() {
     let bench = Bench::new();

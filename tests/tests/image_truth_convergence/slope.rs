@@ -6,9 +6,10 @@ use glam::DVec3;
 use rasray_integrators::Integrator;
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    SIGMAS, Stage, System, box_around, diffuse, enclosure, full_tier, glowing, looking, parallel,
-    polygon_irradiance, scene_of, square,
+    SIGMAS, Stage, System, box_around, diffuse, enclosure, glowing, looking, parallel, polygon_irradiance,
+    scene_of, square,
 };
+use rasray_tests::tier::is_full;
 
 /// Each pixel is a repetition of its own, for each seed.
 const SIZE: u32 = 32;
@@ -32,7 +33,7 @@ impl Slope {
 /// Of the error against `truth` over 2^k samples, k = 0 to `octaves`; every k takes samples of its own.
 /// `repeat` renders one sample again and again instead.
 fn slope(stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64, repeat: bool) -> Slope {
-    let octaves = if full_tier() { 9 } else { 5 };
+    let octaves = if is_full() { 9 } else { 5 };
     let mut points = Vec::new();
     for octave in 0..=octaves {
         let count = 1_u32 << octave;

@@ -1,36 +1,51 @@
 //! Every structure against every hard case. A new structure is one row of `conformance::ROWS`.
 
+mod report;
+
 use std::collections::HashSet;
 
+use rasray_report::Run;
 use rasray_systems::SYSTEMS;
-use rasray_tests::conformance::{Demand, Prepared, ROWS, Row, Tier, judge, measure};
+use rasray_tests::conformance::{Demand, Law, Prepared, ROWS, Row, Tier, judge, measure};
 use rasray_tests::hard_cases::{self, Scale, Target};
 use rasray_tests::harness::Bench;
+use rasray_tests::tier::is_full;
 
-/// Ray-triangle tests that a row which tests every triangle may spend on a case.
+/// Rays times triangles of a case, at most, for rows that find triangles.
 const TESTS: usize = 50_000_000;
 
 /// As [`TESTS`], in the full tier.
 const TESTS_FULL: usize = 500_000_000;
 
+/// The largest rate of errors that a law may allow.
+const LARGEST_LIMIT: f64 = 0.75;
+
 /// Rays of a case for rows of fragments in the full tier, with the meshes of the quick one: bounds of rates
 /// hold for those.
 const FRAGMENTS_FULL: Scale = Scale { rays: 20_000, ..Scale::QUICK };
 
-fn is_full() -> bool {
-    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
+/// What became of rows on their cases.
+#[derive(Default)]
+struct Held {
+    faults: Vec<String>,
+    runs: Vec<Run>,
 }
 
-/// Holds rows against their cases and reports every fault at once.
-fn hold(rows: &[&'static Row], scale: Scale, tests: usize) {
-    let bench = Bench::new();
+impl Held {
+    /// Reports every fault at once.
+    fn check(&self) {
+        assert!(self.faults.is_empty(), "{} faults:\n{}", self.faults.len(), self.faults.join("\n"));
+    }
+}
+
+/// Holds rows against their cases.
+fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: &mut Held) {
     let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
     // Those that meet only some of the rays come last.
     let mut rows = rows.to_vec();
     rows.sort_by_key(|row| row.is_exact());
-    let mut rows: Vec<_> = rows.into_iter().map(|row| (row, row.make(&bench, &placeholder))).collect();
+    let mut rows: Vec<_> = rows.into_iter().map(|row| (row, row.make(bench, &placeholder))).collect();
     assert!(!rows.is_empty());
-    let mut faults = Vec::new();
     for id in hard_cases::ids() {
         // Ten million triangles have a test of their own.
         let is_huge = scale.full && id.starts_with("C3");
@@ -38,30 +53,34 @@ fn hold(rows: &[&'static Row], scale: Scale, tests: usize) {
             continue;
         }
         let case = hard_cases::case(id, scale).expect("the id is in the catalogue");
-        let mut prepared = Prepared::new(&bench, case);
+        let mut prepared = Prepared::new(bench, case);
         for (row, structure) in &mut rows {
             if !row.cases.contain(id) {
                 continue;
             }
+            // Where all triangles are in one place, every structure tests them all.
             if row.is_exact() {
                 prepared.truncate(tests / prepared.case.triangles.len().max(1));
             }
             let (depth_tolerance, rounding) = row.tolerances();
-            let measured = measure(&bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
+            let measured = measure(bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
                 let rate = measured.judged();
                 println!("{} {id} {} of {}", row.name, rate.count, rate.total);
             }
-            faults.extend(judge(row, &prepared, &measured));
+            let faults = judge(row, &prepared, &measured);
+            held.runs.push(report::run(row, structure.as_ref(), &prepared, &measured, &faults));
+            held.faults.extend(faults);
         }
     }
-    assert!(faults.is_empty(), "{} faults:\n{}", faults.len(), faults.join("\n"));
 }
 
 #[test]
 fn every_row_keeps_its_demand_on_every_case() {
     let quick: Vec<_> = ROWS.iter().filter(|row| row.tier == Tier::Quick).collect();
-    hold(&quick, Scale::QUICK, TESTS);
+    let mut held = Held::default();
+    hold(&Bench::new(), &quick, Scale::QUICK, TESTS, &mut held);
+    held.check();
 }
 
 /// The large counts: full meshes for rows that find triangles, more rays and rows for the others.
@@ -72,8 +91,11 @@ fn every_row_keeps_its_demand_at_large_counts() {
         return;
     }
     let (exact, fragments): (Vec<_>, Vec<_>) = ROWS.iter().partition(|row| row.is_exact());
-    hold(&exact, Scale::FULL, TESTS_FULL);
-    hold(&fragments, FRAGMENTS_FULL, 0);
+    let (bench, mut held) = (Bench::new(), Held::default());
+    hold(&bench, &exact, Scale::FULL, TESTS_FULL, &mut held);
+    hold(&bench, &fragments, FRAGMENTS_FULL, 0, &mut held);
+    report::write(&bench, std::mem::take(&mut held.runs));
+    held.check();
 }
 
 #[test]
@@ -88,8 +110,12 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
     let mut names = HashSet::new();
     for row in ROWS {
         assert!(names.insert(row.name), "{} twice", row.name);
-        if let Demand::Law { laws, .. } = row.demand {
+        if let Demand::Law { laws, resolution, .. } = row.demand {
             assert!(laws.iter().all(|law| ids.contains(law.case) && law.per_cell > 0.0));
+            // A limit near 1 would hold nothing.
+            let says_little =
+                |law: &&Law| row.cases.contain(law.case) && law.limit(resolution) > LARGEST_LIMIT;
+            assert_eq!(laws.iter().find(says_little), None, "{}", row.name);
         } else {
             assert!(row.deviations.is_empty(), "{} finds triangles and may not deviate", row.name);
         }

@@ -1,0 +1,39 @@
+//! How much a run tests.
+//!
+//! The quick tier is what every change must pass; the full tier (`RASRAY_FULL=1`, `tools/test --full`) has the large
+//! counts. A program on the processor traces a thousandth of what a GPU does, so a count of the full tier may be
+//! smaller there. Counts follow tier and kind of device alone, never the clock, and each run prints its own.
+
+use std::fmt::Debug;
+
+use rasray_gpu::Device;
+
+/// Whether the large counts are asked for (`RASRAY_FULL=1`).
+pub fn is_full() -> bool {
+    std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
+}
+
+/// How often something is done, by tier and kind of device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts<T> {
+    /// In every run.
+    pub quick: T,
+    /// In the full tier on a software driver.
+    pub software: T,
+    /// In the full tier elsewhere.
+    pub full: T,
+}
+
+impl<T: Copy + Debug> Counts<T> {
+    /// The count for this run on this device. The full tier prints it with what it counts, since it follows
+    /// the device.
+    pub fn on(&self, device: &Device, what: &str) -> T {
+        let (count, kind) = match (is_full(), device.is_software()) {
+            (false, _) => return self.quick,
+            (true, true) => (self.software, "a software driver"),
+            (true, false) => (self.full, "this device"),
+        };
+        println!("full tier on {kind}: {what}: {count:?}");
+        count
+    }
+}

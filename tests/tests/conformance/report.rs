@@ -1,0 +1,96 @@
+//! What the full tier found, as a report: a run for every row and case.
+
+use rasray_ads::{Structure, StructureKind};
+use rasray_report::{Accuracy, Device, HardRecord, Origin, RateRecord, Report, Run, SceneRecord, Times};
+use rasray_systems::SYSTEMS;
+use rasray_tests::conformance::{Measured, Prepared, Row};
+use rasray_tests::harness::Bench;
+
+/// The environment variable that names the file; without it nothing is written.
+const FILE: &str = "RASRAY_CONFORMANCE_REPORT";
+
+/// A row on a case, with what of the measurement breaks its demand.
+pub fn run(
+    row: &Row,
+    structure: &dyn Structure,
+    prepared: &Prepared,
+    measured: &Measured,
+    faults: &[String],
+) -> Run {
+    let case = &prepared.case;
+    let target = match structure.kind() {
+        StructureKind::Primitive => case.target.primitives,
+        StructureKind::Fragment => case.target.fragments,
+    };
+    let limit = row.limit(case.id);
+    let judged = measured.judged();
+    let mut accuracy = Accuracy::from(&measured.confusion);
+    let errors = RateRecord::of(judged).filter(|_| !row.is_exact());
+    accuracy.rates.extend(errors.map(|errors| ("errors".to_owned(), errors)));
+    let reason = match faults {
+        [] if row.is_exact() => format!("all {} answers are allowed; {limit}", case.rays.len()),
+        [] => format!("{} of {} answers are wrong; {limit}", judged.count, judged.total),
+        faults => faults.join("\n"),
+    };
+    let report = structure.report().expect("the header is readable");
+    let system = SYSTEMS.iter().find(|system| system.name == row.system).expect("rows name systems");
+    Run {
+        system: row.system.to_owned(),
+        structure: system.structure.to_owned(),
+        preset: row.preset.name().to_owned(),
+        options: rasray_report::options(report.options),
+        paths: report.paths.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
+        ray_set: Some(case.id.to_owned()),
+        seed: u32::try_from(case.scale.seed).ok(),
+        times: Times { rays: Some(case.rays.len() as u64), ..Times::default() },
+        accuracy: Some(accuracy),
+        hard: Some(HardRecord {
+            id: case.id.to_owned(),
+            title: case.title.to_owned(),
+            measure: case.measure.to_owned(),
+            target: target.to_string(),
+            triangles: case.triangles.len() as u64,
+            met: Some(faults.is_empty()),
+            reason,
+            rejected: Some(measured.rejected.len() as u64),
+            first_rejected: measured.rejected.first().map(|ray| *ray as u64),
+            lost: Some(measured.lost as u64),
+        }),
+        ..Run::default()
+    }
+}
+
+/// Writes the runs where the environment says so.
+pub fn write(bench: &Bench, runs: Vec<Run>) {
+    let Some(file) = std::env::var_os(FILE) else { return };
+    let device = bench.device();
+    let device = Device {
+        name: device.name().to_owned(),
+        driver: device.driver().to_owned(),
+        software: device.is_software(),
+    };
+    let mut cases: Vec<_> = runs.iter().filter_map(|run| run.hard.as_ref()).collect();
+    cases.sort_by(|a, b| (&a.id, a.triangles).cmp(&(&b.id, b.triangles)));
+    cases.dedup_by(|a, b| (&a.id, a.triangles) == (&b.id, b.triangles));
+    let triangles = cases.iter().map(|case| case.triangles).sum();
+    let scene = SceneRecord { name: "hard:all".to_owned(), triangles, sha256: None };
+    let origin = Origin {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: commit(),
+        command: Some(format!("RASRAY_FULL=1 {FILE}=FILE cargo test -p rasray-tests --test conformance")),
+    };
+    let report = Report::new(origin, device, scene, runs);
+    std::fs::write(&file, report.to_json())
+        .unwrap_or_else(|error| panic!("{FILE}={} cannot be written: {error}", file.display()));
+}
+
+/// The commit that is checked out, where git knows it, and whether files differ from it.
+fn commit() -> Option<String> {
+    let git = std::process::Command::new("git")
+        .args(["describe", "--always", "--abbrev=12", "--dirty"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .ok()?;
+    let text = String::from_utf8(git.stdout).ok()?;
+    (git.status.success() && !text.trim().is_empty()).then(|| text.trim().to_owned())
+}
