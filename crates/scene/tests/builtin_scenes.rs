@@ -82,7 +82,11 @@ fn assert_well_formed(scene: &Scene) {
 #[test]
 fn every_scene_is_well_formed_and_the_same_twice() {
     for name in NAMES {
-        let spec = if name == "spheres" { "spheres:10k" } else { name };
+        let spec = match name {
+            "spheres" => "spheres:10k",
+            "ruins" => "ruins:10k",
+            other => other,
+        };
         let first = scene(spec);
         assert_well_formed(&first);
         assert_eq!(first.name, spec);
@@ -121,6 +125,7 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("spheres:10k,triangles=20k", "given twice"),
         ("spheres:k", "must be a number"),
         ("atrium:detail=9", "from 0.25 to 4"),
+        ("ruins:9k", "from 10000 to 10000000"),
         ("corridor:width=0", "from 0.5 to 50"),
     ];
     for (spec, expected) in table {
@@ -211,6 +216,35 @@ fn a_missing_triangle_opens_a_sphere() {
     let indices = &mut scene.meshes[0].indices;
     indices.truncate(indices.len() - 3);
     assert_eq!(open_edges(&scene.meshes).len(), 3);
+}
+
+/// Triangles above and below a point of the ground.
+fn layers(scene: &Scene, x: f64, z: f64) -> usize {
+    let above = |[a, b, c]: [[f32; 3]; 3]| {
+        let side = |from: [f32; 3], to: [f32; 3]| {
+            let (from, to) = (from.map(f64::from), to.map(f64::from));
+            (to[0] - from[0]) * (z - from[2]) - (to[2] - from[2]) * (x - from[0]) > 0.0
+        };
+        side(a, b) == side(b, c) && side(b, c) == side(c, a)
+    };
+    scene.meshes.iter().flat_map(corners).filter(|&corners| above(corners)).count()
+}
+
+#[test]
+fn ruins_are_solid_stones_many_layers_deep() {
+    for (spec, count, deep) in [("ruins:10k", 10_000, 1), ("ruins", 200_000, 8), ("ruins:600k", 600_000, 8)] {
+        let scene = scene(spec);
+        let found = triangles(&scene);
+        assert!(found <= count && count - found < 20, "{spec}: {found}");
+        for stones in scene.meshes.iter().filter(|mesh| mesh.name.ends_with("stone")) {
+            assert!(open_edges([stones]).is_empty(), "{spec}: {}", stones.name);
+            assert!(volume(stones) > 0.0);
+        }
+        let places = (0..25).map(|k| (0.5 * f64::from(k % 5) - 1.01, 0.5 * f64::from(k / 5) - 1.02));
+        let heap: usize = places.map(|(x, z)| layers(&scene, x, z)).sum();
+        assert!(heap >= 25 * deep, "{spec}: {heap} layers at 25 places of a heap");
+        assert_eq!(layers(&scene, 13.0, 13.1), 1, "{spec}: nothing but ground in the corner");
+    }
 }
 
 #[test]

@@ -111,7 +111,7 @@ pub fn atrium(parameters: Atrium) -> Scene {
             direction: DVec3::new(-0.35, -0.85, -0.4).normalize(),
             irradiance: [18.0, 16.4, 13.6],
         }],
-        environment: sky(),
+        environment: sky(1.0),
         cameras: vec![camera_looking_at("courtyard", eye, DVec3::new(-6.0, 3.4, -1.2), 1.1)],
         ..Scene::default()
     }
@@ -370,8 +370,8 @@ fn lamps(fineness: Fineness) -> crate::Mesh {
     shapes.finish()
 }
 
-/// Blue above, bright at the horizon, dim ground below; the sun is a light of its own.
-fn sky() -> Environment {
+/// Blue above, bright at the horizon, dim ground below, times `brightness`; the sun is a light of its own.
+pub(super) fn sky(brightness: f32) -> Environment {
     let (width, height) = (32_u32, 32_u32);
     let mut radiance = Vec::with_capacity((width * height) as usize);
     for row in 0..height {
@@ -385,7 +385,7 @@ fn sky() -> Environment {
             let mix = share.sqrt();
             (horizon[channel] * (1.0 - mix) + zenith[channel] * mix) as f32
         });
-        radiance.extend(std::iter::repeat_n(color, width as usize));
+        radiance.extend(std::iter::repeat_n(color.map(|value| brightness * value), width as usize));
     }
     Environment::LatLong { width, height, radiance }
 }

@@ -10,6 +10,7 @@
 //! | `furnace` | `albedo` in [0, 1) (0.5), `emission` >= 0 (1), `shape` `sphere` or `box` (`sphere`) | 1,280 or 12 |
 //! | `spheres` | `triangles` from 10k to 10M (300k), also as `spheres:10k` | as asked, within 10 |
 //! | `atrium` | `detail` in [0.25, 4] (1) | about 98k at detail 1 |
+//! | `ruins` | `triangles` from 10k to 10M (200k), also as `ruins:10k` | as asked, within 20 |
 //! | `corridor` | `reflectance` in [0, 1] (0.95), `width` in metres in [0.5, 50] (2) | 1,300 |
 //!
 //! Counts may be written with the suffixes `k` (thousand) and `M` (million).
@@ -19,6 +20,7 @@ mod cornell;
 mod corridor;
 mod furnace;
 mod parameters;
+mod ruins;
 mod shape;
 mod spheres;
 mod texture;
@@ -27,13 +29,14 @@ pub use atrium::{Atrium, atrium};
 pub use cornell::cornell;
 pub use corridor::{Corridor, corridor};
 pub use furnace::{Furnace, FurnaceShape, furnace};
+pub use ruins::{Ruins, ruins};
 pub use spheres::{Spheres, spheres};
 
 use crate::{Scene, SceneError};
 use parameters::Parameters;
 
 /// Names of all built-in scenes, in the order that help texts list them.
-pub const NAMES: [&str; 5] = ["cornell", "furnace", "spheres", "atrium", "corridor"];
+pub const NAMES: [&str; 6] = ["cornell", "furnace", "spheres", "atrium", "ruins", "corridor"];
 
 /// Makes the built-in scene that `spec` names, such as `cornell` or `furnace:albedo=0.8,emission=2`.
 ///
@@ -79,6 +82,12 @@ fn make(name: &str, mut given: Parameters) -> Result<Scene, SceneError> {
             let detail = given.number("detail", Atrium::default().detail, Atrium::DETAIL)?;
             given.finish()?;
             Ok(atrium(Atrium { detail }))
+        }
+        "ruins" => {
+            given.name_positional("triangles")?;
+            let triangles = given.count("triangles", Ruins::default().triangles, Ruins::TRIANGLES)?;
+            given.finish()?;
+            Ok(ruins(Ruins { triangles }))
         }
         "corridor" => {
             let defaults = Corridor::default();
