@@ -79,7 +79,7 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
         name(report, run),
         run.ray_set.clone().unwrap_or_default(),
         number(run.times.build_ms, 2),
-        number(run.times.build_host_ms.filter(|&host| host > 0.0), 2),
+        number(run.times.build_host_ms.filter(|&host| host >= 0.005), 2),
         number(run.times.trace_ms, 2),
         number(run.times.mrays_per_s, 3),
         number(relation(report, run), 2),

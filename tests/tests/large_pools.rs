@@ -1,0 +1,85 @@
+//! Pools larger than what one binding holds: refused by name through descriptors, and reached by address with the
+//! same hits; and, in the full tier, a million triangles in every kind of structure.
+
+use rasray_ads::{AdsError, Hit, Ray, Structure};
+use rasray_ads_primitive::{Addressing, Config, PrimitiveLists};
+use rasray_bvh::{Builder, Bvh};
+use rasray_gpu::{Feature, GpuError, Timing};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(402);
+    (0..count).map(|_| Ray::new(random.point(-3.5, 3.5), random.direction())).collect()
+}
+
+fn bits(hits: &[Hit]) -> Vec<[u32; 4]> {
+    hits.iter().map(|hit| [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]).collect()
+}
+
+#[test]
+fn a_pool_beyond_a_binding_is_reached_by_address() {
+    let bench = Bench::new();
+    let limit = bench.device().limits().max_storage_buffer_range;
+    let mut triangles: Vec<Triangle> = sphere([0.5, 0.25, 0.75], 1.0, 24);
+    triangles.extend(closed_box([-4.0; 3], [4.0; 3]));
+    let geometry = bench.geometry(&triangles);
+    // A word a list: 202 million bytes of lists.
+    let config = Config { tile: 1, buckets: 8, ..Config::robust(1024) };
+    let described = PrimitiveLists::new(bench.device(), config, &geometry, None);
+    if limit >= 202 << 20 {
+        println!("skipped: one binding of this device holds {limit} bytes");
+        return;
+    }
+    let error = described.err().expect("the lists exceed a binding");
+    assert!(matches!(error, AdsError::Gpu(GpuError::TooLarge { .. })), "{error}");
+    assert!(error.to_string().contains("lists"), "{error}");
+    if !bench.device().has(Feature::BufferDeviceAddress) {
+        println!("skipped: the device has no buffer device addresses");
+        return;
+    }
+    let config = Config { addressing: Addressing::Address, ..config };
+    let mut lists = PrimitiveLists::new(bench.device(), config, &geometry, None).expect("addresses reach it");
+    let pool = lists.sizes().pools.iter().find(|pool| pool.name == "lists").expect("the pool");
+    assert!(pool.elements * pool.element_bytes > limit);
+    let rays = rays(2000);
+    let found = bench.build_and_trace(&mut lists, [0.1, 0.2, 0.3], &rays);
+    let config = rasray_bvh::Config::new(Builder::Sah);
+    let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    assert_eq!(bits(&found), bits(&bench.build_and_trace(&mut tree, [0.0; 3], &rays)));
+}
+
+#[test]
+fn a_million_triangles_are_found_alike() {
+    if !rasray_tests::tier::is_full() {
+        println!("skipped: set RASRAY_FULL to 1 for the large counts");
+        return;
+    }
+    let bench = Bench::new();
+    let mut random = Random::new(403);
+    let mut triangles: Vec<Triangle> = closed_box([-4.0; 3], [4.0; 3]);
+    while triangles.len() < 1_000_000 {
+        triangles.extend(sphere(random.point(-3.0, 3.0), random.between(0.02, 0.2), 40));
+    }
+    let geometry = bench.geometry(&triangles);
+    let rays = rays(20_000);
+    let mut expected: Option<Vec<[u32; 4]>> = None;
+    let mut check = |name: &str, structure: &mut dyn Structure| {
+        build_until_complete(bench.device(), structure, [0.1, 0.2, 0.3], Timing::None).expect("it is built");
+        let hits = bits(&bench.trace(structure, &rays).hits);
+        match &expected {
+            Some(expected) => assert_eq!(&hits, expected, "{name}"),
+            None => expected = Some(hits),
+        }
+    };
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let config = rasray_bvh::Config::new(builder);
+        let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        check(builder.name(), &mut tree);
+    }
+    let mut lists = PrimitiveLists::new(bench.device(), Config::robust(512), &geometry, None)
+        .expect("the options are valid");
+    check("dirt", &mut lists);
+}
