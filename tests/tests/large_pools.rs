@@ -33,7 +33,7 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
         println!("skipped: one binding of this device holds {limit} bytes");
         return;
     }
-    let error = described.err().expect("the lists exceed a binding");
+    let error = described.expect_err("the lists exceed a binding");
     assert!(matches!(error, AdsError::Gpu(GpuError::TooLarge { .. })), "{error}");
     assert!(error.to_string().contains("lists"), "{error}");
     if !bench.device().has(Feature::BufferDeviceAddress) {
