@@ -16,6 +16,8 @@ pub struct SystemConfig {
     pub preset: Preset,
     /// Options over the preset; only such that the system has.
     pub options: StructureOptions,
+    /// The options of several values, where the system takes part once with each.
+    pub variant: Option<String>,
 }
 
 impl SystemConfig {
@@ -81,7 +83,7 @@ pub fn single(
             ));
         }
     }
-    let config = SystemConfig { name, preset, options: options.filtered(|_| true) };
+    let config = SystemConfig { name, preset, options: options.filtered(|_| true), variant: None };
     config.spec()?;
     Ok(config)
 }
@@ -127,15 +129,23 @@ pub fn several(
             continue;
         }
         let entry = entry(*name);
-        let mut variants = vec![options.filtered(|option| entry.options.contains(&option))];
+        let mut variants = vec![(options.filtered(|option| entry.options.contains(&option)), String::new())];
         for (_, values) in assigned.iter().filter(|(target, _)| target == name) {
-            let combined = variants.iter().flat_map(|own| values.iter().map(|over| own.overlaid(over)));
+            let combined = variants.iter().flat_map(|(own, variant)| {
+                values.iter().map(move |(over, word)| {
+                    let words = [variant.as_str(), word.as_str()];
+                    let several = words.into_iter().filter(|word| values.len() > 1 || *word != words[1]);
+                    let variant = several.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+                    (own.overlaid(over), variant)
+                })
+            });
             variants = combined.collect();
         }
         for (position, preset) in presets.iter().enumerate() {
             if has_preset(entry, *preset) && !presets[..position].contains(preset) {
-                for own in &variants {
-                    configs.push(single(*name, *preset, own)?);
+                for (own, variant) in &variants {
+                    let variant = (!variant.is_empty()).then(|| variant.clone());
+                    configs.push(SystemConfig { variant, ..single(*name, *preset, own)? });
                 }
             }
         }
@@ -145,7 +155,7 @@ pub fn several(
 
 /// Reads `mmrt.samples=50` or `mmrt.samples=50,100` with the parser of the command line, so that both know the
 /// same values.
-fn assignment(text: &str) -> Result<(SystemName, Vec<StructureOptions>), AppError> {
+fn assignment(text: &str) -> Result<(SystemName, Vec<(StructureOptions, String)>), AppError> {
     #[derive(Parser)]
     #[command(no_binary_name = true, disable_help_flag = true)]
     struct One {
@@ -172,9 +182,9 @@ fn assignment(text: &str) -> Result<(SystemName, Vec<StructureOptions>), AppErro
             who_has(option),
         ));
     }
-    let parse = |value| {
+    let parse = |value: &str| {
         One::try_parse_from([format!("--{option}={value}")])
-            .map(|parsed| parsed.options)
+            .map(|parsed| (parsed.options, format!("{option}={value}")))
             .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare")))
     };
     Ok((name, values.split(',').map(parse).collect::<Result<_, _>>()?))
@@ -300,6 +310,11 @@ mod tests {
         let shape: Vec<_> = configs.iter().map(|c| (c.name, c.options.samples, c.options.sort)).collect();
         assert_eq!(shape.len(), 5);
         assert_eq!(shape[4], (SystemName::BruteForce, None, None));
+        let variants: Vec<_> = configs.iter().map(|config| config.variant.as_deref()).collect();
+        let of = |samples, sort| format!("samples={samples} sort={sort}");
+        assert_eq!(variants[0], Some(of(50, "on").as_str()));
+        assert_eq!(variants[3], Some(of(100, "off").as_str()));
+        assert_eq!(variants[4], None);
         for (index, samples) in [(0, 50), (1, 50), (2, 100), (3, 100)] {
             assert_eq!((shape[index].0, shape[index].1), (SystemName::Mmrt, Some(samples)));
         }

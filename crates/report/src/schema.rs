@@ -87,6 +87,10 @@ pub struct Run {
     pub structure: String,
     /// `robust` or `published`.
     pub preset: String,
+    /// The options in which it differs from other runs of the same system and preset, such as `leaf=2`; absent where
+    /// there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
     /// Options as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
     /// What the device decided: builder, coverage, atomics.
@@ -275,6 +279,14 @@ pub struct Counters {
     /// Rays without an answer after the last round.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unfinished: Option<u64>,
+}
+
+impl Run {
+    /// System and preset, and the variant where there are several.
+    pub fn contestant(&self) -> String {
+        let parts = [Some(self.system.as_str()), Some(self.preset.as_str()), self.variant.as_deref()];
+        parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
+    }
 }
 
 #[cfg(test)]

@@ -51,6 +51,7 @@ impl<'a> Contestant<'a> {
             system: word(&self.config.name),
             structure: self.spec.system().structure.to_owned(),
             preset: word(&self.config.preset),
+            variant: self.config.variant.clone(),
             options,
             paths,
             times,

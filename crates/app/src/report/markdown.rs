@@ -76,7 +76,7 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
     let accuracy = run.accuracy.as_ref();
     let triangles = (report.scene.triangles > 0).then_some(report.scene.triangles as f64);
     vec![
-        name(report, run),
+        run.contestant(),
         run.ray_set.clone().unwrap_or_default(),
         number(run.times.build_ms, 2),
         number(run.times.build_host_ms.filter(|&host| host >= 0.005), 2),
@@ -96,26 +96,6 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
     ]
 }
 
-/// System and preset, with the options in which runs of the same name differ.
-fn name(report: &Report, run: &Run) -> String {
-    let twins = report.runs.iter().filter(|other| {
-        (&other.system, &other.preset, &other.ray_set) == (&run.system, &run.preset, &run.ray_set)
-    });
-    let mut differing: Vec<String> = Vec::new();
-    for twin in twins {
-        for (option, value) in &run.options {
-            if twin.options.get(option) != Some(value) {
-                let word = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-                differing.push(format!("{option}={word}"));
-            }
-        }
-    }
-    differing.sort();
-    differing.dedup();
-    let name = format!("{} {}", run.system, run.preset);
-    if differing.is_empty() { name } else { format!("{name} {}", differing.join(" ")) }
-}
-
 /// Rays per second over those of the yardstick on the same rays; absent where the yardstick was not traced, or
 /// stands there more than once.
 fn relation(report: &Report, run: &Run) -> Option<f64> {
@@ -133,14 +113,13 @@ fn relation(report: &Report, run: &Run) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::report::{Device, Memory, SceneRecord, Times};
-    use serde_json::Value;
 
     fn run(system: &str, storage: &str, rate: f64) -> Run {
         Run {
             system: system.to_owned(),
             preset: "robust".to_owned(),
             ray_set: Some("eye".to_owned()),
-            options: [("storage".to_owned(), Value::from(storage))].into(),
+            variant: (!storage.is_empty()).then(|| format!("storage={storage}")),
             times: Times { mrays_per_s: Some(rate), ..Times::default() },
             memory: Some(Memory { structure_bytes: Some(2048), ..Memory::default() }),
             accuracy: Some(Accuracy { rays: 1500, ambiguous: 500, missed: 7, ..Accuracy::default() }),
@@ -161,7 +140,7 @@ mod tests {
     #[test]
     fn rates_are_put_in_relation_and_missing_figures_are_empty() {
         let image = Run { integrator: Some("path".to_owned()), ..Run::default() };
-        let text = markdown(&report(vec![run("mmrt", "sb", 1.5), run("bvh", "tree", 3.0), image]));
+        let text = markdown(&report(vec![run("mmrt", "", 1.5), run("bvh", "", 3.0), image]));
         assert!(text.contains("1,000 unambiguous rays") && text.contains("rasray compare box"), "{text}");
         let rows = lines(&text);
         assert_eq!(rows.len(), 4, "{text}");
@@ -177,10 +156,10 @@ mod tests {
     }
 
     #[test]
-    fn runs_of_one_name_are_told_apart_by_their_options() {
-        let text = markdown(&report(vec![run("mmrt", "sb", 1.5), run("mmrt", "ll", 3.0)]));
+    fn variants_are_told_apart_and_have_no_one_yardstick() {
+        let text = markdown(&report(vec![run("bvh", "sb", 1.5), run("bvh", "ll", 3.0)]));
         let rows = lines(&text);
-        assert_eq!((rows[2][0], rows[3][0]), ("mmrt robust storage=sb", "mmrt robust storage=ll"));
+        assert_eq!((rows[2][0], rows[3][0]), ("bvh robust storage=sb", "bvh robust storage=ll"));
         let x = rows[0].iter().position(|&h| h == "x bvh").expect("the column");
         assert_eq!(rows[2][x], "", "nothing to be put in relation to");
     }

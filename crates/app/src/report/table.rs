@@ -38,7 +38,7 @@ fn interval(rate: &RateRecord) -> String {
 }
 
 fn heading(run: &Run) -> String {
-    let mut text = format!("{} {}", run.system, run.preset);
+    let mut text = run.contestant();
     for part in [&run.ray_set, &run.integrator].into_iter().flatten() {
         _ = write!(text, ", {part}");
     }
@@ -216,7 +216,7 @@ fn summary(runs: &[Run]) -> String {
         let what = run.ray_set.as_deref().or(run.integrator.as_deref()).unwrap_or("");
         let dt = accuracy.and_then(|accuracy| accuracy.dt_rel_p99);
         let mut row = vec![
-            format!("{} {} {what}", run.system, run.preset).trim_end().to_owned(),
+            format!("{} {what}", run.contestant()).trim_end().to_owned(),
             number(run.times.build_ms),
             number(run.times.trace_ms),
             number(run.times.mrays_per_s),

@@ -3,7 +3,7 @@
 use super::super::bytes;
 use super::axes;
 use super::markup::plot_text;
-use super::names::{by_workload, contestant, part_colour};
+use super::names::{by_workload, part_colour};
 use super::section::{Plot, Section};
 use rasray_report::{Memory, Pass, Report, Run};
 use serde_json::{Value, json};
@@ -53,7 +53,9 @@ fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
 
 /// A run's name on two lines, so that names leave room for bars on a phone.
 fn bar_name(run: &Run) -> String {
-    format!("{}<br>{}", plot_text(&run.system), plot_text(&run.preset))
+    let rest = [Some(&run.preset), run.variant.as_ref()];
+    let rest = rest.into_iter().flatten().map(|word| plot_text(word)).collect::<Vec<_>>();
+    format!("{}<br>{}", plot_text(&run.system), rest.join(" "))
 }
 
 /// One trace a part: the coloured ones, then one of all others.
@@ -144,7 +146,7 @@ pub(super) fn passes(report: &Report) -> Option<Section> {
 /// Each bar's name and length in words.
 fn totals(runs: &[(&Run, Vec<Part<'_>>)], words: impl Fn(f64) -> String) -> String {
     let one = |(run, parts): &(&Run, Vec<Part<'_>>)| {
-        format!("{} {}", contestant(run), words(parts.iter().map(|part| part.size).sum()))
+        format!("{} {}", run.contestant(), words(parts.iter().map(|part| part.size).sum()))
     };
     runs.iter().map(one).collect::<Vec<_>>().join(", ")
 }
@@ -182,7 +184,7 @@ pub(super) fn memory(report: &Report) -> Option<Section> {
             .collect();
         let same = |others: &[(&Run, &Memory)]| {
             others.len() == own.len()
-                && others.iter().zip(&own).all(|(a, b)| contestant(a.0) == contestant(b.0) && a.1 == b.1)
+                && others.iter().zip(&own).all(|(a, b)| a.0.contestant() == b.0.contestant() && a.1 == b.1)
         };
         if own.is_empty() {
             continue;

@@ -3,7 +3,7 @@
 use super::super::figures::{DepthErrors, Figures};
 use super::axes;
 use super::markup::plot_text;
-use super::names::{by_workload, contestant, look};
+use super::names::{by_workload, look};
 use super::section::{Plot, Section};
 use rasray_report::{Accuracy, Report};
 use serde_json::{Value, json};
@@ -86,7 +86,7 @@ fn histogram_plot(
         let zero = 100.0 * one.zero as f64 / hits;
         data.push(json!({
             "type": "scatter", "mode": "lines", "x": x, "y": y,
-            "name": format!("{}, {zero:.1} % exact", plot_text(&contestant(run))),
+            "name": format!("{}, {zero:.1} % exact", plot_text(&run.contestant())),
             "hovertemplate": "|dt|/t %{x:.1e}: %{y:.2%}",
             "line": {"color": look.colour, "dash": look.dash, "width": 2},
         }));
@@ -152,7 +152,7 @@ pub(super) fn percentiles(report: &Report) -> Option<Section> {
             let words: Vec<String> =
                 values.iter().map(|(name, value)| format!("{name}: {value:.2e}")).collect();
             data.push(json!({
-                "type": "scatter", "mode": "lines+markers", "name": plot_text(&contestant(run)),
+                "type": "scatter", "mode": "lines+markers", "name": plot_text(&run.contestant()),
                 "x": values.iter().map(|(name, _)| *name).collect::<Vec<_>>(), "y": heights,
                 "hovertext": words, "hoverinfo": "text+name",
                 "line": {"color": look.colour, "dash": look.dash, "width": 1.5},

@@ -1,7 +1,7 @@
 //! Everything a run says, in parts that open on demand: options, paths and every number of the JSON.
 
 use super::markup::Markup;
-use super::names::{contestant, workload};
+use super::names::workload;
 use super::section::Section;
 use crate::error::AppError;
 use rasray_report::Report;
@@ -30,7 +30,7 @@ pub(super) fn section(report: &Report) -> Result<Option<Section>, AppError> {
     for run in &report.runs {
         let value = serde_json::to_value(run).map_err(|error| super::misfit(error.to_string()))?;
         body.element("details", &[], |body| {
-            body.leaf("summary", &[], format_args!("{}, {}", contestant(run), workload(run)));
+            body.leaf("summary", &[], format_args!("{}, {}", run.contestant(), workload(run)));
             for (field, title) in OWN_TABLES {
                 let mut rows = Vec::new();
                 flatten(&value[field], String::new(), &mut rows);

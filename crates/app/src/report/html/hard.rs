@@ -2,7 +2,7 @@
 
 use super::super::grouped;
 use super::markup::Markup;
-use super::names::{MOST_HARD_CASES, contestant, hard_cases};
+use super::names::{MOST_HARD_CASES, hard_cases};
 use super::section::Section;
 use super::sortable::{Heading, table};
 use rasray_report::{HardRecord, Report, Run};
@@ -42,7 +42,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
 fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
     let mut names: Vec<String> = Vec::new();
     for (run, _) in runs {
-        let name = contestant(run);
+        let name = run.contestant();
         if !names.contains(&name) {
             names.push(name);
         }
@@ -52,7 +52,7 @@ fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
     table(body, "Verdicts of each contestant", headings, |rows| {
         for name in &names {
             let count = |wanted: Option<bool>| {
-                let own = runs.iter().filter(|(run, hard)| contestant(run) == *name && hard.met == wanted);
+                let own = runs.iter().filter(|(run, hard)| run.contestant() == *name && hard.met == wanted);
                 own.count() as u64
             };
             rows.element("tr", &[], |row| {
@@ -74,7 +74,7 @@ fn verdicts(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
         for (run, hard) in runs {
             let (words, look) = verdict(hard);
             rows.element("tr", &[], |row| {
-                row.leaf("th", &[("scope", "row")], &hard.id).leaf("td", &[], contestant(run));
+                row.leaf("th", &[("scope", "row")], &hard.id).leaf("td", &[], run.contestant());
                 row.element("td", &[], |cell| {
                     cell.leaf("span", &[("class", look)], words);
                 });

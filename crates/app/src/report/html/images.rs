@@ -3,7 +3,6 @@
 use super::super::figures::{Figures, Images, SystemImage};
 use super::markup::Markup;
 use super::misfit;
-use super::names::contestant;
 use super::picture::{MAGMA, address, colour, ramp};
 use super::section::Section;
 use crate::error::AppError;
@@ -33,7 +32,7 @@ pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Secti
         &beauty(images, &images.reference)?,
     );
     for (index, system) in images.systems.iter().enumerate() {
-        let name = contestant(&report.runs[system.run]);
+        let name = report.runs[system.run].contestant();
         let id = format!("image-{index}");
         let alternative = format!("The scene as {name} renders it");
         picture(&mut body, images, (&id, &name, &alternative), &beauty(images, &system.pixels)?);
@@ -56,7 +55,7 @@ fn viewer(body: &mut Markup, report: &Report, images: &Images) {
         return;
     }
     let names: Vec<String> =
-        images.systems.iter().map(|system| contestant(&report.runs[system.run])).collect();
+        images.systems.iter().map(|system| report.runs[system.run].contestant()).collect();
     body.element("div", &[("class", "viewer script-only"), ("id", "viewer")], |body| {
         body.fixed("<div class=\"choices\">");
         for (id, label, chosen) in [("viewer-left", "Left", 0), ("viewer-right", "Right", 1)] {
@@ -126,7 +125,7 @@ fn map(body: &mut Markup, report: &Report, images: &Images, system: &SystemImage
     }
     let rgb: Vec<u8> = system.flip.iter().flat_map(|value| colour(MAGMA, f64::from(*value))).collect();
     let source = address(images.width, images.height, &rgb)?;
-    let name = contestant(&report.runs[system.run]);
+    let name = report.runs[system.run].contestant();
     let mean = system.flip.iter().map(|value| f64::from(*value)).sum::<f64>() / system.flip.len() as f64;
     let largest = system.flip.iter().copied().fold(0.0, f32::max);
     let caption = format!("{name}: mean {mean:.5}, largest {largest:.3}");

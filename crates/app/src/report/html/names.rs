@@ -7,11 +7,6 @@ use rasray_report::Run;
 const COLOURS: [&str; 8] =
     ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#8c8c8c", "#d8c83a"];
 
-/// System and preset.
-pub(super) fn contestant(run: &Run) -> String {
-    format!("{} {}", run.system, run.preset).trim_end().to_owned()
-}
-
 /// Hard cases up to which each gets plots of its own.
 pub(super) const MOST_HARD_CASES: usize = 4;
 

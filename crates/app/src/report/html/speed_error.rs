@@ -4,7 +4,7 @@ use super::super::figures::DepthErrors;
 use super::super::grouped;
 use super::axes;
 use super::markup::plot_text;
-use super::names::{by_workload, contestant, look};
+use super::names::{by_workload, look};
 use super::pareto::{Point, front};
 use super::section::{Plot, Section};
 use rasray_metrics::Rate;
@@ -159,7 +159,7 @@ fn plot(
     let steps = best.iter().map(|index| [entries[*index].x, drawn(&entries[*index])]).collect();
     let mut data = vec![front_line(steps, measure.faster_is_right, &x, &y)];
     data.extend(entries.iter().map(|entry| marker(report, entry, drawn(entry))));
-    let names: Vec<_> = best.iter().map(|index| contestant(entries[*index].run)).collect();
+    let names: Vec<_> = best.iter().map(|index| entries[*index].run.contestant()).collect();
     Plot {
         id: format!("speed-error-{}-{position}", measure.id),
         title: format!("{workload}: speed and {}", measure.title),
@@ -213,13 +213,13 @@ fn caption(floor: Option<f64>, rays: Option<u64>) -> (String, Vec<Value>) {
 fn marker(report: &Report, entry: &Entry<'_>, drawn: f64) -> Value {
     let look = look(&report.runs, entry.run);
     let symbol = if entry.error == 0.0 { format!("{}-open", look.symbol) } else { look.symbol.to_owned() };
-    let mut lines = vec![plot_text(&contestant(entry.run)), plot_text(&entry.note)];
+    let mut lines = vec![plot_text(&entry.run.contestant()), plot_text(&entry.note)];
     let times = [("build", entry.run.times.build_ms), ("trace", entry.run.times.trace_ms)];
     for (name, value) in times {
         lines.extend(value.map(|value| format!("{name} {value:.3} ms")));
     }
     let mut trace = json!({
-        "type": "scatter", "mode": "markers", "name": plot_text(&contestant(entry.run)),
+        "type": "scatter", "mode": "markers", "name": plot_text(&entry.run.contestant()),
         "x": [entry.x], "y": [drawn], "hovertext": [lines.join("<br>")], "hoverinfo": "text",
         "marker": {"color": look.colour, "symbol": symbol, "size": 12, "line": {"width": 2, "color": look.colour}},
         "cliponaxis": false,

@@ -2,7 +2,7 @@
 
 use super::super::{bytes, grouped};
 use super::markup::Markup;
-use super::names::{contestant, workload};
+use super::names::workload;
 use super::section::Section;
 use super::sortable::{Heading, table};
 use rasray_report::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
@@ -285,8 +285,10 @@ fn rows(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Colum
 
 fn row(table: &mut Markup, run: &Run, columns: &[&Column]) {
     table.element("tr", &[], |row| {
-        row.leaf("th", &[("scope", "row"), ("title", &contestant(run))], &run.system);
-        row.leaf("td", &[], &run.preset).leaf("td", &[], workload(run));
+        row.leaf("th", &[("scope", "row"), ("title", &run.contestant())], &run.system);
+        let preset = [Some(run.preset.as_str()), run.variant.as_deref()];
+        let preset = preset.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        row.leaf("td", &[], preset).leaf("td", &[], workload(run));
         for column in columns {
             match (column.cell)(run) {
                 Some(cell) => {

@@ -3,7 +3,6 @@
 use super::super::figures::{Figures, WorkMap};
 use super::super::grouped;
 use super::markup::Markup;
-use super::names::contestant;
 use super::picture::{VIRIDIS, address, colour, ramp};
 use super::section::Section;
 use crate::error::AppError;
@@ -117,7 +116,7 @@ fn picture(
     let source = address(map.width, map.height, &rgb)?;
     let mean = values.iter().map(|count| f64::from(*count)).sum::<f64>() / values.len() as f64;
     let largest = values.iter().copied().max().unwrap_or(0);
-    let name = contestant(&report.runs[map.run]);
+    let name = report.runs[map.run].contestant();
     let caption = format!("{name}: mean {mean:.2}, most {}", grouped(largest.into()));
     let size = [map.width, map.height].map(|length| length.to_string());
     body.element("figure", &[], |figure| {
