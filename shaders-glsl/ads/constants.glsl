@@ -6,4 +6,9 @@
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
 
+// In the word of a brick: it lists nothing.
+#define BRICK_EMPTY 0x80000000u
+// Bricks that one step over empty ones crosses at most, its own included.
+#define BRICK_REACH 8u
+
 #endif

@@ -11,7 +11,9 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 };
 
 void main() {
-    bool fits = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
+    bool lists_fit = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
         && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
+    bool fits = lists_fit && PRIMITIVE_HEADER(primitive_built).record_demand <= PRIMITIVE_HEADER(primitive_built).record_capacity
+        && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity;
     PRIMITIVE_HEADER(primitive_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
 }

@@ -5,6 +5,7 @@
 // How the lists of a cell are kept.
 #define PRIMITIVE_STORAGE_LINKED 0u
 #define PRIMITIVE_STORAGE_CONTIGUOUS 1u
+#define PRIMITIVE_STORAGE_BRICKS 2u
 
 // Which cells list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
@@ -22,6 +23,30 @@
 // Bound of how far rounding moves a triangle against the ray that is marched, over the distance of the
 // geometry: 24 units of rounding for each of the five distances between origin and hit.
 #define PRIMITIVE_ROUNDING 7.2e-6
+
+// The same for bricks, whose cells list what lies within the rounding of the test in two coordinates (240 units) and
+// that of the march (96).
+#define PRIMITIVE_BRICK_ROUNDING 2.0e-5
+
+// How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
+#define PRIMITIVE_BRICK_PLACE 9.6e-7
+
+// Most columns a side of a face and most slices of bricks: loops over them stay far below the iterations that drivers
+// allow an invocation.
+#define PRIMITIVE_BRICK_SIDE_LIMIT 1024u
+#define PRIMITIVE_BRICK_SLICE_LIMIT 1024u
+
+// Octaves of depth in which triangles are counted, and the share of the triangles, one in so many, that may begin
+// nearer than the first slice that is cut finely.
+#define PRIMITIVE_OCTAVES 32u
+#define PRIMITIVE_OCTAVE_SHARE 256u
+
+// Most columns that one invocation of the binning builder looks at; triangles with more get a workgroup.
+#define PRIMITIVE_BIN_COLUMNS 64
+// Words a triangle for those: one a face.
+#define PRIMITIVE_PAIR_LIMIT 6u
+// Workgroups a row of that dispatch.
+#define PRIMITIVE_PAIR_ROW 32768u
 
 // Half side of the near box over tiles times the distance of the geometry: there a cell is as wide as the
 // guard of the march, 16 units of rounding for each of nine distances.

@@ -7,6 +7,7 @@
 #define PRIMITIVE_TRACE_GLSL
 
 #include "primitive/walk.glsl"
+#include "primitive/brick_trace.glsl"
 
 // Tests triangles one by one: those of the near list, or all. True if the budget ended first.
 bool primitive_trace_listed(PrimitiveRef s, Ray ray, bool any_hit, inout PrimitiveWalk walk, inout TraceState state, inout uint work) {
@@ -93,6 +94,9 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     vec2 near = near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
     vec2 clip = primitive_clip(s, origin, direction, ray.t_min - slack, ray.t_max + slack);
     bool distant = size > PRIMITIVE_ORIGIN_LIMIT * reach;
+    if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS) {
+        return brick_trace(s, ray, origin, clip, near, slack, distant, any_hit, state);
+    }
     PrimitiveWalk walk;
     uint work = 0u;
     float t = clip.x;

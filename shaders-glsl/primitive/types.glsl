@@ -13,8 +13,9 @@ layout(constant_id = 30) const uint PRIMITIVE_BUCKETS = 16u;
 layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIGUOUS;
 layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_EXACT;
 layout(constant_id = 33) const uint PRIMITIVE_SKIP = 1u;
+layout(constant_id = 34) const uint PRIMITIVE_CORNERS_KEPT = 0u;
 
-// State and sizes of one value. 136 bytes.
+// State and sizes of one value. 328 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -34,11 +35,25 @@ struct PrimitiveHeader {
     float spare_lower;
     vec3 upper;
     float spare_upper;
-    uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
+    uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used; this one also of bricks
     uvec2 lists_address;
     uvec2 entries_address;
     uvec2 sums_address;
     uvec2 near_address;
+    // What follows is of bricks alone.
+    uvec2 records_address;
+    uvec2 triangles_address;
+    uint slices;          // of every column, a multiple of 4
+    int slice_first;      // Slices.first
+    int slice_shift;      // Slices.shift
+    uint record_demand;   // triangles in columns
+    uint record_capacity;
+    uint cell_demand;     // cells that list something
+    uint cell_capacity;
+    uint triangle_capacity;
+    uint pairs;           // triangles with many columns of a face
+    uint groups[3];       // a workgroup for each of them
+    uint octaves[PRIMITIVE_OCTAVES]; // triangles that begin so many octaves before the farthest geometry
 };
 
 // Depths of what a cell lists.

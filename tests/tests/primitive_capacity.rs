@@ -3,16 +3,24 @@
 
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_ads_primitive::{
-    Addressing, Config, Contents, Fault, PrimitiveLists, Storage, formula_bytes, plan, well_formed,
+    Addressing, Config, Contents, Demand, Fault, PrimitiveLists, Storage, formula_bytes, plan, well_formed,
 };
+use rasray_gpu::Timing;
+use rasray_shaders_glsl::constants::ads::BRICK_EMPTY;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tracer::build_until_complete;
 
 const EYE: [f32; 3] = [0.0; 3];
 const NEAR_TRIANGLES: u64 = 5;
+
+/// Room for that many entries and near triangles, and for as many records and cells as may come with them.
+fn room(entries: u64, near: u64, triangles: &[Triangle]) -> Demand {
+    Demand { entries, near, records: 1 << 16, cells: 1 << 16, triangles: triangles.len() as u64 }
+}
 
 /// Layers, a room, and triangles around the eye for the near list.
 fn scene() -> Vec<Triangle> {
@@ -63,7 +71,9 @@ fn every_edge_capacity(storage: Storage, addressing: Addressing) {
     let mut structure = made(&bench, config, &triangles);
 
     // Ample room: what the demand and the hits are.
-    structure.resize(bench.device(), &plan(&config, 1 << 20, 1 << 10).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, &room(1 << 20, 1 << 10, &triangles)).expect("in range"))
+        .expect("it fits");
     let status = build(&bench, &mut structure);
     assert!(status.complete);
     let (entries, near) = (demand(&status, "entries"), demand(&status, "near"));
@@ -75,7 +85,7 @@ fn every_edge_capacity(storage: Storage, addressing: Addressing) {
     let full = [0, 1, entries / 2, entries - 1, entries].map(|capacity| (capacity, near));
     let near_full = [0, 1, near - 1].map(|capacity| (entries, capacity));
     for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
-        let sizes = plan(&config, room, near_room).expect("in range");
+        let sizes = plan(&config, &self::room(room, near_room, &triangles)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = build(&bench, &mut structure);
         let fits = room >= entries && near_room >= near;
@@ -115,6 +125,71 @@ fn every_edge_capacity_of_linked_lists() {
 fn every_edge_capacity_by_address() {
     every_edge_capacity(Storage::Contiguous, Addressing::Address);
     every_edge_capacity(Storage::Linked, Addressing::Address);
+    every_edge_capacity(Storage::Bricks, Addressing::Address);
+}
+
+#[test]
+fn every_edge_capacity_of_bricks() {
+    every_edge_capacity(Storage::Bricks, Addressing::Descriptor);
+}
+
+/// Records and lists of bricks at every edge: whatever there is room for, the next build completes, with the same hits.
+#[test]
+fn bricks_grow_from_any_room_to_what_they_need() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let config = Config { storage: Storage::Bricks, ..Config::robust(32) };
+    let mut structure = made(&bench, config, &triangles);
+    let ample = room(1 << 20, 1 << 10, &triangles);
+    structure.resize(bench.device(), &plan(&config, &ample).expect("in range")).expect("it fits");
+    let status = build(&bench, &mut structure);
+    assert!(status.complete);
+    let (records, cells) = (demand(&status, "records"), demand(&status, "lists"));
+    assert!(cells > 500 && records > cells / 2 && records < demand(&status, "entries"), "{status:?}");
+    let expected = trace(&bench, &structure, &rays);
+    let edges = |exact: u64| [0, 1, exact / 2, exact - 1, exact];
+    for (records_room, cells_room) in edges(records)
+        .into_iter()
+        .map(|room| (room, cells))
+        .chain(edges(cells).map(|room| (records, room)))
+        .chain([(0, 0)])
+    {
+        let sizes =
+            plan(&config, &Demand { records: records_room, cells: cells_room, ..ample }).expect("in range");
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let mut status = build(&bench, &mut structure);
+        let fits = records_room >= records && cells_room >= cells;
+        assert_eq!(status.complete, fits, "room for {records_room} records and {cells_room} lists");
+        assert_eq!(demand(&status, "records"), records);
+        if !fits {
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+            assert_eq!(counters.not_ready as usize, rays.len());
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer");
+            let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
+            structure.resize(bench.device(), &sizes).expect("it fits");
+            status = build(&bench, &mut structure);
+            assert!(status.complete, "grown from room for {records_room} records and {cells_room} lists");
+        }
+        assert_eq!((demand(&status, "records"), demand(&status, "lists")), (records, cells));
+        let contents = structure.download(bench.device()).expect("the device works");
+        well_formed(&contents, triangles.len() as u32).expect("bricks are well formed");
+        assert_eq!(trace(&bench, &structure, &rays), expected);
+    }
+}
+
+/// More triangles than there was room for when the structure was made.
+#[test]
+fn bricks_take_another_geometry() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let config = Config { storage: Storage::Bricks, ..Config::robust(32) };
+    let mut structure = made(&bench, config, &triangles[..3]);
+    let geometry = bench.geometry(&triangles);
+    structure.set_geometry(bench.device(), &geometry).expect("it fits");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    let mut expected = made(&bench, config, &triangles);
+    build_until_complete(bench.device(), &mut expected, EYE, Timing::None).expect("the build completes");
+    assert_eq!(trace(&bench, &structure, &rays), trace(&bench, &expected, &rays));
 }
 
 /// What is allocated after the exact demand has been met is what the formula says.
@@ -127,22 +202,45 @@ fn bytes_are_those_of_the_formula() {
         (64, 2, 16, Storage::Contiguous),
         (50, 4, 8, Storage::Linked),
         (33, 1, 1, Storage::Contiguous),
+        (50, 2, 1, Storage::Bricks),
     ] {
         let config = Config { tile, buckets, storage, entries: Some(0), ..Config::robust(resolution) };
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, 0, 0).expect("in range")).expect("it fits");
-        let status = build(&bench, &mut structure);
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for anything") };
+        let bricks = storage == Storage::Bricks;
+        let nothing = Demand { triangles: triangles.len() as u64, ..Demand::default() };
+        // Lists of bricks are known once all records fit: their room is exact in the second round.
+        let mut sizes = plan(&config, &nothing).expect("in range");
+        for _ in 0..if bricks { 2 } else { 1 } {
+            structure.resize(bench.device(), &sizes).expect("it fits");
+            let status = build(&bench, &mut structure);
+            sizes = match structure.check(&status) {
+                Check::Grow(sizes) => sizes,
+                Check::Complete => {
+                    let (records, cells) = (demand(&status, "records"), demand(&status, "lists"));
+                    let (entries, near) = (demand(&status, "entries"), demand(&status, "near"));
+                    plan(&config, &Demand { entries, near, records, cells, ..nothing }).expect("in range")
+                }
+            };
+        }
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = build(&bench, &mut structure);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
-        let formula = formula_bytes(&config, demand(&status, "entries"), demand(&status, "near"));
+        let of_bricks = |name| if bricks { demand(&status, name) } else { 0 };
+        let counted = Demand {
+            entries: demand(&status, "entries"),
+            near: demand(&status, "near"),
+            records: of_bricks("records"),
+            cells: of_bricks("lists"),
+            ..nothing
+        };
+        let formula = formula_bytes(&config, &counted);
         assert_eq!(report.bytes(), formula.total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());
         assert_eq!(structure.sizes().bytes(), formula.total());
         assert_eq!(report.stored, Some(demand(&status, "entries")));
-        assert_ne!(formula.total(), formula_bytes(&config, demand(&status, "entries") + 1, 5).total());
+        let more = Demand { entries: counted.entries + 1, ..counted };
+        assert_ne!(formula.total(), formula_bytes(&config, &more).total());
     }
 }
 
@@ -151,10 +249,11 @@ fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
     let triangles = scene();
     let count = triangles.len() as u32;
-    for storage in [Storage::Linked, Storage::Contiguous] {
+    for storage in [Storage::Linked, Storage::Contiguous, Storage::Bricks] {
         let config = Config { storage, buckets: 2, ..Config::robust(16) };
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, 1 << 20, 64).expect("in range")).expect("it fits");
+        let sizes = plan(&config, &room(1 << 20, 64, &triangles)).expect("in range");
+        structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(build(&bench, &mut structure).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
@@ -169,7 +268,7 @@ fn every_fault_of_a_list_is_noticed() {
         let twice = broken(|c| {
             // The first list with two entries names its first triangle twice.
             let (step, place) = match c.config.storage {
-                Storage::Contiguous => {
+                Storage::Contiguous | Storage::Bricks => {
                     let lists = &c.lists;
                     let list = (1..lists.len()).find(|&k| lists[k] >= lists[k - 1] + 2).expect("a list");
                     (1, lists[list - 1] as usize)
@@ -187,5 +286,26 @@ fn every_fault_of_a_list_is_noticed() {
             }
         });
         assert!(matches!(twice, Fault::Twice { .. }), "{twice:?}");
+        if storage == Storage::Bricks {
+            // A cell more, a word of another brick, and an empty brick below a full one with the largest distances.
+            assert!(matches!(broken(|c| c.bounds[1] ^= 1), Fault::Word { .. }));
+            assert!(matches!(
+                broken(|c| {
+                    let full = c.bounds.iter().step_by(3).position(|&word| word & BRICK_EMPTY == 0);
+                    c.bounds[3 * full.expect("a brick that lists something")] += 1;
+                }),
+                Fault::Word { .. }
+            ));
+            assert!(matches!(
+                broken(|c| {
+                    let deep = c.config.slices() as usize / 4;
+                    let empty = |brick: usize| c.bounds[3 * brick] & BRICK_EMPTY != 0;
+                    let below = (0..c.bounds.len() / 3 - 1)
+                        .find(|&brick| brick % deep + 1 < deep && empty(brick) && !empty(brick + 1));
+                    c.bounds[3 * below.expect("an empty brick below a full one")] = u32::MAX;
+                }),
+                Fault::Distance { .. }
+            ));
+        }
     }
 }

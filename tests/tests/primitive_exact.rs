@@ -35,6 +35,12 @@ fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
     (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
 }
 
+/// The exact preset in each storage.
+fn storages(resolution: u32) -> [Config; 3] {
+    [Storage::Contiguous, Storage::Linked, Storage::Bricks]
+        .map(|storage| Config { storage, ..Config::robust(resolution) })
+}
+
 fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> PrimitiveLists {
     let geometry = bench.geometry(triangles);
     let mut structure =
@@ -81,8 +87,12 @@ fn hits_are_those_of_brute_force() {
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
-        let structure = lists(&bench, Config::robust(128), &triangles, EYES[round as usize % 3]);
-        assert_exact("robust", &bench, &structure, &rays, &expected);
+        for config in
+            [Storage::Contiguous, Storage::Bricks].map(|storage| Config { storage, ..Config::robust(128) })
+        {
+            let structure = lists(&bench, config, &triangles, EYES[round as usize % 3]);
+            assert_exact(&format!("{:?}", config.storage), &bench, &structure, &rays, &expected);
+        }
     }
 }
 
@@ -108,9 +118,28 @@ fn no_size_changes_a_hit() {
         let structure = lists(&bench, config, &triangles, EYES[index % 3]);
         assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
     }
-    let config = Config { addressing: Addressing::Address, ..Config::robust(64) };
-    let structure = lists(&bench, config, &triangles, EYES[1]);
-    assert_exact("by address", &bench, &structure, &rays, &expected);
+    let bricks = [
+        (1, 1, None),
+        (4, 1, Some(1)),
+        (5, 1, Some(30)),
+        (33, 4, Some(64)),
+        (64, 1, Some(7)),
+        (100, 2, Some(200)),
+        (256, 2, Some(1024)),
+        (300, 1, None),
+    ];
+    for (index, (resolution, tile, slices)) in bricks.into_iter().enumerate() {
+        let storage = Storage::Bricks;
+        let (skip, corners) = (index % 3 != 0, index % 2 == 0);
+        let config = Config { tile, slices, storage, skip, corners, ..Config::robust(resolution) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    for config in storages(64) {
+        let config = Config { addressing: Addressing::Address, ..config };
+        let structure = lists(&bench, config, &triangles, EYES[1]);
+        assert_exact(&format!("{:?} by address", config.storage), &bench, &structure, &rays, &expected);
+    }
 }
 
 /// Tiles that list only what covers their centre lose hits: the comparison notices.
@@ -142,10 +171,13 @@ fn distance_changes_no_hit() {
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
         assert!(expected.iter().all(Hit::is_hit));
-        let structure = lists(&bench, Config::robust(64), &triangles, EYES[0]);
-        assert_exact(&format!("{distance} m away"), &bench, &structure, &rays, &expected);
-        let structure = lists(&bench, Config::robust(64), &triangles, [0.0, distance, 0.0]);
-        assert_exact(&format!("an eye {distance} m away"), &bench, &structure, &rays, &expected);
+        for config in storages(64) {
+            let what = format!("{:?}, {distance} m away", config.storage);
+            let structure = lists(&bench, config, &triangles, EYES[0]);
+            assert_exact(&what, &bench, &structure, &rays, &expected);
+            let structure = lists(&bench, config, &triangles, [0.0, distance, 0.0]);
+            assert_exact(&format!("an eye: {what}"), &bench, &structure, &rays, &expected);
+        }
     }
 }
 
@@ -161,10 +193,6 @@ fn triangles_around_the_eye_are_found() {
             let size = 10.0_f32.powf(random.between(-7.0, -1.0));
             triangles.push(std::array::from_fn(|_| shifted(random.point(-size, size))));
         }
-        let structure = lists(&bench, Config::robust(64), &triangles, eye);
-        let header = structure.header().expect("the header is readable");
-        let near = header.near_demand as usize;
-        assert!(near > 20 && near < triangles.len() / 2, "{near} triangles are in the near list");
         let rays: Vec<Ray> = (0..2000)
             .map(|index| {
                 let target = shifted(random.point(-1.0e-3, 1.0e-3));
@@ -174,7 +202,19 @@ fn triangles_around_the_eye_are_found() {
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
         assert!(expected.iter().filter(|hit| hit.primitive as usize >= triangles.len() - 200).count() > 200);
-        assert_exact(&format!("eye at {eye:?}"), &bench, &structure, &rays, &expected);
+        for config in storages(64) {
+            let structure = lists(&bench, config, &triangles, eye);
+            let header = structure.header().expect("the header is readable");
+            let near = header.near_demand as usize;
+            assert!(near > 20 && near < triangles.len() / 2, "{near} triangles are in the near list");
+            assert_exact(
+                &format!("{:?}, eye at {eye:?}", config.storage),
+                &bench,
+                &structure,
+                &rays,
+                &expected,
+            );
+        }
     }
 }
 
@@ -198,8 +238,10 @@ fn limits_and_exclusion_are_kept() {
         ]);
     }
     let expected = brute_force(&bench, &triangles, &rays);
-    let structure = lists(&bench, Config::robust(64), &triangles, EYES[1]);
-    assert_exact("limits", &bench, &structure, &rays, &expected);
+    for config in storages(64) {
+        let structure = lists(&bench, config, &triangles, EYES[1]);
+        assert_exact(&format!("limits, {:?}", config.storage), &bench, &structure, &rays, &expected);
+    }
 }
 
 /// A ray may stop after any work unit and go on in the next dispatch.
@@ -213,7 +255,7 @@ fn no_budget_changes_a_hit() {
     rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
     let expected = brute_force(&bench, &triangles, &rays);
     for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {
-        for storage in [Storage::Linked, Storage::Contiguous] {
+        for storage in [Storage::Linked, Storage::Contiguous, Storage::Bricks] {
             let config = Config { work_budget: Some(budget), storage, ..Config::robust(32) };
             let structure = lists(&bench, config, &triangles, EYES[1]);
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, rounds);

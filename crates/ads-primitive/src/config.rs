@@ -3,6 +3,13 @@
 use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
+/// Cells a side of a brick.
+const BRICK_SIDE: u32 = 4;
+/// Most tiles a side of a face of bricks.
+const SIDE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SIDE_LIMIT;
+/// Most slices.
+const SLICE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SLICE_LIMIT;
+
 /// How the lists of a cell are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -10,6 +17,9 @@ pub enum Storage {
     Linked,
     /// Triangles one behind the other, by counting first: 4 bytes an entry.
     Contiguous,
+    /// Contiguous lists of cells that are tiles cut into depth slices, in bricks of 4x4x4 with a mask: empty space is
+    /// crossed by many bricks at a time.
+    Bricks,
 }
 
 /// Which cells list a triangle.
@@ -28,13 +38,18 @@ pub struct Config {
     pub resolution: u32,
     /// Pixels a side of a tile, 1 to 64: lists are kept per tile. Changes no hit with [`Coverage::Exact`].
     pub tile: u32,
-    /// Depth buckets a tile, 1 to 64. Changes no hit.
+    /// Depth buckets a tile, 1 to 64; bricks have slices instead. Changes no hit.
     pub buckets: u32,
+    /// Bricks only: depth slices, the same for all tiles, at most 1024, made up to a multiple of 4; twice the tiles of
+    /// a side where absent. Changes no hit.
+    pub slices: Option<u32>,
+    /// Bricks only: keep the corners of triangles once more, one behind the other, 36 bytes each. Changes no hit.
+    pub corners: bool,
     /// How lists are kept.
     pub storage: Storage,
     /// Which tiles list a triangle.
     pub coverage: Coverage,
-    /// Skip tiles and buckets that the ray's depths cannot meet. Changes no hit.
+    /// Skip tiles and buckets that the ray's depths cannot meet, or empty bricks. Changes no hit.
     pub skip: bool,
     /// How pools are reached.
     pub addressing: Addressing,
@@ -53,6 +68,8 @@ impl Config {
             resolution,
             tile: 2,
             buckets: 16,
+            slices: None,
+            corners: true,
             storage: Storage::Contiguous,
             coverage: Coverage::Exact,
             skip: true,
@@ -63,9 +80,22 @@ impl Config {
         }
     }
 
-    /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels.
+    /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels. Bricks have a
+    /// multiple of 4.
     pub fn tiles(&self) -> u32 {
-        self.resolution.div_ceil(self.tile.max(1))
+        let tiles = self.resolution.div_ceil(self.tile.max(1));
+        if self.storage == Storage::Bricks { tiles.next_multiple_of(BRICK_SIDE) } else { tiles }
+    }
+
+    /// Depth slices of bricks; 0 for lists.
+    pub fn slices(&self) -> u32 {
+        let slices = || self.slices.unwrap_or_else(|| (2 * self.tiles()).min(SLICE_LIMIT));
+        if self.storage == Storage::Bricks { slices().next_multiple_of(BRICK_SIDE) } else { 0 }
+    }
+
+    /// Whether triangles' corners are kept once more.
+    pub(crate) fn keeps_corners(&self) -> bool {
+        self.corners && self.storage == Storage::Bricks
     }
 
     /// Checks ranges.
@@ -83,6 +113,15 @@ impl Config {
         range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels a side")?;
         range("tile", self.tile, 1, 64, "1 to 64 pixels a side")?;
         range("buckets", self.buckets, 1, 64, "1 to 64 buckets a tile")?;
+        range("slices", self.slices.unwrap_or(1), 1, SLICE_LIMIT, "1 to 1024 depth slices")?;
+        if self.storage == Storage::Bricks {
+            let expected = "bricks have at most 1024 tiles a side: raise the tile or lower the resolution";
+            range("tiles a side", self.tiles(), 1, SIDE_LIMIT, expected)?;
+            if self.coverage == Coverage::Hardware {
+                let expected = "bricks are filled by computing, which is exact: take storage sb or llb";
+                return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
+            }
+        }
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")
     }
@@ -92,12 +131,14 @@ impl Config {
         let storage = match self.storage {
             Storage::Linked => numbers::PRIMITIVE_STORAGE_LINKED,
             Storage::Contiguous => numbers::PRIMITIVE_STORAGE_CONTIGUOUS,
+            Storage::Bricks => numbers::PRIMITIVE_STORAGE_BRICKS,
         };
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::PRIMITIVE_COVERAGE_HARDWARE,
             Coverage::Exact => numbers::PRIMITIVE_COVERAGE_EXACT,
         };
-        vec![(30, self.buckets), (31, storage), (32, coverage), (33, u32::from(self.skip))]
+        let corners = u32::from(self.keeps_corners());
+        vec![(30, self.buckets), (31, storage), (32, coverage), (33, u32::from(self.skip)), (34, corners)]
     }
 
     /// Options as name and value, for reports.
@@ -105,22 +146,29 @@ impl Config {
         let storage = match self.storage {
             Storage::Linked => "llb",
             Storage::Contiguous => "sb",
+            Storage::Bricks => "bricks",
         };
-        vec![
+        let switch = |on| if on { "on" } else { "off" }.to_owned();
+        let mut options = vec![
             ("storage", storage.to_owned()),
             ("resolution", self.resolution.to_string()),
             ("tile", self.tile.to_string()),
-            ("buckets", self.buckets.to_string()),
-            ("skip", if self.skip { "on" } else { "off" }.to_owned()),
-            ("views", "cube".to_owned()),
-        ]
+        ];
+        if self.storage == Storage::Bricks {
+            options.push(("slices", self.slices().to_string()));
+            options.push(("corners", switch(self.corners)));
+        } else {
+            options.push(("buckets", self.buckets.to_string()));
+        }
+        options.extend([("skip", switch(self.skip)), ("views", "cube".to_owned())]);
+        options
     }
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
-            ("builder", "raster".to_owned()),
+            ("builder", if self.storage == Storage::Bricks { "binning" } else { "raster" }.to_owned()),
             ("coverage", lower(&self.coverage)),
             ("addressing", self.addressing.name().to_owned()),
         ]

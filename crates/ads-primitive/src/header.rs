@@ -42,7 +42,7 @@ pub struct Header {
     pub upper: [f32; 3],
     /// Zero.
     pub spare_upper: f32,
-    /// Device address of the bounds; zero with descriptors.
+    /// Device address of the bounds, or of the bricks; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the lists.
     pub lists_address: [u32; 2],
@@ -52,4 +52,30 @@ pub struct Header {
     pub sums_address: [u32; 2],
     /// Device address of the near list.
     pub near_address: [u32; 2],
+    /// Device address of the records. This and what follows is of bricks alone.
+    pub records_address: [u32; 2],
+    /// Device address of the triangles' corners.
+    pub triangles_address: [u32; 2],
+    /// Slices of every column, a multiple of 4.
+    pub slices: u32,
+    /// Bits of the depth at which slice 0 begins.
+    pub slice_first: i32,
+    /// 23 less the logarithm of the slices an octave.
+    pub slice_shift: i32,
+    /// Triangles in columns, also those beyond the capacity.
+    pub record_demand: u32,
+    /// Records the pool holds.
+    pub record_capacity: u32,
+    /// Cells that list something, as far as records fit.
+    pub cell_demand: u32,
+    /// Lists the pool holds.
+    pub cell_capacity: u32,
+    /// Triangles there is room for.
+    pub triangle_capacity: u32,
+    /// Triangles with many columns of a face.
+    pub pairs: u32,
+    /// Workgroups for them.
+    pub groups: [u32; 3],
+    /// Triangles that begin so many octaves before the farthest geometry.
+    pub octaves: [u32; 32],
 }

@@ -1,16 +1,46 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_shaders_glsl::constants::primitive::PRIMITIVE_PAIR_LIMIT;
 
 use crate::{Config, Header, Storage};
 
-/// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 6] = ["header", "bounds", "lists", "entries", "sums", "near"];
+/// The pool that holds what is known of each cell: bounds of lists, or bricks.
+pub(crate) fn cells_pool(storage: Storage) -> &'static str {
+    if storage == Storage::Bricks { "bricks" } else { "bounds" }
+}
 
-/// Cells of all six faces of `tiles` tiles a side, each with a border of one.
+/// Words of a brick: its own and two of the mask.
+const BRICK_WORDS: u64 = 3;
+
+/// Words of a record of the binning builder.
+const RECORD_WORDS: u64 = 3;
+
+/// What a build asks for, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Entries of all lists.
+    pub entries: u64,
+    /// Triangles around the eye.
+    pub near: u64,
+    /// Bricks only: triangles in columns of tiles.
+    pub records: u64,
+    /// Bricks only: cells that list something.
+    pub cells: u64,
+    /// Bricks only: triangles of the geometry.
+    pub triangles: u64,
+}
+
+/// Cells of all six faces of `tiles` tiles a side, each with a border of one: those of lists.
 pub fn cell_count(tiles: u32) -> u64 {
     let side = u64::from(tiles) + 2;
     6 * side * side
+}
+
+/// Bricks of all six faces.
+pub(crate) fn brick_count(config: &Config) -> u64 {
+    let side = u64::from(config.tiles() / 4);
+    6 * side * side * u64::from(config.slices() / 4)
 }
 
 /// Words of the bounds of a cell: both ends, and the scale where there are several buckets.
@@ -22,36 +52,46 @@ pub(crate) fn bounds_words(config: &Config) -> u64 {
 pub(crate) fn entry_words(storage: Storage) -> u64 {
     match storage {
         Storage::Linked => 2,
-        Storage::Contiguous => 1,
+        Storage::Contiguous | Storage::Bricks => 1,
     }
 }
 
-/// What primitive lists of this configuration allocate to hold `entries` list entries and `near_triangles`
-/// triangles around the eye.
+/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which are only kept
+/// while bricks are built.
+pub(crate) fn triangle_words(config: &Config) -> u64 {
+    if config.keeps_corners() { 9 } else { u64::from(PRIMITIVE_PAIR_LIMIT) }
+}
+
+/// What primitive lists of this configuration allocate to hold `demand`.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
-pub fn plan(config: &Config, entries: u64, near_triangles: u64) -> Result<Sizes, AdsError> {
+pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    let cells = cell_count(config.tiles());
-    let lists = cells * u64::from(config.buckets);
-    let blocks = match config.storage {
-        Storage::Linked => 0,
-        Storage::Contiguous => Scan::sums(lists),
+    let tiles = cell_count(config.tiles());
+    let bricks = brick_count(config);
+    let lists = tiles * u64::from(config.buckets);
+    let (cells, cell_words, lists, sums) = match config.storage {
+        Storage::Linked => (tiles, bounds_words(config), lists, 0),
+        Storage::Contiguous => (tiles, bounds_words(config), lists, Scan::sums(lists)),
+        Storage::Bricks => {
+            // The distances of bricks are found where the sums were.
+            let distances = if config.skip { bricks } else { 0 };
+            (bricks, BRICK_WORDS, demand.cells, Scan::sums(bricks.max(demand.cells)).max(distances))
+        }
     };
-    let sizes = [
-        (1, size_of::<Header>() as u64),
-        (cells, 4 * bounds_words(config)),
-        (lists, 4),
-        (entries, 4 * entry_words(config.storage)),
-        (blocks, 4),
-        (near_triangles, 4),
+    let of_bricks = |elements| if config.storage == Storage::Bricks { elements } else { 0 };
+    let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
+    let pools = vec![
+        PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
+        pool(cells_pool(config.storage), cells, cell_words),
+        pool("lists", lists, 1),
+        pool("entries", demand.entries, entry_words(config.storage)),
+        pool("sums", sums, 1),
+        pool("near", demand.near, 1),
+        pool("records", of_bricks(demand.records), RECORD_WORDS),
+        pool("triangles", of_bricks(demand.triangles), triangle_words(config)),
     ];
-    let pools: Vec<PoolSize> = POOLS
-        .iter()
-        .zip(sizes)
-        .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
-        .collect();
     // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
     if let Some(pool) =
         pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
@@ -61,21 +101,30 @@ pub fn plan(config: &Config, entries: u64, near_triangles: u64) -> Result<Sizes,
     Ok(Sizes { pools })
 }
 
-/// The first guess where nothing has been counted: four entries a cell.
-pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
-    plan(config, config.entries.unwrap_or_else(|| 4 * cell_count(config.tiles())), 64)
+/// The first guess where nothing has been counted: four entries a cell; for bricks, eight columns a triangle, of two
+/// cells each, half of which stand alone in theirs.
+pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
+    let triangles = u64::from(triangles);
+    let guess = match config.storage {
+        Storage::Bricks => 16 * triangles,
+        Storage::Linked | Storage::Contiguous => 4 * cell_count(config.tiles()),
+    };
+    let entries = config.entries.unwrap_or(guess);
+    plan(config, &Demand { entries, near: 64, records: entries / 2, cells: entries / 2, triangles })
 }
 
 /// Bytes for counted cells, buckets and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell: bounds 8, a list of each bucket 4, and a scale of 4 where there are several buckets.
+    /// Lists: a tile 8, a list of each bucket 4, and a scale of 4 where there are several buckets. Bricks: each 12, and 4
+    /// per cell that lists something.
     pub cells: u64,
     /// Per entry: 4, or 8 in a linked list.
     pub entries: u64,
-    /// Per 1024 lists: a sum of 4 for the scan of contiguous lists.
+    /// Per 1024 numbers that are scanned: a sum of 4. Bricks: 4 each where distances of empty ones are found.
     pub scan: u64,
-    /// Header, and 4 per triangle of the near list.
+    /// Header, 4 per triangle of the near list; bricks: 12 per triangle in a column of tiles, and per triangle 36 for
+    /// its corners or 24 while it is filed.
     pub rest: u64,
 }
 
@@ -87,16 +136,28 @@ impl FormulaBytes {
 }
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
-pub fn formula_bytes(config: &Config, entries: u64, near_triangles: u64) -> FormulaBytes {
-    let side = u64::from(config.resolution).div_ceil(u64::from(config.tile)) + 2;
-    let cells = side * side * 6;
+pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
+    let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
+    let rest = 328 + 4 * demand.near;
+    if config.storage == Storage::Bricks {
+        let side = tiles.div_ceil(4);
+        let slices = config.slices.map_or((8 * side).min(1024), u64::from);
+        let bricks = 6 * side * side * slices.div_ceil(4);
+        return FormulaBytes {
+            cells: 12 * bricks + 4 * demand.cells,
+            entries: 4 * demand.entries,
+            scan: if config.skip { 4 * bricks } else { bricks.max(demand.cells).div_ceil(1024) * 4 },
+            rest: rest + 12 * demand.records + demand.triangles * if config.corners { 36 } else { 24 },
+        };
+    }
+    let cells = (tiles + 2) * (tiles + 2) * 6;
     let buckets = u64::from(config.buckets);
     let contiguous = config.storage == Storage::Contiguous;
     FormulaBytes {
         cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }),
-        entries: entries * if contiguous { 4 } else { 8 },
+        entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest: 136 + 4 * near_triangles,
+        rest,
     }
 }
 
@@ -106,16 +167,25 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
+        let demand = Demand { entries: 12_345, near: 7, records: 2_345, cells: 1_234, triangles: 99 };
         for (resolution, tile, buckets, storage) in [
             (64, 1, 1, Storage::Linked),
             (256, 2, 16, Storage::Contiguous),
             (100, 8, 64, Storage::Contiguous),
             (33, 4, 4, Storage::Linked),
+            (64, 1, 1, Storage::Bricks),
+            (33, 2, 4, Storage::Bricks),
         ] {
-            let config = Config { tile, buckets, storage, ..Config::robust(resolution) };
-            let sizes = plan(&config, 12_345, 7).expect("options are in range");
-            assert_eq!(sizes.bytes(), formula_bytes(&config, 12_345, 7).total());
-            assert_ne!(sizes.bytes(), formula_bytes(&config, 12_346, 7).total());
+            for (slices, skip, corners) in
+                [(None, true, true), (Some(13), false, true), (Some(8), true, false)]
+            {
+                let config =
+                    Config { tile, buckets, storage, slices, skip, corners, ..Config::robust(resolution) };
+                let sizes = plan(&config, &demand).expect("options are in range");
+                assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
+                let more = Demand { entries: demand.entries + 1, ..demand };
+                assert_ne!(sizes.bytes(), formula_bytes(&config, &more).total());
+            }
         }
     }
 
@@ -123,7 +193,8 @@ mod tests {
     #[test]
     fn linked_lists_have_the_papers_bytes() {
         let config = Config { tile: 1, buckets: 4, storage: Storage::Linked, ..Config::robust(512) };
-        let (formula, cells) = (formula_bytes(&config, 3_100_000, 0), cell_count(512));
+        let (formula, cells) =
+            (formula_bytes(&config, &Demand { entries: 3_100_000, ..Demand::default() }), cell_count(512));
         assert_eq!(formula.entries, 8 * 3_100_000);
         // One word more a cell than the paper: the scale of its buckets.
         assert_eq!(formula.cells, cells * (8 + 4 * 4 + 4));
@@ -131,12 +202,16 @@ mod tests {
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, 0, 0).unwrap_err().to_string();
+        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
         assert!(message(Config { buckets: 65, ..Config::robust(64) }).contains("buckets is 65"));
         assert!(message(Config { tile: 0, ..Config::robust(64) }).contains("tile is 0"));
         assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
         let budget = Config { work_budget: Some(0), ..Config::robust(64) };
         assert!(message(budget).contains("work budget is 0"));
-        assert!(plan(&Config::robust(64), 1 << 32, 0).unwrap_err().to_string().contains("entries"));
+        let bricks = Config { storage: Storage::Bricks, tile: 1, ..Config::robust(1028) };
+        assert!(message(bricks).contains("tiles a side is 1028"));
+        assert!(message(Config { slices: Some(1025), ..bricks }).contains("slices is 1025"));
+        let demand = Demand { entries: 1 << 32, ..Demand::default() };
+        assert!(plan(&Config::robust(64), &demand).unwrap_err().to_string().contains("entries"));
     }
 }

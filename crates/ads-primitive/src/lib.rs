@@ -7,6 +7,7 @@
 //! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
 mod build;
+mod build_bricks;
 mod config;
 mod header;
 mod layout;
@@ -15,7 +16,7 @@ mod validate;
 
 pub use config::{Config, Coverage, Storage};
 pub use header::Header;
-pub use layout::{FormulaBytes, cell_count, formula_bytes, plan};
+pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;
 pub use structure::PrimitiveLists;
 pub use validate::{Contents, Fault, well_formed};

@@ -10,15 +10,23 @@ use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGE
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::build::Build;
-use crate::layout::{first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header};
+use crate::build_bricks::BuildBricks;
+use crate::layout::{Demand, cells_pool, first_plan, formula_bytes, plan};
+use crate::{Config, Contents, Header, Storage};
 
-/// Lists of triangles per tile and depth bucket.
+/// The passes of a storage.
+#[derive(Debug)]
+enum Passes {
+    Lists(Build),
+    Bricks(BuildBricks),
+}
+
+/// Lists of triangles per tile and depth bucket, or in bricks of cells.
 #[derive(Debug)]
 pub struct PrimitiveLists {
     config: Config,
     geometry: Geometry,
-    build: Build,
+    build: Passes,
     kernels: TraceKernels,
     pools: Pools,
 }
@@ -35,14 +43,17 @@ impl PrimitiveLists {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let sizes = first_plan(&config)?;
+        let sizes = first_plan(&config, geometry.triangle_count())?;
         config.addressing.check(device)?;
         device.require("the primitive lists", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "primitive", config.addressing, &sizes)?;
         let modules = Modules { structure: "dirt", prefix: "primitive", addressing: config.addressing };
         let constants = config.constants();
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, None, &constants);
-        let build = Build::new(&pipelines, &config)?;
+        let build = match config.storage {
+            Storage::Bricks => Passes::Bricks(BuildBricks::new(&pipelines, &config)?),
+            Storage::Linked | Storage::Contiguous => Passes::Lists(Build::new(&pipelines, &config)?),
+        };
         let kernels = TraceKernels::new(
             device,
             geometry,
@@ -62,7 +73,9 @@ impl PrimitiveLists {
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
-        requirements.required.push(Feature::FragmentStoresAndAtomics);
+        if config.storage != Storage::Bricks {
+            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        }
         config.addressing.add_to(&mut requirements);
         requirements
     }
@@ -80,7 +93,10 @@ impl PrimitiveLists {
         let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
         // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
         // eye is from the frame origin.
-        let rounding = numbers::PRIMITIVE_ROUNDING * farthest;
+        let rounding = match self.config.storage {
+            Storage::Bricks => numbers::PRIMITIVE_BRICK_ROUNDING,
+            Storage::Linked | Storage::Contiguous => numbers::PRIMITIVE_ROUNDING,
+        } * farthest;
         let near_size = numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest;
         Header {
             capacity: self.pools.sizes().elements("entries") as u32,
@@ -93,12 +109,31 @@ impl PrimitiveLists {
             eye,
             lower: lower.map(|x| x - rounding),
             upper: upper.map(|x| x + rounding),
-            bounds_address: self.pools.address_of("bounds"),
+            bounds_address: self.pools.address_of(cells_pool(self.config.storage)),
             lists_address: self.pools.address_of("lists"),
             entries_address: self.pools.address_of("entries"),
             sums_address: self.pools.address_of("sums"),
             near_address: self.pools.address_of("near"),
+            records_address: self.pools.address_of("records"),
+            triangles_address: self.pools.address_of("triangles"),
+            slices: self.config.slices(),
+            record_capacity: self.pools.sizes().elements("records") as u32,
+            cell_capacity: self.pools.sizes().elements("lists") as u32,
+            triangle_capacity: self.pools.sizes().elements("triangles") as u32,
+            groups: [0, 0, 1],
             ..Header::default()
+        }
+    }
+
+    /// What there is room for.
+    fn allocated(&self) -> Demand {
+        let elements = |name| self.pools.sizes().elements(name);
+        Demand {
+            entries: elements("entries"),
+            near: elements("near"),
+            records: elements("records"),
+            cells: elements("lists"),
+            triangles: elements("triangles"),
         }
     }
 
@@ -119,7 +154,7 @@ impl PrimitiveLists {
         Ok(Contents {
             config: self.config,
             header: device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0],
-            bounds: words("bounds")?,
+            bounds: words(cells_pool(self.config.storage))?,
             lists: words("lists")?,
             entries: words("entries")?,
             near: words("near")?,
@@ -152,7 +187,12 @@ impl Structure for PrimitiveLists {
         self.pools.resize(device, sizes)
     }
 
-    fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+    fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        let triangles = u64::from(geometry.triangle_count());
+        if self.config.storage == Storage::Bricks && triangles > self.pools.sizes().elements("triangles") {
+            let sizes = plan(&self.config, &Demand { triangles, ..self.allocated() })?;
+            self.pools.resize(device, &sizes)?;
+        }
         self.geometry = geometry.clone();
         Ok(())
     }
@@ -160,26 +200,34 @@ impl Structure for PrimitiveLists {
     fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError> {
         self.pools.begin_build(&self.first_header(eye))?;
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None };
-        self.build.record(recorder, &self.config, target);
+        match &self.build {
+            Passes::Lists(build) => build.record(recorder, &self.config, target),
+            Passes::Bricks(build) => build.record(recorder, &self.config, target),
+        }
         Ok(())
     }
 
     fn status(&self) -> Result<BuildStatus, GpuError> {
         let header = self.header()?;
+        let pool = |name, demand: u32, capacity: u32| PoolStatus {
+            name,
+            demand: demand.into(),
+            capacity: capacity.into(),
+        };
+        let mut pools = vec![
+            pool("entries", header.demand, header.capacity),
+            pool("near", header.near_demand, header.near_capacity),
+        ];
+        if self.config.storage == Storage::Bricks {
+            pools.push(pool("records", header.record_demand, header.record_capacity));
+            // Cells are marked by records that were stored. Where some were not, none has more cells than entries.
+            let all = header.record_demand <= header.record_capacity;
+            let cells = if all { header.cell_demand } else { header.demand };
+            pools.push(pool("lists", cells, header.cell_capacity));
+        }
         Ok(BuildStatus {
             complete: header.status & STATUS_COMPLETE != 0,
-            pools: vec![
-                PoolStatus {
-                    name: "entries",
-                    demand: header.demand.into(),
-                    capacity: header.capacity.into(),
-                },
-                PoolStatus {
-                    name: "near",
-                    demand: header.near_demand.into(),
-                    capacity: header.near_capacity.into(),
-                },
-            ],
+            pools,
             unsorted: 0,
             corrupted: header.corrupted.into(),
         })
@@ -190,10 +238,16 @@ impl Structure for PrimitiveLists {
         if status.complete {
             return Check::Complete;
         }
-        let entries = demand("entries").max(self.pools.sizes().elements("entries"));
-        let near = demand("near").max(self.pools.sizes().elements("near"));
+        let allocated = self.allocated();
+        let demand = Demand {
+            entries: demand("entries").max(allocated.entries),
+            near: demand("near").max(allocated.near),
+            records: demand("records").max(allocated.records),
+            cells: demand("lists").max(allocated.cells),
+            triangles: allocated.triangles,
+        };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, entries, near).map_or(Check::Complete, Check::Grow)
+        plan(&self.config, &demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
@@ -228,18 +282,30 @@ impl Structure for PrimitiveLists {
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
-        let (entries, near) = (u64::from(header.demand), u64::from(header.near_demand));
+        let bricks = self.config.storage == Storage::Bricks;
+        let demand = Demand {
+            entries: header.demand.into(),
+            near: header.near_demand.into(),
+            records: header.record_demand.into(),
+            cells: header.cell_demand.into(),
+            triangles: self.geometry.triangle_count().into(),
+        };
+        let sums = plan(&self.config, &demand).map_or(0, |sizes| sizes.elements("sums"));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
-            "entries" => entries,
-            "near" => near,
+            "entries" => demand.entries,
+            "near" => demand.near,
+            "records" => demand.records,
+            "lists" if bricks => demand.cells,
+            "sums" => sums,
+            "triangles" => demand.triangles,
             _ => pool.elements,
         });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, entries, near).total(),
-            stored: Some(entries),
+            formula_bytes: formula_bytes(&self.config, &demand).total(),
+            stored: Some(demand.entries),
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Checks the contents of built primitive lists.
 
+use rasray_shaders_glsl::constants::ads::BRICK_EMPTY;
+
 use crate::{Config, Header, Storage, cell_count};
 
 /// All pools as downloaded, in words.
@@ -9,7 +11,7 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Bounds of each cell.
+    /// Bounds of each cell; bricks, three words each.
     pub bounds: Vec<u32>,
     /// Head, or end, of each bucket of each cell.
     pub lists: Vec<u32>,
@@ -61,19 +63,47 @@ pub enum Fault {
         /// The triangle.
         primitive: u32,
     },
+    /// The word of a brick does not count the cells before it, or calls a brick empty that lists something.
+    #[error("brick {brick}: its word {word:#x} is not that of {cells} cells before it")]
+    Word {
+        /// Brick.
+        brick: usize,
+        /// Its word.
+        word: u32,
+        /// Cells that list something in the bricks before it.
+        cells: u32,
+    },
+    /// A brick is stepped over that lists something.
+    #[error("brick {brick}: towards octant {octant} its distance goes over a brick that lists something")]
+    Distance {
+        /// The empty brick.
+        brick: usize,
+        /// The octant.
+        octant: u32,
+    },
 }
 
 impl Contents {
-    /// The triangles of a list, in the order they are stored in.
+    /// How many lists a cell has, and how many cells have them: bricks number cells that list something, and each
+    /// has one list.
+    fn lists(&self) -> (usize, usize) {
+        if self.config.storage == Storage::Bricks {
+            return (1, self.header.cell_demand.min(self.header.cell_capacity) as usize);
+        }
+        (self.config.buckets as usize, cell_count(self.config.tiles()) as usize)
+    }
+
+    /// The triangles of a list, in the order they are stored in. In bricks `cell` counts cells that list something, and
+    /// `bucket` is 0.
     ///
     /// # Errors
     /// The list leaves the pool.
     pub fn list(&self, cell: usize, bucket: usize) -> Result<Vec<u32>, Fault> {
-        let list = cell * self.config.buckets as usize + bucket;
+        let list = cell * self.lists().0 + bucket;
         let stored = self.header.demand.min(self.header.capacity) as usize;
         let word = self.lists[list];
         let dangling = |link| Fault::Dangling { cell, bucket, link };
-        if self.config.storage == Storage::Contiguous {
+        if self.config.storage != Storage::Linked {
             let begin = if list == 0 { 0 } else { self.lists[list - 1] as usize };
             if begin > word as usize || word as usize > stored {
                 return Err(dangling(word));
@@ -94,6 +124,45 @@ impl Contents {
     }
 }
 
+/// Checks that words of bricks number the cells that list something, and that no empty brick's distance goes over one
+/// that is not.
+fn bricks_are_well_formed(contents: &Contents) -> Result<(), Fault> {
+    let (side, deep) = (contents.config.tiles() as i64 / 4, i64::from(contents.config.slices()) / 4);
+    let cells_of = |brick: usize| {
+        contents.bounds[3 * brick + 1].count_ones() + contents.bounds[3 * brick + 2].count_ones()
+    };
+    let mut cells = 0;
+    for (brick, word) in contents.bounds.iter().copied().step_by(3).enumerate() {
+        let empty = contents.config.skip && cells_of(brick) == 0;
+        if empty != (word & BRICK_EMPTY != 0) || (!empty && word != cells) {
+            return Err(Fault::Word { brick, word, cells });
+        }
+        cells += cells_of(brick);
+        if !empty {
+            continue;
+        }
+        let place = brick as i64;
+        let (z, x, y, face) =
+            (place % deep, place / deep % side, place / (deep * side) % side, place / (deep * side * side));
+        for octant in 0..8 {
+            let distance = i64::from(word >> (3 * octant) & 7);
+            let along = |up: bool, at: i64, end: i64| {
+                if up { at..=(at + distance).min(end - 1) } else { (at - distance).max(0)..=at }
+            };
+            let goes_over = along(octant & 4 != 0, y, side).any(|y| {
+                along(octant & 2 != 0, x, side).any(|x| {
+                    along(octant & 1 != 0, z, deep)
+                        .any(|z| cells_of((((face * side + y) * side + x) * deep + z) as usize) != 0)
+                })
+            });
+            if goes_over {
+                return Err(Fault::Distance { brick, octant });
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Checks that every counted entry is in exactly one list and names one of `triangles` triangles, and that no
 /// list names a triangle twice.
 ///
@@ -102,8 +171,12 @@ impl Contents {
 pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let stored = contents.header.demand.min(contents.header.capacity) as usize;
     let mut listed = 0;
-    for cell in 0..cell_count(contents.config.tiles()) as usize {
-        for bucket in 0..contents.config.buckets as usize {
+    if contents.config.storage == Storage::Bricks {
+        bricks_are_well_formed(contents)?;
+    }
+    let (buckets, cells) = contents.lists();
+    for cell in 0..cells {
+        for bucket in 0..buckets {
             let mut list = contents.list(cell, bucket)?;
             listed += list.len();
             if listed > stored {

@@ -112,6 +112,24 @@ impl BuildTarget<'_> {
         recorder.dispatch([groups.div_ceil(rows) as u32, rows as u32, 1]);
     }
 
+    /// A labelled pass of as many workgroups as three u32 of the header say, at a byte of it that is a multiple of 4.
+    /// The pass before made the header visible to [`Access::INDIRECT_READ`].
+    pub fn indirect_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &ComputePipeline,
+        offset: u64,
+        readers: Access,
+    ) {
+        recorder.begin_pass(label);
+        recorder.bind_compute(pipeline);
+        self.bind(recorder, 0);
+        recorder.dispatch_indirect(self.pools.header_buffer(), offset);
+        recorder.barrier(Access::COMPUTE, readers);
+        recorder.end_pass();
+    }
+
     /// A labelled pass of one dispatch, visible to compute and fragment shaders after it.
     pub fn compute_pass(
         &self,

@@ -59,7 +59,11 @@ impl Pools {
             device.create_buffer(&BufferDesc {
                 name: &format!("{structure} {name}"),
                 size,
-                usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
+                // Headers may hold the arguments of dispatches.
+                usage: BufferUsage::STORAGE
+                    | BufferUsage::INDIRECT
+                    | BufferUsage::TRANSFER_SRC
+                    | BufferUsage::TRANSFER_DST,
                 location,
             })
         };
@@ -123,6 +127,11 @@ impl Pools {
     pub fn pool(&self, name: &str) -> &Buffer {
         let index = self.sizes.pools.iter().position(|pool| pool.name == name);
         &self.pools[index.unwrap_or_else(|| panic!("{} has no pool `{name}`", self.structure))]
+    }
+
+    /// The buffer of the header.
+    pub fn header_buffer(&self) -> &Buffer {
+        &self.pools[0]
     }
 
     /// Device address of the header, which shaders start from; 0 with descriptors.

@@ -43,6 +43,8 @@ pub enum Storage {
     Dllb,
     /// One behind the other, counted first
     Sb,
+    /// One behind the other in cells of tile and depth slice, in bricks that say where nothing is
+    Bricks,
 }
 
 /// What a fragment carries.
@@ -142,6 +144,14 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckets: Option<u32>,
+    /// With --storage bricks: depth slices, the same for all tiles
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slices: Option<u32>,
+    /// With --storage bricks: keep triangles' corners once more, one behind the other
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corners: Option<Switch>,
     /// How a cell's fragments or triangles are kept
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -18,8 +18,18 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 8] =
-    ["resolution", "tile", "buckets", "storage", "skip", "views", "addressing", "capacity"];
+const OPTIONS: [&str; 10] = [
+    "resolution",
+    "tile",
+    "buckets",
+    "slices",
+    "storage",
+    "corners",
+    "skip",
+    "views",
+    "addressing",
+    "capacity",
+];
 
 /// Pixels a side of a face where nothing else is asked for.
 const RESOLUTION: u32 = 256;
@@ -33,10 +43,16 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "resolution" => config.resolution = given.number()?,
             "tile" => config.tile = given.number()?,
             "buckets" => config.buckets = given.number()?,
+            "slices" => config.slices = Some(given.number()?),
+            "corners" => config.corners = given.switch()?,
             "capacity" => config.entries = Some(given.number()?.into()),
             "skip" => config.skip = given.switch()?,
             "storage" => {
-                config.storage = given.choice(&[("llb", Storage::Linked), ("sb", Storage::Contiguous)])?;
+                config.storage = given.choice(&[
+                    ("llb", Storage::Linked),
+                    ("sb", Storage::Contiguous),
+                    ("bricks", Storage::Bricks),
+                ])?;
             }
             // One word so far: a value is checked, and nothing else is chosen.
             "views" => given.choice(&[("cube", ())])?,

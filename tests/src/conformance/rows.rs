@@ -261,6 +261,14 @@ pub const ROWS: &[Row] = &[
         Cases::All,
     ),
     dirt("dirt-robust-128", &[], Tier::Quick, Cases::Shallow),
+    // 16 tiles a side and few slices, then as many as a scene of a hundred thousand triangles gets.
+    dirt(
+        "dirt-bricks-16",
+        &[("storage", "bricks"), ("resolution", "16"), ("tile", "1"), ("slices", "12")],
+        Tier::Quick,
+        Cases::All,
+    ),
+    dirt("dirt-bricks-128", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
     mmrt(
         "mmrt-robust-16",
         Preset::Robust,

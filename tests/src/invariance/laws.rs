@@ -37,6 +37,7 @@ pub const LAWS: &[Law] = &[
     same("addressing", &["descriptor", "address"]),
     same("builder", &["raster", "binning", "sah", "lbvh"]),
     same("buckets", &["1", "2", "8", "32"]),
+    same("corners", &["on", "off"]),
     same("inline", &["on", "off"]),
     same("leaf", &["1", "16"]),
     same("page", &["1", "2", "4", "8"]),

@@ -1,0 +1,273 @@
+// What: follows a ray through bricks of cells and tests the triangles that each cell lists.
+// Reads: all pools, geometry. Writes: header.corrupted.
+// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; ads/brick_cube.glsl has the planes between them.
+// Every step goes from t to where the ray leaves the cell, or the empty cells around it; the axis of that exit gets the
+// next index exactly, the others are found from the point there and kept between where they were and the end of what
+// was empty. So indices only go forwards, and a cell is missed by no more than rounding, which what it lists allows for.
+// cursor: 0 flags and face, 1 t, 3 column and row, 4 slice, 6 next entry, 7 place in what is tested one by one.
+#ifndef PRIMITIVE_BRICK_TRACE_GLSL
+#define PRIMITIVE_BRICK_TRACE_GLSL
+
+#include "primitive/brick_accessors.glsl"
+#include "primitive/search.glsl"
+#include "ads/brick_cube.glsl"
+#include "ads/march_cube.glsl"
+
+#define BRICK_CURSOR_STARTED 1u
+#define BRICK_CURSOR_LISTED 2u
+// The list of the cell has not been begun.
+#define BRICK_LIST_BEGIN 0xFFFFFFFFu
+
+// What stays the same for a ray.
+struct BrickWalk {
+    Slices slices;
+    int tiles;
+    float half_side;      // half the columns of a face
+    float column;         // width of one in x/z
+    float rounding;       // metres: how far from its place the ray may be found
+    uint stored;          // entries
+    uint listed;          // cells with a list
+};
+
+// Cells that a ray may cross in one step: all between first and last along each axis.
+struct BrickBox {
+    ivec3 first;
+    ivec3 last;
+    bool listed;          // one cell, which lists something
+    uint list;
+};
+
+BrickBox brick_box(PrimitiveRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 up) {
+    uint brick = brick_index(face, cell, uint(walk.tiles), uint(walk.slices.count));
+    uint word = PRIMITIVE_BRICKS(s)[brick_at(brick)];
+    BrickBox box = BrickBox(cell, cell, false, 0u);
+    int inside = 0;
+    int beyond = 0;
+    if (PRIMITIVE_SKIP != 0u && brick_is_empty(word)) {
+        inside = 3;
+        beyond = 4 * brick_distance(word, brick_octant(up));
+    } else {
+        uint bits = PRIMITIVE_BRICKS(s)[brick_mask_at(brick, brick_word(cell))];
+        if (PRIMITIVE_SKIP != 0u && (bits & brick_octet(cell)) == 0u) {
+            inside = 1;
+        } else {
+            uint bit = brick_bit(cell);
+            box.listed = (bits >> bit & 1u) != 0u;
+            if (box.listed) {
+                box.list = word + uint(bitCount(bits & ((1u << bit) - 1u)))
+                    + (brick_word(cell) != 0u ? uint(bitCount(PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 0u)])) : 0u);
+            }
+        }
+    }
+    box.first = max((cell & ~inside) - beyond, ivec3(0));
+    box.last = min((cell | inside) + beyond, ivec3(walk.tiles - 1, walk.tiles - 1, walk.slices.count - 1));
+    return box;
+}
+
+// Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
+uvec2 brick_entries(PrimitiveRef s, BrickWalk walk, uint list) {
+    if (list < walk.listed) {
+        uvec2 entries = uvec2(list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u], PRIMITIVE_LISTS(s)[list]);
+        if (entries.y <= walk.stored) {
+            return entries;
+        }
+    }
+    atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+    return uvec2(0u);
+}
+
+// Tests a candidate with the corners kept here, or with those of the geometry.
+void brick_test(PrimitiveRef s, uint primitive, Ray ray, inout TraceState state) {
+    if (PRIMITIVE_CORNERS_KEPT == 0u) {
+        primitive_test(primitive, ray, state);
+        return;
+    }
+    float infinity = uintBitsToFloat(0x7F800000u);
+    if (primitive >= PRIMITIVE_HEADER(s).triangle_capacity) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        return;
+    }
+    state.tests++;
+    test_corners(ray, primitive, PRIMITIVE_CORNERS(s)[3u * primitive], PRIMITIVE_CORNERS(s)[3u * primitive + 1u],
+        PRIMITIVE_CORNERS(s)[3u * primitive + 2u], -infinity, infinity, state.best);
+}
+
+// Tests triangles one by one: those of the near list, or all. True if the budget ended first.
+bool brick_trace_listed(PrimitiveRef s, Ray ray, bool all_triangles, bool any_hit, inout TraceState state, inout uint work) {
+    uint count = all_triangles ? geometry_triangle_count()
+        : min(PRIMITIVE_HEADER(s).near_demand, PRIMITIVE_HEADER(s).near_capacity);
+    for (uint place = state.cursor[7]; place < count; place++) {
+        if (work >= WORK_BUDGET) {
+            state.cursor[7] = place;
+            return true;
+        }
+        work++;
+        primitive_test(all_triangles ? place : PRIMITIVE_NEAR_LIST(s)[place], ray, state);
+        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+            return false;
+        }
+    }
+    return false;
+}
+
+// Follows the ray from `t` to `t_last`, over the near box if it meets that. `resumed`: as the cursor says. True if the
+// budget ended first.
+bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
+    bool resumed, inout TraceState state, inout uint work) {
+    BrickWalk walk;
+    walk.slices = primitive_slices(s);
+    walk.tiles = int(PRIMITIVE_HEADER(s).tiles);
+    walk.half_side = 0.5 * float(walk.tiles);
+    walk.column = 2.0 / float(walk.tiles);
+    walk.rounding = PRIMITIVE_BRICK_PLACE * PRIMITIVE_HEADER(s).reach;
+    walk.stored = min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
+    walk.listed = primitive_listed_cells(s);
+    // A finite end, also where the geometry ends beyond what numbers hold.
+    t_last = min(t_last, 3.0e38);
+    bool crosses_near = near.x <= near.y && near.y < t_last;
+    if (near.x <= near.y && !crosses_near) {
+        // A ray that ends in the near box needs no cell of it.
+        t_last = min(t_last, near.x);
+    }
+    uint face = 0u;
+    ivec3 cell = ivec3(0);
+    uint entry = BRICK_LIST_BEGIN;
+    bool begins = !resumed;
+    if (resumed) {
+        face = state.cursor[0] >> 2;
+        t = uintBitsToFloat(state.cursor[1]);
+        cell = ivec3(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16, state.cursor[4]);
+        entry = state.cursor[6];
+    } else if (near.x <= t && t <= near.y) {
+        t = near.y;
+    }
+    if (begins) {
+        face = face_of(origin + t * ray.direction);
+    }
+    bool turns = true;
+    bool paused = false;
+    BrickRay r;
+    bvec3 up;
+    // The two triangles tested last: large ones stand in many cells in a row.
+    uvec2 tested = uvec2(PRIMITIVE_NONE);
+    // Each turn crosses a cell or what is empty around it, and stays below the budget.
+    while (t <= t_last && !(t > state.best.t + slack)) {
+        if (turns) {
+            r = brick_ray(origin, ray.direction, face);
+            up = greaterThanEqual(r.heading, vec3(0.0));
+            trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
+            if (begins) {
+                cell = brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+                cell.xy = clamp(cell.xy, ivec2(0), ivec2(walk.tiles - 1));
+            }
+            turns = false;
+            begins = false;
+        }
+        // A list that was being read when the ray paused goes on without a unit for its cell.
+        bool enters = entry == BRICK_LIST_BEGIN;
+        if (enters) {
+            if (work >= WORK_BUDGET) {
+                paused = true;
+                break;
+            }
+            work++;
+        }
+        BrickBox box = brick_box(s, walk, face, cell, up);
+        ivec3 planes = mix(box.first, box.last + 1, up);
+        vec3 exits = brick_exits(r, planes, walk.column, walk.slices);
+        float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
+        if (enters) {
+            state.cells++;
+            trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
+        }
+        if (box.listed) {
+            uvec2 entries = brick_entries(s, walk, box.list);
+            if (enters) {
+                entry = entries.x;
+                trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
+            }
+            for (; entry < entries.y; entry++) {
+                if (work >= WORK_BUDGET) {
+                    paused = true;
+                    break;
+                }
+                work++;
+                state.entries++;
+                uint primitive = PRIMITIVE_ENTRIES(s)[entry];
+                trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+                if (primitive != tested.x && primitive != tested.y) {
+                    brick_test(s, primitive, ray, state);
+                    tested = uvec2(primitive, tested.x);
+                }
+            }
+            if (paused || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+                break;
+            }
+            entry = BRICK_LIST_BEGIN;
+        }
+        // Where the ray goes into the near box it comes out on the other side; what is in there is tested one by one.
+        if (crosses_near && t < near.x && t_out >= near.x) {
+            t = near.y;
+            face = face_of(origin + t * ray.direction);
+            turns = true;
+            begins = true;
+            continue;
+        }
+        t = t_out;
+        bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
+        bool leaves_y = !leaves_x && exits.y <= exits.z;
+        ivec3 next = brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+        next = clamp(next, mix(box.first, cell, up), mix(cell, box.last, up));
+        ivec3 over = mix(box.first - 1, box.last + 1, up);
+        if (leaves_x) {
+            next.x = over.x;
+        } else if (leaves_y) {
+            next.y = over.y;
+        } else {
+            next.z = over.z;
+        }
+        cell = next;
+        int beside = leaves_x ? cell.x : cell.y;
+        if ((leaves_x || leaves_y) && (beside < 0 || beside >= walk.tiles)) {
+            face = brick_face_beyond(face, leaves_x, beside < 0);
+            turns = true;
+            begins = true;
+        }
+    }
+    if (paused) {
+        state.cursor[0] = BRICK_CURSOR_STARTED | face << 2;
+        state.cursor[1] = floatBitsToUint(t);
+        state.cursor[3] = uint(cell.x) | uint(cell.y) << 16;
+        state.cursor[4] = uint(cell.z);
+        state.cursor[6] = entry;
+    }
+    return paused;
+}
+
+// The whole ray. `clip` is its stretch within the bounds of the geometry, `distant` that it starts far outside.
+uint brick_trace(PrimitiveRef s, Ray ray, vec3 origin, vec2 clip, vec2 near, float slack, bool distant, bool any_hit,
+    inout TraceState state) {
+    uint work = 0u;
+    if (!(clip.x < clip.y)) {
+        return TRACE_MISS;
+    }
+    bool resumed = (state.cursor[0] & BRICK_CURSOR_STARTED) != 0u;
+    bool listed = (state.cursor[0] & BRICK_CURSOR_LISTED) != 0u;
+    bool meets_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
+    if ((!resumed || listed) && (distant || meets_near)) {
+        if (!resumed) {
+            trace_log(STEP_VIEW, distant ? PRIMITIVE_SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
+        }
+        if (brick_trace_listed(s, ray, distant, any_hit, state, work)) {
+            state.cursor[0] = BRICK_CURSOR_STARTED | BRICK_CURSOR_LISTED;
+            return TRACE_PAUSED;
+        }
+    }
+    bool done = distant || (any_hit && state.best.primitive != PRIMITIVE_NONE);
+    if (!done && brick_trace_cells(s, ray, origin, clip.x, clip.y, near, slack, any_hit, resumed && !listed, state, work)) {
+        return TRACE_PAUSED;
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+
+#endif

@@ -1,0 +1,35 @@
+// What: files each triangle in the columns of each face that it reaches into; one invocation a triangle and face. Those
+// with many columns are left to the next pass.
+// Reads: geometry, header. Writes: records, header.record_demand, header.demand, pairs, header.pairs, header.groups.
+// Source: DIRT section 3.2, by computing instead of drawing.
+#version 460
+#include "contract/extensions.glsl"
+#define PRIMITIVE_BINNING
+#include "primitive/brick_bin.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+void main() {
+    uint pair = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint triangles = geometry_triangle_count();
+    BrickBin bin;
+    if (pair >= VIEW_FACES * triangles || !brick_bin_begin(primitive_built, pair % triangles, pair / triangles, bin)) {
+        return;
+    }
+    ivec2 size = bin.upper - bin.lower + 1;
+    if (size.x * size.y <= PRIMITIVE_BIN_COLUMNS) {
+        brick_bin_columns(primitive_built, bin, bin.lower, bin.upper);
+        return;
+    }
+    uint place = atomicAdd(PRIMITIVE_HEADER(primitive_built).pairs, 1u);
+    if (place >= PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(primitive_built).triangle_capacity) {
+        return;
+    }
+    PRIMITIVE_PAIRS(primitive_built)[place] = pair;
+    atomicMax(PRIMITIVE_HEADER(primitive_built).groups[0], min(place + 1u, PRIMITIVE_PAIR_ROW));
+    atomicMax(PRIMITIVE_HEADER(primitive_built).groups[1], place / PRIMITIVE_PAIR_ROW + 1u);
+}

@@ -1,0 +1,26 @@
+// What: the length of each cell's list; one invocation a record.
+// Reads: records, bricks. Writes: lists.
+// Source: not in the paper, whose lists are linked; count, scan, fill.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/brick_accessors.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+void main() {
+    uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (place >= primitive_stored_records(primitive_built)) {
+        return;
+    }
+    BrickRecord record = brick_record(primitive_built, place);
+    for (uint slice = record.first; slice <= record.last; slice++) {
+        uint list = brick_list(primitive_built, record.face, ivec3(record.x, record.y, slice));
+        if (list < PRIMITIVE_HEADER(primitive_built).cell_capacity) {
+            atomicAdd(PRIMITIVE_LISTS(primitive_built)[list], 1u);
+        }
+    }
+}
