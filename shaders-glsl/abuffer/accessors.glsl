@@ -37,7 +37,13 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer AbufferLongBuffer { uint
 
 // Lists by depth bucket, with depth bounds of each cell.
 bool abuffer_bucketed() {
-    return ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB;
+    return ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
+        || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
+}
+
+// Nodes in pages that are linked.
+bool abuffer_paged() {
+    return ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 }
 
 // Nodes that link both ways.
@@ -70,13 +76,21 @@ uint abuffer_link_word() {
     return ABUFFER_INLINE != 0u ? 1u + abuffer_data_stride() : 1u;
 }
 
-// Words of a node: depth, inline payload, links. Contiguous nodes have no links; decoupled ones name their payload
-// instead, because sorting moves them.
+// Words of a node: depth, inline payload, links. Nodes in pages and contiguous ones have no links; decoupled contiguous
+// ones name their payload instead, because sorting moves them.
 uint abuffer_node_stride() {
+    if (abuffer_paged()) {
+        return abuffer_link_word();
+    }
     if (abuffer_contiguous()) {
         return ABUFFER_INLINE != 0u ? abuffer_link_word() : 2u;
     }
     return abuffer_link_word() + (abuffer_doubly() ? 2u : 1u);
+}
+
+// Words of a page: the word that leads to the next one, and nodes.
+uint abuffer_page_stride() {
+    return 1u + ABUFFER_PAGE * abuffer_node_stride();
 }
 
 uint abuffer_cell_count(AbufferRef s) {

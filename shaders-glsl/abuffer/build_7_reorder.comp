@@ -1,11 +1,12 @@
 // What: sorts each list by depth, ties by payload, and renews the backward links. Lists too long for one dispatch are
-// named for build_8_reorder_long.
+// named for build_8_reorder_long. Of paged lists each page is sorted.
 // Reads: lists, nodes, data. Writes: lists, nodes, long lists, header.long_demand.
 // Source: MMRT section 3.3, reorder pass.
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/sort_contiguous.glsl"
 #include "abuffer/sort_linked.glsl"
+#include "abuffer/sort_page.glsl"
 
 layout(local_size_x = ABUFFER_GROUP_SIZE) in;
 
@@ -15,8 +16,16 @@ layout(push_constant, scalar) uniform AbufferBuildConstants {
 
 void main() {
     uint list = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (list >= abuffer_list_count(abuffer_built)
-        || ABUFFER_HEADER(abuffer_built).demand > ABUFFER_HEADER(abuffer_built).capacity) {
+    if (ABUFFER_HEADER(abuffer_built).demand > ABUFFER_HEADER(abuffer_built).capacity) {
+        return;
+    }
+    if (abuffer_paged()) {
+        if (list < ABUFFER_HEADER(abuffer_built).demand) {
+            abuffer_sort_page(abuffer_built, list);
+        }
+        return;
+    }
+    if (list >= abuffer_list_count(abuffer_built)) {
         return;
     }
     uint result = SORT_DONE;

@@ -25,6 +25,7 @@
 #define ABUFFER_STORAGE_LLB 2u
 #define ABUFFER_STORAGE_DLLB 3u
 #define ABUFFER_STORAGE_SB 4u
+#define ABUFFER_STORAGE_PAGED 5u
 
 // Longest list that the reorder pass sorts at once, and steps that suffice for it: it is counted and merged ten
 // times. Longer lists are sorted a share a dispatch.

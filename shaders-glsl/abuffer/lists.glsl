@@ -2,11 +2,11 @@
 // how one is read from either end.
 // Reads, writes: lists, nodes, header.demand, header.corrupted.
 // Source: MMRT section 3.3 and table 2. Linked: a head, doubly linked also a tail, of each bucket. Contiguous: a
-// first place of each cell, and behind all of those the counts.
+// first place of each cell, and behind all of those the counts. Paged: the word that leads to the first page.
 #ifndef ABUFFER_LISTS_GLSL
 #define ABUFFER_LISTS_GLSL
 
-#include "abuffer/nodes.glsl"
+#include "abuffer/list_pages.glsl"
 
 // Running index of the list of a cell's bucket. Storages without buckets have one bucket.
 uint abuffer_list(uint cell, uint bucket) {
@@ -46,6 +46,9 @@ void abuffer_count_one(AbufferRef s, uint list) {
 // Takes a node for a fragment of a list; 0 where there is no room, which is counted.
 uint abuffer_allocate(AbufferRef s, uint list) {
     uint node = 0u;
+    if (abuffer_paged()) {
+        return abuffer_page_allocate(s, list);
+    }
     if (abuffer_contiguous()) {
         uint count = abuffer_list_count(s);
         node = ABUFFER_LISTS(s)[list] + atomicAdd(ABUFFER_LISTS(s)[count + list], 1u);
@@ -66,7 +69,7 @@ uint abuffer_allocate(AbufferRef s, uint list) {
 // tail is the one that found the list empty.
 void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     abuffer_set_z(s, link, z);
-    if (abuffer_contiguous()) {
+    if (abuffer_contiguous() || abuffer_paged()) {
         return;
     }
     uint word = abuffer_head_word(list);
@@ -100,6 +103,9 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
         uvec2 ends = abuffer_ends(s, list);
         return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
     }
+    if (abuffer_paged()) {
+        return AbufferCursor(abuffer_page_link(ABUFFER_LISTS(s)[list]), 0u, false);
+    }
     uint word = abuffer_head_word(list);
     return AbufferCursor(ABUFFER_LISTS(s)[backward ? word + 1u : word], 0u, backward);
 }
@@ -131,10 +137,17 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     }
     if (abuffer_contiguous()) {
         cursor.link = link == cursor.last ? 0u : (cursor.backward ? link - 1u : link + 1u);
+    } else if (abuffer_paged()) {
+        cursor.link = link % ABUFFER_PAGE == 0u ? abuffer_page_next(s, link) : link + 1u;
     } else {
         cursor.link = cursor.backward ? abuffer_prev(s, link) : abuffer_next(s, link);
     }
     return link;
+}
+
+// Passes over what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
+void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
+    cursor.link = abuffer_paged() ? abuffer_page_next(s, link) : 0u;
 }
 
 #endif

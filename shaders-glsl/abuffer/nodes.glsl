@@ -1,4 +1,5 @@
-// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 names none.
+// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 names none. Nodes in
+// pages are numbered over all slots.
 // Reads, writes: nodes, data, header.demand.
 // Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own, inline payload between a
 // node's depth and its links.
@@ -7,12 +8,16 @@
 
 #include "abuffer/accessors.glsl"
 
-// Nodes that were stored.
+// Nodes that were stored; of pages all slots.
 uint abuffer_stored(AbufferRef s) {
-    return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand);
+    return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand) * (abuffer_paged() ? ABUFFER_PAGE : 1u);
 }
 
 uint abuffer_node_word(uint link) {
+    if (abuffer_paged()) {
+        uint slot = link - 1u;
+        return slot / ABUFFER_PAGE * abuffer_page_stride() + 1u + slot % ABUFFER_PAGE * abuffer_node_stride();
+    }
     return (link - 1u) * abuffer_node_stride();
 }
 
@@ -25,7 +30,7 @@ void abuffer_set_z(AbufferRef s, uint link, float z) {
     ABUFFER_NODES(s)[abuffer_node_word(link)] = floatBitsToUint(z);
 }
 
-// The link away from the eye; not of contiguous nodes.
+// The link away from the eye, of linked nodes.
 uint abuffer_next(AbufferRef s, uint link) {
     return ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word()];
 }

@@ -108,10 +108,11 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             if (end_early && (backward ? z < low : z > high)) {
                 trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
                 // Read from the far side to the near one, buckets that follow hold smaller depths.
-                if (backward == !away) {
+                if (backward == !away && !abuffer_paged()) {
                     return false;
                 }
-                break;
+                abuffer_list_skip(s, current, cursor);
+                continue;
             }
             if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
                 if (z < low || z > high) {

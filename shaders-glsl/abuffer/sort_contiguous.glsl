@@ -5,19 +5,12 @@
 #ifndef ABUFFER_SORT_CONTIGUOUS_GLSL
 #define ABUFFER_SORT_CONTIGUOUS_GLSL
 
+#include "abuffer/exchange.glsl"
 #include "abuffer/lists.glsl"
 #include "abuffer/sort.glsl"
 
 // Levels of a heap of 32-bit places, and a step to begin: what one sift takes at most.
 #define SORT_SIFT_STEPS 33u
-
-void abuffer_exchange(AbufferRef s, uint left, uint right) {
-    for (uint word = 0u; word < abuffer_node_stride(); word++) {
-        uint value = ABUFFER_NODES(s)[abuffer_node_word(left) + word];
-        ABUFFER_NODES(s)[abuffer_node_word(left) + word] = ABUFFER_NODES(s)[abuffer_node_word(right) + word];
-        ABUFFER_NODES(s)[abuffer_node_word(right) + word] = value;
-    }
-}
 
 // Sorts as far as `steps` go. Sifts number count / 2 to make the heap, then count - 1 to take its largest node to
 // the end of what is left.

@@ -17,12 +17,13 @@ layout(constant_id = 15) const uint ABUFFER_PAYLOAD = ABUFFER_PAYLOAD_INDEX;
 layout(constant_id = 16) const uint ABUFFER_COVERAGE = ABUFFER_COVERAGE_EXACT;
 layout(constant_id = 17) const uint ABUFFER_STORAGE = ABUFFER_STORAGE_DLLB;
 layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
+layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 
 // State and sizes of one A-buffer. 152 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // fragments met by the build, also those beyond the capacity
-    uint capacity;        // fragments the pools hold
+    uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
+    uint capacity;        // fragments or pages the pools hold
     uint near_demand;     // triangles that meet the near box
     uint near_capacity;
     uint unsorted;        // lists longer than the reorder passes sort
@@ -35,7 +36,7 @@ struct AbufferHeader {
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
     uint long_capacity;
     vec3 lower;           // bounds of the geometry relative to the eye, metres
-    float spare_lower;
+    uint fragments;       // met by the build, ABUFFER_STORAGE_PAGED only
     vec3 upper;
     float spare_upper;
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used

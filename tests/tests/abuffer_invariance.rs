@@ -105,6 +105,27 @@ const CHANGES: &[(&str, Change)] = &[
         ..config
     }),
     ("sb, room for nothing at first", |config| Config { storage: Storage::Sb, fragments: Some(0), ..config }),
+    ("paged", |config| Config { storage: Storage::Paged, ..config }),
+    ("paged, 1 a page, inline", |config| Config { storage: Storage::Paged, page: 1, inline: true, ..config }),
+    ("paged, 2 a page, sort off", |config| Config {
+        storage: Storage::Paged,
+        page: 2,
+        sort: false,
+        ..config
+    }),
+    ("paged, 8 a page, 1 bucket, 7 units a dispatch", |config| Config {
+        storage: Storage::Paged,
+        page: 8,
+        buckets: 1,
+        work_budget: Some(7),
+        ..config
+    }),
+    ("paged, address, room for one page at first", |config| Config {
+        storage: Storage::Paged,
+        addressing: Addressing::Address,
+        fragments: Some(1),
+        ..config
+    }),
     ("address", |config| Config { addressing: Addressing::Address, ..config }),
     ("address, 7 units a dispatch", |config| Config {
         addressing: Addressing::Address,

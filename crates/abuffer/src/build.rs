@@ -92,8 +92,9 @@ impl Build {
         let side = config.resolution + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Backward links of new nodes are zero; everything else of a node is written.
-        let cleared: &[&str] = if config.storage.is_doubly_linked() {
+        // Backward links of new nodes and depths of unused slots are zero; everything else of a node is written.
+        let paged = config.storage == Storage::Paged;
+        let cleared: &[&str] = if config.storage.is_doubly_linked() || paged {
             &["bounds", "lists", "nodes"]
         } else {
             &["bounds", "lists"]
@@ -115,7 +116,15 @@ impl Build {
         target.raster_pass(recorder, "abuffer/build_6_store", &self.store, side, VIEWS);
         if let Some(reorder) = &self.reorder {
             let readers = Access::COMPUTE;
-            target.compute_pass(recorder, "abuffer/build_7_reorder", &reorder.all, groups(lists), 0, readers);
+            let sorted = if paged { target.pools.sizes().elements("nodes") } else { lists };
+            target.compute_pass(
+                recorder,
+                "abuffer/build_7_reorder",
+                &reorder.all,
+                groups(sorted),
+                0,
+                readers,
+            );
             recorder.begin_pass("abuffer/build_8_reorder_long");
             let long = groups(target.pools.sizes().elements("long"));
             for round in 0..ABUFFER_LONG_ROUNDS {

@@ -55,11 +55,13 @@ pub enum Storage {
     Dllb,
     /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
     Sb,
+    /// A linked list of pages a depth bucket; a page holds [`Config::page`] fragments.
+    Paged,
 }
 
 impl Storage {
     /// Every storage.
-    pub const ALL: [Self; 5] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb];
+    pub const ALL: [Self; 6] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb, Self::Paged];
 
     /// The word of options and reports.
     pub fn name(self) -> &'static str {
@@ -69,12 +71,13 @@ impl Storage {
             Self::Llb => "llb",
             Self::Dllb => "dllb",
             Self::Sb => "sb",
+            Self::Paged => "paged",
         }
     }
 
     /// Whether a cell has depth bounds and a list a bucket.
     pub fn is_bucketed(self) -> bool {
-        matches!(self, Self::Llb | Self::Dllb)
+        matches!(self, Self::Llb | Self::Dllb | Self::Paged)
     }
 
     /// Whether nodes link both ways.
@@ -89,6 +92,7 @@ impl Storage {
             Self::Llb => numbers::ABUFFER_STORAGE_LLB,
             Self::Dllb => numbers::ABUFFER_STORAGE_DLLB,
             Self::Sb => numbers::ABUFFER_STORAGE_SB,
+            Self::Paged => numbers::ABUFFER_STORAGE_PAGED,
         }
     }
 }
@@ -102,6 +106,8 @@ pub struct Config {
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
     pub inline: bool,
+    /// Fragments a page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
+    pub page: u32,
     /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]). Changes no hit.
     pub buckets: u32,
     /// How rays step.
@@ -122,7 +128,8 @@ pub struct Config {
     pub skip: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    /// Fragments, or pages of them, to make room for before the first build; a guess from the resolution where
+    /// absent.
     pub fragments: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,
@@ -137,6 +144,7 @@ impl Config {
             resolution,
             storage: Storage::Dllb,
             inline: false,
+            page: 4,
             buckets: 4,
             march: March::Exact,
             samples: 100,
@@ -180,6 +188,13 @@ impl Config {
         range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
         range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
         range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
+        if ![1, 2, 4, 8].contains(&self.page) {
+            return Err(AdsError::Option {
+                option: "page",
+                value: self.page.to_string(),
+                expected: "1, 2, 4 or 8 fragments a page",
+            });
+        }
         // A dispatch that resumes a search counts its cell before it reads an entry.
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 2, u32::MAX, "2 units or more a dispatch, or rays make no progress")?;
@@ -242,6 +257,7 @@ impl Config {
             ),
             (17, self.storage.number()),
             (18, u32::from(self.inline)),
+            (19, self.page),
         ]
     }
 
@@ -262,6 +278,9 @@ impl Config {
         ];
         if self.storage.is_bucketed() {
             options.push(("buckets", self.buckets.to_string()));
+        }
+        if self.storage == Storage::Paged {
+            options.push(("page", self.page.to_string()));
         }
         if self.march == March::Samples {
             options.push(("samples", self.samples.to_string()));

@@ -8,9 +8,9 @@ use bytemuck::{Pod, Zeroable};
 pub struct Header {
     /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
     pub status: u32,
-    /// Fragments met by the build, also those beyond the capacity.
+    /// Fragments met by the build, or pages begun for them, also those beyond the capacity.
     pub demand: u32,
-    /// Fragments the pools hold.
+    /// Fragments or pages the pools hold.
     pub capacity: u32,
     /// Triangles that meet the near box.
     pub near_demand: u32,
@@ -36,8 +36,8 @@ pub struct Header {
     pub long_capacity: u32,
     /// Lower corner of the geometry relative to the eye, metres.
     pub lower: [f32; 3],
-    /// Zero.
-    pub spare_lower: f32,
+    /// Fragments met by the build; only of paged lists.
+    pub fragments: u32,
     /// Upper corner of the geometry relative to the eye, metres.
     pub upper: [f32; 3],
     /// Zero.

@@ -10,6 +10,9 @@ pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data
 /// Room for long lists where nothing has been counted.
 const LONG_LISTS: u64 = 64;
 
+/// Pages that a word of a list can name beside how many of its slots are used (`PAGE_LIMIT` of the shaders).
+const MOST_PAGES: u64 = 0x0FFF_FFFE;
+
 /// Cells of all six faces, each with a border of one cell.
 pub fn cell_count(resolution: u32) -> u64 {
     let side = u64::from(resolution) + 2;
@@ -19,8 +22,8 @@ pub fn cell_count(resolution: u32) -> u64 {
 /// What a build found: how much of each pool it asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Fragments.
-    pub fragments: u64,
+    /// Nodes: one a fragment, or one a page of them.
+    pub nodes: u64,
     /// Triangles around the eye.
     pub near_triangles: u64,
     /// Lists that one dispatch does not sort.
@@ -35,9 +38,11 @@ pub(crate) fn data_words(payload: Payload) -> u64 {
     }
 }
 
-/// Words of a node: depth, links, and the payload where it is inline; a contiguous node names it where it is not.
-pub(crate) fn node_words(config: &Config) -> u64 {
+/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node names it where it
+/// is not.
+pub(crate) fn fragment_words(config: &Config) -> u64 {
     let links = match config.storage {
+        Storage::Paged => 0,
         Storage::Ll | Storage::Llb => 1,
         Storage::Dll | Storage::Dllb => 2,
         Storage::Sb => u64::from(!config.inline),
@@ -45,10 +50,23 @@ pub(crate) fn node_words(config: &Config) -> u64 {
     1 + links + if config.inline { data_words(config.payload) } else { 0 }
 }
 
+/// Words of a node: that of a fragment, or a page of several with a word that leads to the next page.
+pub(crate) fn node_words(config: &Config) -> u64 {
+    match config.storage {
+        Storage::Paged => 1 + u64::from(config.page) * fragment_words(config),
+        _ => fragment_words(config),
+    }
+}
+
+/// Fragments that a node has room for.
+pub(crate) fn node_slots(config: &Config) -> u64 {
+    if config.storage == Storage::Paged { config.page.into() } else { 1 }
+}
+
 /// Words of a list: one end, both ends, or first place and count.
 pub(crate) fn list_words(storage: Storage) -> u64 {
     match storage {
-        Storage::Ll | Storage::Llb => 1,
+        Storage::Ll | Storage::Llb | Storage::Paged => 1,
         Storage::Dll | Storage::Dllb | Storage::Sb => 2,
     }
 }
@@ -76,8 +94,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (1, size_of::<Header>() as u64),
         (cells, 4 * bounds_words(config)),
         (lists, 4 * list_words(config.storage)),
-        (demand.fragments, 4 * node_words(config)),
-        (demand.fragments, if config.inline { 0 } else { 4 * data_words(config.payload) }),
+        (demand.nodes, 4 * node_words(config)),
+        (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
         (demand.near_triangles, 4),
         (if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }, 4),
         (demand.long_lists, 8),
@@ -87,6 +105,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         .zip(sizes)
         .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
         .collect();
+    if config.storage == Storage::Paged && demand.nodes > MOST_PAGES {
+        return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: "nodes", elements: demand.nodes });
+    }
     // Words of a pool are counted in 32 bits by the shaders, and one value is kept to mean "none".
     if let Some(pool) =
         pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
@@ -99,8 +120,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 /// The first guess where nothing has been counted: a fragment a cell.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let fragments = config.fragments.unwrap_or_else(|| cell_count(config.resolution));
-    let long_lists = if config.sort { LONG_LISTS } else { 0 };
-    plan(config, Demand { fragments, near_triangles: 64, long_lists })
+    // Pages are short, so no list of them is long.
+    let long_lists = if config.sort && config.storage != Storage::Paged { LONG_LISTS } else { 0 };
+    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists })
 }
 
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.
@@ -110,7 +132,8 @@ pub struct FormulaBytes {
     pub cells: u64,
     /// Per cell with plane acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
-    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16.
+    /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
+    /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
     /// Header, 4 per triangle of the near list, 8 per long list, and 4 per 1024 cells for the scan of SB.
     pub rest: u64,
@@ -136,13 +159,18 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         Storage::Dll => (8, 12, 0),
         Storage::Llb => (8 + 4 * buckets, 8, 4),
         Storage::Dllb => (8 + 8 * buckets, 12, 4),
+        Storage::Paged => (8 + 4 * buckets, 4, 4),
     };
     let payload = if config.payload == Payload::Index { 4 } else { 16 };
+    let per_node = match config.storage {
+        Storage::Paged => 4 + u64::from(config.page) * (per_fragment + payload),
+        _ => per_fragment + payload,
+    };
     let sums = if config.storage == Storage::Sb { cells.div_ceil(1024) } else { 0 };
     FormulaBytes {
         cells: cells * per_cell,
         plane: if config.accept == Accept::Plane { cells * (4 + scale) } else { 0 },
-        fragments: demand.fragments * (per_fragment + payload),
+        fragments: demand.nodes * per_node,
         rest: 152 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
     }
 }
@@ -151,7 +179,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 mod tests {
     use super::*;
 
-    const DEMAND: Demand = Demand { fragments: 12_345, near_triangles: 7, long_lists: 3 };
+    const DEMAND: Demand = Demand { nodes: 12_345, near_triangles: 7, long_lists: 3 };
 
     #[test]
     fn plan_equals_formula() {
@@ -163,10 +191,11 @@ mod tests {
                 (true, 8, Accept::Interval, Payload::Attributes),
                 (false, 32, Accept::Thickness, Payload::Index),
             ] {
-                let config = Config { storage, inline, buckets, accept, payload, ..Config::robust(64) };
+                let page = if inline { 8 } else { 2 };
+                let config = Config { storage, inline, page, buckets, accept, payload, ..Config::robust(64) };
                 let bytes = plan(&config, DEMAND).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
-                let more = Demand { fragments: DEMAND.fragments + 1, ..DEMAND };
+                let more = Demand { nodes: DEMAND.nodes + 1, ..DEMAND };
                 assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
             }
         }
@@ -190,7 +219,7 @@ mod tests {
                 named.map(|pool| pool.elements * pool.element_bytes).sum::<u64>()
             };
             assert_eq!(bytes(["bounds", "lists"]), cell_count(64) * per_cell, "{storage:?}");
-            assert_eq!(bytes(["nodes", "data"]), DEMAND.fragments * (per_fragment + 16), "{storage:?}");
+            assert_eq!(bytes(["nodes", "data"]), DEMAND.nodes * (per_fragment + 16), "{storage:?}");
         }
     }
 
@@ -199,7 +228,7 @@ mod tests {
     #[test]
     fn formula_agrees_with_the_papers_table() {
         let config = Config { payload: Payload::Attributes, accept: Accept::Interval, ..Config::robust(480) };
-        let formula = formula_bytes(&config, Demand { fragments: 2_400_000, ..Demand::default() });
+        let formula = formula_bytes(&config, Demand { nodes: 2_400_000, ..Demand::default() });
         let per_cell = formula.cells / cell_count(480);
         let total = (720 * 480 + 6 * 480 * 480) * per_cell + formula.fragments;
         let mebibytes = total as f64 / f64::from(1 << 20);
@@ -213,7 +242,12 @@ mod tests {
         assert!(message(&config, Demand::default()).contains("buckets is 33"));
         let config = Config { resolution: 0, ..Config::robust(64) };
         assert!(message(&config, Demand::default()).contains("resolution is 0"));
-        let many = Demand { fragments: 1 << 32, ..Demand::default() };
+        let many = Demand { nodes: 1 << 32, ..Demand::default() };
         assert!(message(&Config::robust(64), many).contains("nodes"));
+        let config = Config { storage: Storage::Paged, page: 3, ..Config::robust(64) };
+        assert!(message(&config, Demand::default()).contains("page is 3"));
+        let config = Config { page: 1, ..config };
+        let many = Demand { nodes: 1 << 28, ..Demand::default() };
+        assert!(message(&config, many).contains("nodes"));
     }
 }

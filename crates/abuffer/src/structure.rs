@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::build::Build;
 use crate::layout::{Demand, first_plan, formula_bytes, plan};
-use crate::{Accept, Config, Contents, Header};
+use crate::{Accept, Config, Contents, Header, Storage};
 
 /// A multiview, multilayer A-buffer.
 #[derive(Debug)]
@@ -218,8 +218,12 @@ impl Structure for ABuffer {
             return Check::Complete;
         }
         let grown = |name| demand(name).max(self.pools.sizes().elements(name));
-        let demand =
-            Demand { fragments: grown("nodes"), near_triangles: grown("near"), long_lists: grown("long") };
+        let mut nodes = grown("nodes");
+        if self.config.storage == Storage::Paged && nodes > self.pools.sizes().elements("nodes") {
+            // How many pages are begun depends a little on which threads meet.
+            nodes += nodes / 64;
+        }
+        let demand = Demand { nodes, near_triangles: grown("near"), long_lists: grown("long") };
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
@@ -255,12 +259,12 @@ impl Structure for ABuffer {
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
         let demand = Demand {
-            fragments: header.demand.into(),
+            nodes: header.demand.into(),
             near_triangles: header.near_demand.into(),
             long_lists: header.long_demand.into(),
         };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
-            "nodes" | "data" => demand.fragments,
+            "nodes" | "data" => demand.nodes,
             "near" => demand.near_triangles,
             "long" => demand.long_lists,
             _ => pool.elements,
@@ -270,7 +274,10 @@ impl Structure for ABuffer {
             paths: self.config.paths(),
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, demand).total(),
-            stored: Some(demand.fragments),
+            stored: Some(match self.config.storage {
+                Storage::Paged => header.fragments.into(),
+                _ => demand.nodes,
+            }),
         })
     }
 }

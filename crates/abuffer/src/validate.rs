@@ -1,6 +1,6 @@
 //! Checks the contents of a built A-buffer.
 
-use crate::layout::{bounds_words, data_words, node_words};
+use crate::layout::{bounds_words, data_words, fragment_words, node_slots, node_words};
 use crate::{Config, Header, Storage, cell_count};
 
 /// All pools as downloaded, in words.
@@ -12,9 +12,11 @@ pub struct Contents {
     pub header: Header,
     /// Bounds of each cell.
     pub bounds: Vec<u32>,
-    /// Head (and tail) of each list; of contiguous lists all first places, then all counts.
+    /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the word that
+    /// leads to the first page.
     pub lists: Vec<u32>,
-    /// Depth, inline payload, and next, previous or place of the payload, of each node.
+    /// Depth, inline payload, and next, previous or place of the payload, of each node. Of a page the word that leads
+    /// to the next one, and nodes without links.
     pub nodes: Vec<u32>,
     /// Payload of each fragment, where it is not inline.
     pub data: Vec<u32>,
@@ -27,14 +29,31 @@ pub struct Contents {
 }
 
 impl Contents {
-    /// Nodes that were stored.
+    /// Nodes that were stored; of pages all slots.
     fn stored(&self) -> usize {
-        self.header.demand.min(self.header.capacity) as usize
+        self.header.demand.min(self.header.capacity) as usize * self.slots()
+    }
+
+    /// Whether all that the build met was stored.
+    fn complete(&self) -> bool {
+        self.header.demand <= self.header.capacity
+    }
+
+    /// Fragments a node has room for.
+    fn slots(&self) -> usize {
+        node_slots(&self.config) as usize
     }
 
     fn node(&self, link: u32) -> &[u32] {
-        let words = node_words(&self.config) as usize;
-        &self.nodes[words * (link as usize - 1)..][..words]
+        let (node, slot) = ((link as usize - 1) / self.slots(), (link as usize - 1) % self.slots());
+        let words = fragment_words(&self.config) as usize;
+        let next = usize::from(self.config.storage == Storage::Paged);
+        &self.nodes[node_words(&self.config) as usize * node + next + slot * words..][..words]
+    }
+
+    /// The word of a page that leads to the next one.
+    fn next_page(&self, page: usize) -> u32 {
+        self.nodes[node_words(&self.config) as usize * page]
     }
 
     fn z(&self, link: u32) -> f32 {
@@ -113,6 +132,18 @@ pub enum Fault {
         /// What should be.
         expected: usize,
     },
+    /// A page is in two lists, or has more or fewer used slots than the word that leads to it says.
+    #[error(
+        "cell {cell}, bucket {bucket}: page {page} is in two lists, or its used slots are not those counted"
+    )]
+    Page {
+        /// Cell.
+        cell: usize,
+        /// Bucket.
+        bucket: usize,
+        /// Number of the page.
+        page: usize,
+    },
     /// A contiguous node names a payload that does not exist or is another's.
     #[error("cell {cell}: node {link} names the payload {place}, which does not exist or is another's")]
     Payload {
@@ -173,16 +204,17 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let buckets = config.lists() as usize;
     let stored = contents.stored();
     // What is not complete is not sorted.
-    let sorted = config.sort && contents.header.unsorted == 0 && contents.header.demand as usize == stored;
+    let sorted = config.sort && contents.header.unsorted == 0 && contents.complete();
     let mut named = vec![false; stored];
+    let mut pages = vec![false; stored / contents.slots()];
     let mut linked = 0;
     let mut place = 0;
     for cell in 0..cell_count(config.resolution) as usize {
         for bucket in 0..buckets {
-            let links = if config.storage == Storage::Sb {
-                contiguous(contents, cell, &mut place)?
-            } else {
-                follow(contents, cell, bucket, linked)?
+            let links = match config.storage {
+                Storage::Sb => contiguous(contents, cell, &mut place)?,
+                Storage::Paged => turn_pages(contents, cell, bucket, &mut pages)?,
+                _ => follow(contents, cell, bucket, linked)?,
             };
             for &link in &links {
                 check_depth(contents, cell, bucket, link)?;
@@ -195,13 +227,53 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
                 }
             }
             let key = |link| (contents.z(link), contents.payload(link));
-            if let Some(pair) = links.windows(2).find(|pair| sorted && key(pair[0]) > key(pair[1])) {
+            // Of paged lists each page is in order.
+            let together = |pair: &[u32]| {
+                config.storage != Storage::Paged || (pair[0] - 1) / config.page == (pair[1] - 1) / config.page
+            };
+            let disordered = |pair: &[u32]| sorted && together(pair) && key(pair[0]) > key(pair[1]);
+            if let Some(pair) = links.windows(2).find(|pair| disordered(pair)) {
                 return Err(Fault::Order { cell, bucket, link: pair[1] });
             }
             linked += links.len();
         }
     }
-    if linked == stored { Ok(()) } else { Err(Fault::Count { stored, linked }) }
+    // What lies in pages beyond the capacity cannot be counted.
+    let expected = match config.storage {
+        Storage::Paged if contents.complete() => contents.header.fragments as usize,
+        Storage::Paged => linked,
+        _ => stored,
+    };
+    if linked == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked }) }
+}
+
+/// The links of a paged list, as far as its pages were stored.
+fn turn_pages(
+    contents: &Contents,
+    cell: usize,
+    bucket: usize,
+    pages: &mut [bool],
+) -> Result<Vec<u32>, Fault> {
+    let slots = contents.slots();
+    let mut links = Vec::new();
+    let mut word = contents.lists[cell * contents.config.lists() as usize + bucket];
+    while word != 0 {
+        let (page, used) = ((word >> 4) as usize, (word & 15) as usize);
+        let Some(page) = page.checked_sub(1).filter(|page| *page < pages.len()) else {
+            if contents.complete() {
+                return Err(Fault::Dangling { cell, bucket, link: word });
+            }
+            return Ok(links);
+        };
+        let first = page * slots + 1;
+        let unused = (first..first + slots).take_while(|link| contents.z(*link as u32) == 0.0).count();
+        if std::mem::replace(&mut pages[page], true) || used == 0 || used + unused != slots {
+            return Err(Fault::Page { cell, bucket, page });
+        }
+        links.extend((first + unused..first + slots).map(|link| link as u32));
+        word = contents.next_page(page);
+    }
+    Ok(links)
 }
 
 /// The links of a contiguous list, as far as they were stored; `place` is where it should begin.

@@ -45,6 +45,8 @@ pub enum Storage {
     Sb,
     /// One behind the other in cells of tile and depth slice, in bricks that say where nothing is
     Bricks,
+    /// Linked pages of several per depth bucket
+    Paged,
 }
 
 /// What a fragment carries.
@@ -164,6 +166,10 @@ pub struct StructureOptions {
     #[arg(long, conflicts_with = "inline")]
     #[serde(skip)]
     pub decoupled: bool,
+    /// With --storage paged: fragments of a page, 1, 2, 4 or 8
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub page: Option<u32>,
     /// What a fragment carries
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]

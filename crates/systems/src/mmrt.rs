@@ -18,11 +18,12 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 15] = [
+const OPTIONS: [&str; 16] = [
     "resolution",
     "buckets",
     "storage",
     "inline",
+    "page",
     "payload",
     "march",
     "samples",
@@ -59,6 +60,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                 config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
             }
             "inline" => config.inline = given.switch()?,
+            "page" => config.page = given.number()?,
             // One word so far: a value is checked, and nothing else is chosen.
             "views" => given.choice(&[("cube", ())])?,
             "payload" => {

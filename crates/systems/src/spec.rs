@@ -174,7 +174,9 @@ mod tests {
         assert!(message(spec("nobody", "robust", &[])).contains("mmrt, dirt, bvh, brute-force"));
         assert!(message(spec("brute-force", "published", &[])).contains("no preset"));
         assert!(message(spec("mmrt", "robust", &[("colour", "red")])).contains("colour"));
-        assert!(message(spec("mmrt", "robust", &[("storage", "heap")])).contains("ll, dll, llb, dllb, sb"));
+        assert!(
+            message(spec("mmrt", "robust", &[("storage", "heap")])).contains("ll, dll, llb, dllb, sb, paged")
+        );
         assert!(message(spec("mmrt", "robust", &[("buckets", "many")])).contains("buckets"));
         assert!(message(spec("mmrt", "published", &[("accept", "plane")])).contains("payload"));
     }
