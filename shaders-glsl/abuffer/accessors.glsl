@@ -56,10 +56,15 @@ bool abuffer_contiguous() {
     return ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
 }
 
-// Words of bounds a cell: ends where there are buckets, with plane acceptance the extent, and for both the scale.
+// Whether cells store how far triangles reach in depth from their fragments.
+bool abuffer_has_extent() {
+    return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
+}
+
+// Words of bounds a cell: ends where there are buckets, the extent, and for both the scale.
 uint abuffer_bounds_stride() {
     uint ends = abuffer_bucketed() ? 2u : 0u;
-    return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE ? ends + ends / 2u + 1u : ends;
+    return abuffer_has_extent() ? ends + ends / 2u + 1u : ends;
 }
 
 // Word of the extent among a cell's bounds; the scale is the next one.
@@ -106,9 +111,9 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
 }
 
-// Widens the extent of a cell, plane acceptance only.
+// Widens the extent of a cell, where it has one.
 void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
-    if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+    if (abuffer_has_extent()) {
         uint word = cell * abuffer_bounds_stride() + abuffer_extent_word();
         atomicMax(ABUFFER_BOUNDS(s)[word], floatBitsToUint(extent));
     }
@@ -130,7 +135,7 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
         return bounds;
     }
     uint word = cell * abuffer_bounds_stride();
-    if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+    if (abuffer_has_extent()) {
         bounds.extent = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + abuffer_extent_word()]);
     }
     if (!abuffer_bucketed()) {
@@ -145,7 +150,7 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     bounds.empty = false;
     bounds.z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
-    if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+    if (abuffer_has_extent()) {
         bounds.scale = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + 3u]);
     } else {
         bounds.scale = bucket_scale(bounds.z_min, bounds.z_max, ABUFFER_BUCKETS);

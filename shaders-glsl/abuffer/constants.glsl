@@ -5,11 +5,13 @@
 // How a ray steps through cells.
 #define ABUFFER_MARCH_SAMPLES 0u
 #define ABUFFER_MARCH_EXACT 1u
+#define ABUFFER_MARCH_DDA 2u
 
 // When a fragment counts as hit.
 #define ABUFFER_ACCEPT_INTERVAL 0u
 #define ABUFFER_ACCEPT_THICKNESS 1u
 #define ABUFFER_ACCEPT_PLANE 2u
+#define ABUFFER_ACCEPT_SLOPE 3u
 
 // What a fragment carries.
 #define ABUFFER_PAYLOAD_INDEX 0u

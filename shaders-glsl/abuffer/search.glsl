@@ -10,6 +10,7 @@
 #include "ads/geometry.glsl"
 #include "ads/judge_plane.glsl"
 #include "ads/triangle.glsl"
+#include "abuffer/slope.glsl"
 #include "abuffer/seek.glsl"
 
 // One search, able to stop between two nodes.
@@ -31,6 +32,18 @@ void abuffer_log_outside(AbufferRef s, uint link, float z) {
     trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
 }
 
+// Whether a fragment's depths meet those of the ray: [low, high) holds the depths looked for, `ray_z` the ray's own.
+bool abuffer_meets(AbufferRef s, uint cell, uint link, float z, float low, float high, vec2 ray_z) {
+    if (ABUFFER_ACCEPT != ABUFFER_ACCEPT_SLOPE) {
+        return z >= low && z < high;
+    }
+    if (z < low || z > high) {
+        return false;
+    }
+    vec2 depths = abuffer_slope_depths(s, cell, abuffer_data(s, link, 0u), z);
+    return depths.x <= ray_z.y && depths.y >= ray_z.x;
+}
+
 // Returns true if the work budget ended before the search did.
 bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bool ordered, inout AbufferSearch search,
     inout TraceState state, inout uint work) {
@@ -49,7 +62,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     // Depths at the cell's centre that an accepted fragment can have.
     float low = near_z;
     float high = far_z;
-    if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE) {
+    if (abuffer_has_extent()) {
         low = near_z - bounds.extent - rounding;
         high = far_z + bounds.extent + rounding;
     } else if (ABUFFER_ACCEPT == ABUFFER_ACCEPT_THICKNESS) {
@@ -64,7 +77,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         }
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
         last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
-        if (ABUFFER_ACCEPT != ABUFFER_ACCEPT_PLANE) {
+        if (!abuffer_has_extent()) {
             // The scale is computed anew by each stage, so a fragment may lie one bucket off.
             first = first - min(first, 1u);
             last = min(last + 1u, ABUFFER_BUCKETS - 1u);
@@ -122,7 +135,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 uint primitive = abuffer_data(s, current, 0u);
                 state.tests++;
                 test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
-            } else if (z >= low && z < high) {
+            } else if (abuffer_meets(s, search.cell, current, z, low, high, vec2(near_z, far_z))) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
                 float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);
                 t = direction_z == 0.0 ? search.t_low : t;

@@ -41,7 +41,7 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
         walk.searched = walk.cells.cell;
     } else {
         walk.samples = samples_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end,
-            ABUFFER_HEADER(s).samples);
+            ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples);
     }
 }
 

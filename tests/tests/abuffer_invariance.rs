@@ -144,7 +144,7 @@ const CHANGES: &[(&str, Change)] = &[
 /// What of a hit may not change. With interval acceptance a and b name the fragment's place in the pool,
 /// which is the order in which threads came.
 fn key(config: &Config, hit: &Hit) -> [u32; 4] {
-    let [a, b] = if config.accept == Accept::Plane { [hit.a.to_bits(), hit.b.to_bits()] } else { [0; 2] };
+    let [a, b] = if config.accept.needs_triangles() { [hit.a.to_bits(), hit.b.to_bits()] } else { [0; 2] };
     [hit.t.to_bits(), hit.primitive, a, b]
 }
 
@@ -211,6 +211,44 @@ fn robust_hits_do_not_depend_on_speed_options() {
     no_change_changes_a_hit(robust());
 }
 
+/// Storages and what they skip must not matter to the fragment's slopes either.
+#[test]
+fn sloped_hits_do_not_depend_on_the_storage() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene_with_twins(), rays(600));
+    let base = Config { accept: Accept::Slope, march: March::Dda, ..robust() };
+    let expected = answers(&bench, base, &triangles, &rays);
+    let mut changes: Vec<Config> = Storage::ALL.map(|storage| Config { storage, ..base }).into();
+    changes.extend([Config { skip: false, ..base }, Config { sort: false, buckets: 1, ..base }]);
+    for config in changes {
+        let found = answers(&bench, config, &triangles, &rays);
+        assert_eq!(first_difference(&expected.closest, &found.closest), None, "{config:?}");
+        assert_eq!(first_difference(&expected.occluded, &found.occluded), None, "{config:?}");
+    }
+}
+
+/// A step a cell is what samples do where there are enough; it looks at fewer cells than a ray crosses.
+#[test]
+fn a_dda_is_a_march_of_enough_samples() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(600));
+    let march = |march, samples| Config { march, samples, ..sampled() };
+    let dda = answers(&bench, march(March::Dda, 1), &triangles, &rays);
+    let enough = answers(&bench, march(March::Samples, 65_535), &triangles, &rays);
+    assert_eq!(first_difference(&dda.closest, &enough.closest), None);
+    let few = answers(&bench, march(March::Samples, 5), &triangles, &rays);
+    assert!(first_difference(&dda.closest, &few.closest).is_some());
+    let cells = |march| {
+        let geometry = bench.geometry(&triangles);
+        let config = Config { march, counters: Counters::Sums, ..sampled() };
+        let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid options");
+        build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("it completes");
+        trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2).1.cells
+    };
+    let (sampled, exact) = (cells(March::Dda), cells(March::Exact));
+    assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
+}
+
 #[test]
 fn sampled_hits_do_not_depend_on_speed_options() {
     no_change_changes_a_hit(sampled());
@@ -258,9 +296,10 @@ fn options_that_may_change_hits_do() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays(600));
     let expected = answers(&bench, robust(), &triangles, &rays);
-    let changes: [(&str, Change); 3] = [
+    let changes: [(&str, Change); 4] = [
         ("resolution", |config| Config { resolution: 12, ..config }),
         ("acceptance", |config| Config { accept: Accept::Interval, ..config }),
+        ("slopes", |config| Config { accept: Accept::Slope, ..config }),
         ("march", |config| Config { march: March::Samples, samples: 5, ..config }),
     ];
     for (name, change) in changes {

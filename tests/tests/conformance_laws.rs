@@ -59,6 +59,24 @@ fn half_of_the_rays_that_meet_a_wall_head_on_pass_between_its_samples() {
     assert!(missed.value().expect("rays hit") < 2.0 / 256.0, "{missed:?}");
 }
 
+/// With the depths that the wall takes in each cell nothing that meets it is lost, whatever the resolution, and t is
+/// wrong by what the ray takes through a cell: it falls as the cell's size. Without them half is lost.
+#[test]
+fn slopes_close_the_gaps_of_a_wall_met_head_on() {
+    let bench = Bench::new();
+    let prepared = prepare(&bench, "V4", 5_000);
+    let median = |resolution: u32| {
+        let config = Config { accept: Accept::Slope, ..Config::robust(resolution) };
+        let measured = run(&bench, config, &prepared);
+        // At the open wall's edge cells have no sample.
+        let missed = measured.confusion.missed;
+        assert!(missed.value().expect("rays hit") < 2.0 / f64::from(resolution), "{missed:?}");
+        measured.dt_right.expect("rays hit").p50
+    };
+    let [coarse, fine] = [64, 256].map(median);
+    assert!(fine > 0.0 && (3.0..5.0).contains(&(coarse / fine)), "{coarse} and {fine}");
+}
+
 /// With a thickness of one cell's depth at the wall, nothing that meets the wall is lost; with half of it,
 /// three quarters are found: P(hit) = (|m_r| + thickness) / |m_p - m_r|.
 #[test]

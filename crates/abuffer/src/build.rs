@@ -5,7 +5,7 @@ use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::cell_count;
-use crate::{Accept, Config, Payload, Storage};
+use crate::{Config, Payload, Storage};
 
 /// Faces of the cube.
 const VIEWS: u32 = 6;
@@ -62,7 +62,7 @@ impl Build {
         let count = if alpha { "build_4_count.alpha" } else { "build_4_count" };
         let raster = |name| pipelines.raster("build_raster", name);
         let bucketed = config.storage.is_bucketed();
-        let scaled = bucketed && config.accept == Accept::Plane;
+        let scaled = bucketed && config.accept.needs_triangles();
         let lengths = || -> Result<Lengths, AdsError> {
             Ok(Lengths { count: raster(count)?, scan: Scan::new(pipelines, "build_5_scan")? })
         };

@@ -9,6 +9,8 @@ pub enum March {
     /// Steps of equal length on the screen, at most [`Config::samples`] a face. Cells between are not
     /// visited.
     Samples,
+    /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
+    Dda,
     /// Every cell the ray crosses.
     Exact,
 }
@@ -20,8 +22,17 @@ pub enum Accept {
     Interval,
     /// The same, with each fragment extended away from the eye by [`Config::thickness`].
     Thickness,
+    /// The depths that its triangle takes within the cell meet those of the ray. Needs [`Payload::Index`].
+    Slope,
     /// The ray meets the plane of its triangle within the cell. Needs [`Payload::Index`].
     Plane,
+}
+
+impl Accept {
+    /// Whether it looks at the fragment's triangle; then cells store how far triangles reach in depth.
+    pub fn needs_triangles(self) -> bool {
+        matches!(self, Self::Slope | Self::Plane)
+    }
 }
 
 /// What a fragment carries beside its node.
@@ -205,11 +216,11 @@ impl Config {
                 expected: "a finite length in metres, 0 or more",
             });
         }
-        if self.accept == Accept::Plane && self.payload != Payload::Index {
+        if self.accept.needs_triangles() && self.payload != Payload::Index {
             return Err(AdsError::Option {
                 option: "accept",
-                value: "plane".to_owned(),
-                expected: "plane acceptance needs the payload `index`, which names the triangle",
+                value: format!("{:?}", self.accept).to_lowercase(),
+                expected: "the acceptances plane and slope need the payload `index`, which names the triangle",
             });
         }
         Ok(())
@@ -228,6 +239,7 @@ impl Config {
                 11,
                 match self.march {
                     March::Samples => numbers::ABUFFER_MARCH_SAMPLES,
+                    March::Dda => numbers::ABUFFER_MARCH_DDA,
                     March::Exact => numbers::ABUFFER_MARCH_EXACT,
                 },
             ),
@@ -236,6 +248,7 @@ impl Config {
                 match self.accept {
                     Accept::Interval => numbers::ABUFFER_ACCEPT_INTERVAL,
                     Accept::Thickness => numbers::ABUFFER_ACCEPT_THICKNESS,
+                    Accept::Slope => numbers::ABUFFER_ACCEPT_SLOPE,
                     Accept::Plane => numbers::ABUFFER_ACCEPT_PLANE,
                 },
             ),

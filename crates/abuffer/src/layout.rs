@@ -71,10 +71,10 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words of a cell's bounds: both ends where there are buckets; for plane acceptance the extent, and beside ends
+/// Words of a cell's bounds: both ends where there are buckets; where triangles are looked at the extent, and beside ends
 /// the buckets' scale.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
-    match (config.storage.is_bucketed(), config.accept == Accept::Plane) {
+    match (config.storage.is_bucketed(), config.accept.needs_triangles()) {
         (true, true) => 4,
         (true, false) => 2,
         (false, true) => 1,
@@ -130,7 +130,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
 pub struct FormulaBytes {
     /// Per cell, `m_p` of the table.
     pub cells: u64,
-    /// Per cell with plane acceptance: extent 4, and scale 4 where there are buckets.
+    /// Per cell with plane or slope acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
@@ -169,7 +169,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let sums = if config.storage == Storage::Sb { cells.div_ceil(1024) } else { 0 };
     FormulaBytes {
         cells: cells * per_cell,
-        plane: if config.accept == Accept::Plane { cells * (4 + scale) } else { 0 },
+        plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
         rest: 152 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
     }
@@ -186,6 +186,7 @@ mod tests {
         for storage in Storage::ALL {
             for (inline, buckets, accept, payload) in [
                 (false, 1, Accept::Interval, Payload::Attributes),
+                (false, 2, Accept::Slope, Payload::Index),
                 (false, 4, Accept::Plane, Payload::Index),
                 (true, 4, Accept::Plane, Payload::Index),
                 (true, 8, Accept::Interval, Payload::Attributes),

@@ -83,7 +83,7 @@ impl ABuffer {
         let rounding = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
         // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
         let margin = match self.config.accept {
-            Accept::Plane => rounding + 2.0 / self.config.resolution as f32 * farthest,
+            Accept::Slope | Accept::Plane => rounding + 2.0 / self.config.resolution as f32 * farthest,
             Accept::Interval | Accept::Thickness => rounding,
         };
         Header {

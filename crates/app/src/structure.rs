@@ -65,6 +65,8 @@ pub enum Payload {
 pub enum March {
     /// A fixed number of samples along the ray
     Samples,
+    /// A step for each cell of the longer axis
+    Dda,
     /// Every cell that the ray crosses
     Exact,
 }
@@ -77,6 +79,8 @@ pub enum Accept {
     Interval,
     /// The same with a thickness behind the fragment
     Thickness,
+    /// The depths that its triangle takes within the cell meet those of the ray; needs the payload index
+    Slope,
     /// The ray meets the plane of its triangle within the cell; needs the payload index
     Plane,
 }

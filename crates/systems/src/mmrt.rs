@@ -68,12 +68,17 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                     given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
             }
             "march" => {
-                config.march = given.choice(&[("samples", March::Samples), ("exact", March::Exact)])?;
+                config.march = given.choice(&[
+                    ("samples", March::Samples),
+                    ("dda", March::Dda),
+                    ("exact", March::Exact),
+                ])?;
             }
             "accept" => {
                 config.accept = given.choice(&[
                     ("interval", Accept::Interval),
                     ("thickness", Accept::Thickness),
+                    ("slope", Accept::Slope),
                     ("plane", Accept::Plane),
                 ])?;
             }

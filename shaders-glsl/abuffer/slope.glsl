@@ -1,0 +1,36 @@
+// What: the depths that a fragment's triangle takes within its cell, to first order in the size of the cell.
+// Reads: geometry, header. Writes: nothing.
+// Source: not in the paper, whose fragments have one depth or a fixed thickness. With the slopes z_x and z_y of the
+// triangle's plane, in depth a cell, a fragment of depth z stands for z - (|z_x| + |z_y|) / 2 to z + (|z_x| + |z_y|) / 2, and
+// for no depth that the triangle does not have: then a ray that crosses the plane within the cell meets it.
+#ifndef ABUFFER_SLOPE_GLSL
+#define ABUFFER_SLOPE_GLSL
+
+#include "ads/coverage.glsl"
+#include "ads/geometry.glsl"
+#include "abuffer/accessors.glsl"
+
+vec2 abuffer_slope_depths(AbufferRef s, uint cell, uint primitive, float z) {
+    uint resolution = ABUFFER_HEADER(s).resolution;
+    uint face = cell / face_cells(resolution);
+    uint place = cell % face_cells(resolution);
+    vec3 direction = coverage_center(ivec2(place % (resolution + 2u), place / (resolution + 2u)) - 1, resolution);
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    vec3 eye = ABUFFER_HEADER(s).eye;
+    a = face_from_world(a - eye, face);
+    b = face_from_world(b - eye, face);
+    c = face_from_world(c - eye, face);
+    vec3 normal = cross(b - a, c - a);
+    float facing = abs(dot(normal, direction));
+    float swing = (abs(normal.x) + abs(normal.y)) / float(resolution);
+    // Seen edge-on the plane takes all depths within the cell; the triangle's own are what is left.
+    float reach = facing > 0.0 ? z * swing / facing : uintBitsToFloat(0x7F800000u);
+    float lower = max(z - reach, min(a.z, min(b.z, c.z)));
+    float upper = min(z + reach, max(a.z, max(b.z, c.z)));
+    return vec2(min(lower, z), max(upper, z));
+}
+
+#endif

@@ -1,0 +1,62 @@
+// What: puts many entries into few lists of pages at once, for tests.
+// Reads: the list of each thread. Writes: the slot of each thread; words of lists, and pages.
+#version 460
+#include "contract/extensions.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer ListBuffer { uint list_of_thread[]; };
+layout(set = 0, binding = 1, scalar) buffer SlotBuffer { uint slots[]; };
+// The number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries: thread number + 1.
+layout(set = 0, binding = 2, scalar) buffer PageBuffer { uint words[]; };
+
+layout(push_constant, scalar) uniform Constants {
+    uint thread_count;
+    uint list_count;
+    uint page_size;
+    uint page_capacity;
+};
+
+#define PageRef uint
+#define PAGE_SIZE page_size
+
+uint page_list(uint s, uint list) {
+    return words[1u + list];
+}
+
+uint page_list_exchange(uint s, uint list, uint word) {
+    return atomicExchange(words[1u + list], word);
+}
+
+uint page_list_replace(uint s, uint list, uint expected, uint word) {
+    return atomicCompSwap(words[1u + list], expected, word);
+}
+
+uint page_take(uint s) {
+    return atomicAdd(words[0], 1u);
+}
+
+uint page_word(uint page) {
+    return 1u + list_count + page * (1u + page_size);
+}
+
+void page_set_next(uint s, uint page, uint word) {
+    if (page < page_capacity) {
+        words[page_word(page)] = word;
+    }
+}
+
+#include "ads/pages.glsl"
+
+void main() {
+    uint thread = gl_GlobalInvocationID.x;
+    if (thread >= thread_count) {
+        return;
+    }
+    uint slot = page_take_slot(0u, list_of_thread[thread]);
+    slots[thread] = slot;
+    uint page = slot / page_size;
+    if (page < page_capacity) {
+        words[page_word(page) + 1u + slot % page_size] = thread + 1u;
+    }
+}
