@@ -1,7 +1,6 @@
 // What: sorts a contiguous list in place as a heap.
 // Reads, writes: nodes.
-// Source: MMRT section 3.3, reorder pass; Williams 1964, Floyd 1964. One loop of bounded length, as in
-// sort_linked.glsl; `progress` counts the nodes that were sifted, so that a later dispatch goes on.
+// Source: MMRT section 3.3, reorder pass, whose private array cut longer lists short.
 #ifndef ABUFFER_SORT_CONTIGUOUS_GLSL
 #define ABUFFER_SORT_CONTIGUOUS_GLSL
 
@@ -9,53 +8,34 @@
 #include "abuffer/lists.glsl"
 #include "abuffer/sort.glsl"
 
-// Levels of a heap of 32-bit places, and a step to begin: what one sift takes at most.
-#define SORT_SIFT_STEPS 33u
+// The list that is being sorted: the functions of the shared sort know elements by their number.
+AbufferRef sort_structure;
+uint sort_first;
 
-// Sorts as far as `steps` go. Sifts number count / 2 to make the heap, then count - 1 to take its largest node to
-// the end of what is left.
+bool sort_before(uint i, uint j) {
+    return !abuffer_comes_first(sort_structure, sort_first + j, sort_first + i);
+}
+
+void sort_swap(uint i, uint j) {
+    abuffer_exchange(sort_structure, sort_first + i, sort_first + j);
+}
+
+#include "ads/heap_sort.glsl"
+
+// Sorts as far as `steps` go; `progress` is 0 at first and is kept for the next dispatch. Lists of more than `limit`
+// nodes stay as they are.
 uint abuffer_sort_contiguous(AbufferRef s, uint list, uint limit, uint steps, inout uint progress) {
     uvec2 ends = abuffer_ends(s, list);
-    uint first = ends.x;
-    uint count = first == 0u ? 0u : ends.y - first + 1u;
+    uint count = ends.x == 0u ? 0u : ends.y - ends.x + 1u;
     if (count < 2u) {
         return SORT_DONE;
     }
     if (count > limit) {
         return SORT_TOO_LONG;
     }
-    uint making = count / 2u;
-    uint sifts = making + count - 1u;
-    bool sifting = false;
-    uint node = 0u;
-    uint size = count;
-    for (uint i = 0u; i < steps; i++) {
-        if (!sifting) {
-            if (progress == sifts) {
-                return SORT_DONE;
-            }
-            if (i + SORT_SIFT_STEPS > steps) {
-                return SORT_MORE;
-            }
-            node = progress < making ? making - 1u - progress : 0u;
-            size = progress < making ? count : count - 1u - (progress - making);
-            if (progress >= making) {
-                abuffer_exchange(s, first, first + size);
-            }
-            progress++;
-            sifting = true;
-        }
-        uint child = 2u * node + 1u;
-        if (child + 1u < size && abuffer_comes_first(s, first + child, first + child + 1u)) {
-            child++;
-        }
-        sifting = child < size && !abuffer_comes_first(s, first + child, first + node);
-        if (sifting) {
-            abuffer_exchange(s, first + node, first + child);
-            node = child;
-        }
-    }
-    return SORT_MORE;
+    sort_structure = s;
+    sort_first = ends.x;
+    return heap_sort_share(count, steps, progress) ? SORT_DONE : SORT_MORE;
 }
 
 #endif

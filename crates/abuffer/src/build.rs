@@ -125,13 +125,16 @@ impl Build {
                 0,
                 readers,
             );
-            recorder.begin_pass("abuffer/build_8_reorder_long");
+            // Where no list was ever long there is nothing to record.
             let long = groups(target.pools.sizes().elements("long"));
-            for round in 0..ABUFFER_LONG_ROUNDS {
-                target.dispatch(recorder, &reorder.long, long, round);
-                recorder.barrier(Access::COMPUTE, readers);
+            if long > 0 {
+                recorder.begin_pass("abuffer/build_8_reorder_long");
+                for round in 0..ABUFFER_LONG_ROUNDS {
+                    target.dispatch(recorder, &reorder.long, long, round);
+                    recorder.barrier(Access::COMPUTE, readers);
+                }
+                recorder.end_pass();
             }
-            recorder.end_pass();
         }
         target.status_pass(recorder, "abuffer/build_9_status", &self.status);
     }

@@ -7,9 +7,6 @@ use crate::{Accept, Config, Header, Payload, Storage};
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data", "near", "sums", "long"];
 
-/// Room for long lists where nothing has been counted.
-const LONG_LISTS: u64 = 64;
-
 /// Pages that a word of a list can name beside how many of its slots are used (`PAGE_LIMIT` of the shaders).
 const MOST_PAGES: u64 = 0x0FFF_FFFE;
 
@@ -120,9 +117,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 /// The first guess where nothing has been counted: a fragment a cell.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let fragments = config.fragments.unwrap_or_else(|| cell_count(config.resolution));
-    // Pages are short, so no list of them is long.
-    let long_lists = if config.sort && config.storage != Storage::Paged { LONG_LISTS } else { 0 };
-    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists })
+    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists: 0 })
 }
 
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.

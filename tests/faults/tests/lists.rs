@@ -6,7 +6,7 @@
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rasray_abuffer::{ABuffer, Addressing, Config, Contents, well_formed};
+use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Storage, well_formed};
 use rasray_ads::{Hit, TraceMode};
 use rasray_faults::{device, finish, rays, stage};
 use rasray_gpu::Timing;
@@ -155,7 +155,21 @@ const DAMAGES: [Damage; 10] = [
     ),
 ];
 
-fn check(config: Config) {
+/// Damage to any storage.
+const DAMAGES_OF_ANY: [Damage; 3] = [
+    (
+        "lists at random",
+        |c| {
+            let mut next = scrambled(0x1234_5677);
+            c.lists.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+    ("lists that are all ones", |c| c.lists.fill(u32::MAX), Flag::Corrupted),
+    DAMAGES[9],
+];
+
+fn check(config: Config, damages: &[Damage]) {
     let device = device().expect("a device");
     let scene = stage(&device).expect("a scene");
     let mut structure =
@@ -172,7 +186,7 @@ fn check(config: Config) {
     let found = expected.iter().filter(|hit| hit.is_hit()).count();
     // At this resolution the published preset loses many hits.
     assert!(found > 8, "{found} hits");
-    for (name, damage, flag) in DAMAGES {
+    for &(name, damage, flag) in damages {
         let mut contents = whole.clone();
         damage(&mut contents);
         assert!(well_formed(&contents).is_err(), "{name}: the check of the contents finds nothing");
@@ -212,20 +226,32 @@ fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
 #[test]
 fn damaged_lists_reached_by_descriptor_are_survived_and_told() {
     if in_child("damaged_lists_reached_by_descriptor_are_survived_and_told") {
-        check(Config::robust(32));
+        check(Config::robust(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_reached_by_address_are_survived_and_told() {
     if in_child("damaged_lists_reached_by_address_are_survived_and_told") {
-        check(Config { addressing: Addressing::Address, ..Config::robust(32) });
+        check(Config { addressing: Addressing::Address, ..Config::robust(32) }, &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_of_the_published_preset_are_survived_and_told() {
     if in_child("damaged_lists_of_the_published_preset_are_survived_and_told") {
-        check(Config::published(32));
+        check(Config::published(32), &DAMAGES);
+    }
+}
+
+#[test]
+fn damaged_lists_of_every_storage_are_survived_and_told() {
+    if in_child("damaged_lists_of_every_storage_are_survived_and_told") {
+        for storage in Storage::ALL {
+            for inline in [false, true] {
+                println!("{}, inline: {inline}", storage.name());
+                check(Config { storage, inline, ..Config::robust(32) }, &DAMAGES_OF_ANY);
+            }
+        }
     }
 }
