@@ -47,6 +47,12 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     precise float by = pb.y - sy * pb.z;
     precise float cx = pc.x - sx * pc.z;
     precise float cy = pc.y - sy * pc.z;
+    // The ray passes at (0, 0). Beside a triangle that is small for its distance from there all products round to the
+    // same, and edges alone would accept it. A triangle whose sheared corners hold (0, 0) stays.
+    if (min(ax, min(bx, cx)) > 0.0 || max(ax, max(bx, cx)) < 0.0
+        || min(ay, min(by, cy)) > 0.0 || max(ay, max(by, cy)) < 0.0) {
+        return false;
+    }
     precise float u0 = cx * by;
     precise float u1 = cy * bx;
     precise float v0 = ax * cy;

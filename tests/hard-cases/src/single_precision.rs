@@ -27,6 +27,11 @@ fn intersect(ray: &Ray, triangle: &Triangle, axis: usize, closed: bool) -> Optio
         let scales = [p[0].abs() + x_shift.abs(), p[1].abs() + y_shift.abs()];
         (x, y, p[2] / d[2], scales)
     });
+    // Products of corners far to one side may all round to the same.
+    let apart = |x: [f32; 3]| x.iter().all(|x| *x > 0.0) || x.iter().all(|x| *x < 0.0);
+    if apart([a.0, b.0, c.0]) || apart([a.1, b.1, c.1]) {
+        return None;
+    }
     let products = [(b, c), (c, a), (a, b)].map(|(p, q)| (q.0 * p.1, q.1 * p.0));
     if !products.iter().all(|(x, y)| x >= y) && !products.iter().all(|(x, y)| x <= y) {
         return None;
