@@ -180,7 +180,9 @@ fn trace(
     interrupt: &Interrupt,
 ) -> Result<(Comparison, u64), AppError> {
     let seed = given.frame.seed;
-    let rays = given.rays.unwrap_or(DEFAULT_RAYS) as usize;
+    // A ray does not depend on how many there are.
+    let fewest = given.replay.map_or(0, |index| index.saturating_add(1));
+    let rays = given.rays.unwrap_or(DEFAULT_RAYS.max(fewest)) as usize;
     let scale = Scale { rays, seed: seed.into(), full: given.full };
     let case = rasray_hard_cases::case(subject.id, scale).ok_or_else(|| {
         AppError::usage(
