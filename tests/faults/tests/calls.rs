@@ -5,11 +5,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use rasray_faults::{Failure, device, finish, picture, spec};
 use rasray_gpu::faults::{At, Injected, With, calls_of, inject, live_objects};
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, vk};
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::Counts;
 
-/// Systems whose renders are failed, the smallest and one built by the rasterizer, with the number of calls that the
-/// quick tier spreads over a render.
-const SYSTEMS: [(&str, usize); 2] = [("brute-force", 25), ("mmrt", 8)];
+/// More calls than a render has: every one.
+const ALL: usize = 100_000;
+
+/// Systems whose renders are failed, the smallest and one built by the rasterizer, with the number of calls that are
+/// spread over a render.
+const SYSTEMS: [(&str, Counts<usize>); 2] = [
+    ("brute-force", Counts { quick: 25, software: ALL, full: ALL }),
+    ("mmrt", Counts { quick: 8, software: 100, full: ALL }),
+];
 
 /// After so many failed calls it is looked whether the next render gives the same picture. What is left behind is looked
 /// for after each.
@@ -51,14 +57,11 @@ fn check_message(injected: Injected, error: &GpuError) {
     assert!(typed, "{injected:?} became {error:?}");
 }
 
-/// Indices of the calls to fail: all of them, or `quick` spread over the run. Then the functions differ as much as they
+/// Indices of the calls to fail: `count` spread over the run, or all of them. The functions differ as much as they
 /// can: of each stretch of the run, the first call of the function that was chosen least so far.
-fn chosen(calls: &[&'static str], quick: usize) -> Vec<usize> {
-    if is_full() {
-        return (0..calls.len()).collect();
-    }
+fn chosen(calls: &[&'static str], count: usize) -> Vec<usize> {
     let mut times: BTreeMap<&str, usize> = BTreeMap::new();
-    let stretch = calls.len().div_ceil(quick);
+    let stretch = calls.len().div_ceil(count);
     (0..calls.len())
         .step_by(stretch)
         .map(|begin| {
@@ -74,7 +77,8 @@ fn chosen(calls: &[&'static str], quick: usize) -> Vec<usize> {
 #[test]
 fn each_failing_call_of_a_render_is_one_typed_error_and_leaves_nothing_behind() {
     let device = device().expect("a device");
-    for (system, quick) in SYSTEMS {
+    for (system, counts) in SYSTEMS {
+        let count = counts.on(&device, &format!("failing calls of a render through {system}, at most"));
         let spec = spec(system, "robust").expect("registered");
         // The first picture fills the pools of memory and the caches of the driver.
         let expected = picture(&device, &spec).expect("a picture");
@@ -85,7 +89,7 @@ fn each_failing_call_of_a_render_is_one_typed_error_and_leaves_nothing_behind() 
         let seconds = started.elapsed().as_secs_f64();
         assert_eq!(again.expect("a picture"), expected, "{system}: pictures differ from run to run");
         assert_eq!(inventory(&device), before, "{system}: an undisturbed render leaves something behind");
-        let indices = chosen(&calls, quick);
+        let indices = chosen(&calls, count);
         let (mut errors, mut survived) = (0, 0);
         for (number, index) in indices.iter().enumerate() {
             let (result, injected) = inject(At::Call(*index), With::Code(*index), || picture(&device, &spec));
@@ -111,7 +115,7 @@ fn each_failing_call_of_a_render_is_one_typed_error_and_leaves_nothing_behind() 
         }
         let functions: BTreeSet<_> = indices.iter().map(|index| calls[*index]).collect();
         let all: BTreeSet<_> = calls.iter().collect();
-        assert!(functions.len() >= quick.min(all.len() - 2), "{system}: {functions:?} of {all:?}");
+        assert!(functions.len() >= count.min(all.len() - 2), "{system}: {functions:?} of {all:?}");
         println!(
             "{system}: {} calls in {seconds:.2} s; {} failed: {errors} errors, {survived} survived",
             calls.len(),

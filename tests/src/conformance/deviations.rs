@@ -110,7 +110,7 @@ pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("G12", EDGE_ON, 0.99, 1.0),
     deviation("E2", HALF_OPEN, 0.064, 0.101),
     deviation("E2-far", HALF_OPEN, 0.044, 0.071),
-    deviation("E2-400", HALF_OPEN, 0.026, 0.041),
+    deviation("E2-400", HALF_OPEN, 0.05, 0.079),
     deviation("E2-400-far", HALF_OPEN, 0.061, 0.096),
     deviation("V1", EDGE_ON, 0.99, 1.0),
     deviation("V2-0", HALF_OPEN, 0.503, 0.787),

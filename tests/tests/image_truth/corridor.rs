@@ -7,7 +7,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Estimate, Stage, System, assert_refused, assert_truth, parallel, scene_of, square, unlit,
 };
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::Counts;
 
 use super::{RESOLUTION, by_system, grey, law};
 
@@ -46,6 +46,13 @@ fn camera(rise: f64) -> Camera {
     parallel(eye, eye + DVec3::new(1.0, rise, 0.0), 1e-10)
 }
 
+/// Reflections, and samples of each picture.
+const COUNTS: Counts<&[(u32, u32)]> = Counts {
+    quick: &[(1, 2), (3, 2), (10, 4), (50, 4)],
+    software: &[(1, 2), (3, 2), (10, 64), (50, 32), (100, 16)],
+    full: &[(1, 2), (3, 2), (10, 64), (50, 256), (100, 512)],
+};
+
 struct Run {
     reflections: u32,
     step: f64,
@@ -71,12 +78,7 @@ fn tolerance(reflections: u32) -> f64 {
 #[test]
 fn every_reflection_dims_by_the_same_factor_and_rises_by_the_same_step() {
     let bench = Bench::new();
-    let counts: &[(u32, u32)] = if is_full() {
-        &[(1, 2), (3, 2), (10, 64), (50, 256), (100, 512)]
-    } else {
-        &[(1, 2), (3, 2), (10, 4), (50, 4)]
-    };
-    for &(reflections, samples) in counts {
+    for &(reflections, samples) in COUNTS.on(bench.device(), "reflections and samples") {
         let right = Run {
             reflections,
             step: RISE,

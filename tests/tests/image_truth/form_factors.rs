@@ -10,13 +10,8 @@ use rasray_tests::image_truth::{
     octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles, polygon_irradiance, scene_of,
     square,
 };
-use rasray_tests::tier::is_full;
 
-use super::{RESOLUTION, SYSTEMS, by_system, grey, law};
-
-fn samples(quick: u32) -> u32 {
-    if is_full() { 16 * quick } else { quick }
-}
+use super::{RESOLUTION, SYSTEMS, by_system, grey, law, samples};
 
 /// A white unit square from the origin along x and z, and an emitter.
 fn squares(emitter: Mesh) -> Scene {
@@ -39,7 +34,7 @@ fn above(height: f64) -> Camera {
 
 fn direct(bench: &Bench, scene: &Scene, camera: Camera, system: System) -> Estimate {
     let stage = Stage::new(bench, scene, camera, by_system(system, 64, 32), system);
-    stage.estimate(&stage.path(1), samples(by_system(system, 12, 16)))
+    stage.estimate(&stage.path(1), samples(bench, by_system(system, 12, 16)))
 }
 
 #[test]
@@ -63,8 +58,8 @@ fn floor() -> Mesh {
     square(DVec3::ZERO, DVec3::X * 50.0, DVec3::NEG_Z * 50.0, 0)
 }
 
-fn occlusion(stage: &Stage<'_>) -> Estimate {
-    stage.estimate(&stage.occlusion(f32::INFINITY), samples(8))
+fn occlusion(bench: &Bench, stage: &Stage<'_>) -> Estimate {
+    stage.estimate(&stage.occlusion(f32::INFINITY), samples(bench, 8))
 }
 
 /// The corners of a mesh as they are uploaded.
@@ -91,10 +86,10 @@ fn a_sphere_on_a_plane_hides_its_share() {
         assert!(hidden < sphere && hidden > 0.9 * sphere, "facets lie a little inside: {hidden} {sphere}");
         let name = format!("sphere {distance} m beside");
         stage.look(camera(distance));
-        assert_truth(&name, &occlusion(&stage), truth(distance), 0.0);
+        assert_truth(&name, &occlusion(&bench, &stage), truth(distance), 0.0);
         if distance <= 1.0 {
             broken.look(camera(distance));
-            assert_refused(&name, &occlusion(&broken), truth(distance), 0.0);
+            assert_refused(&name, &occlusion(&bench, &broken), truth(distance), 0.0);
         }
     }
     // One point's occlusion by fragments is off by the share of the sphere that a cell covers: cells are
@@ -104,9 +99,9 @@ fn a_sphere_on_a_plane_hides_its_share() {
     let fragments = System::MmrtRobust(resolution);
     let name = format!("sphere 1 m beside, {fragments:?}");
     let stage = Stage::new(&bench, &scene(1.0), camera(1.0), 32, fragments);
-    assert_truth(&name, &occlusion(&stage), truth(1.0), slack);
+    assert_truth(&name, &occlusion(&bench, &stage), truth(1.0), slack);
     let broken = Stage::new(&bench, &scene(1.5), camera(1.0), 32, fragments);
-    assert_refused(&name, &occlusion(&broken), truth(1.0), slack);
+    assert_refused(&name, &occlusion(&bench, &broken), truth(1.0), slack);
 }
 
 #[test]
@@ -137,12 +132,12 @@ fn walls_and_corners_hide_a_half_and_three_quarters() {
     for (name, point) in [("corner", corner), ("wall", wall), ("open", edge)] {
         stage.look(camera(point));
         let truth = grey(1.0 - hidden(&walls(10.0), point));
-        assert_truth(name, &occlusion(&stage), truth, 0.0);
+        assert_truth(name, &occlusion(&bench, &stage), truth, 0.0);
     }
     let mut broken = Stage::new(&bench, &make(1, 10.0), camera(corner), 64, System::BruteForce);
     for (name, point) in [("corner", corner), ("open", edge)] {
         broken.look(camera(point));
         let truth = grey(1.0 - hidden(&walls(10.0), point));
-        assert_refused(name, &occlusion(&broken), truth, 0.0);
+        assert_refused(name, &occlusion(&bench, &broken), truth, 0.0);
     }
 }

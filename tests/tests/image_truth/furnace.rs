@@ -7,9 +7,8 @@ use rasray_tests::image_truth::{
     Stage, System, assert_refused, assert_truth, box_around, enclosure, glass, glowing, looking,
     octahedron_sphere, scene_of,
 };
-use rasray_tests::tier::is_full;
 
-use super::{SYSTEMS, by_system, grey, law};
+use super::{SYSTEMS, by_system, grey, law, samples};
 
 const EMISSION: [f32; 3] = [1.0, 2.0, 0.5];
 const ALBEDO: [f32; 3] = [0.2, 0.5, 0.8];
@@ -30,7 +29,7 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
         let size = by_system(system, 64, 32);
         let stage = Stage::new(&bench, &room(ALBEDO), camera.clone(), size, system);
         let bounces: &[u32] = by_system(system, &[0, 1, 3, 24], &[0, 3]);
-        let samples = if is_full() { 128 } else { 8 };
+        let samples = samples(&bench, 8);
         let slack = |bounces| law(system, 2 * bounces + 1);
         for &bounces in bounces {
             let name = format!("furnace, {bounces} bounces, {system:?}");
@@ -43,6 +42,10 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
         assert_refused(&format!("furnace, {system:?}"), &found, truth(ALBEDO, 3), slack(3));
     }
 }
+
+/// Facets of glass hold light for long: after 24 scatterings half a per cent is still inside, after 96 nothing that
+/// more would let out.
+const SCATTERINGS: u32 = 96;
 
 /// A mirror, a solid sphere of glass and a hollow one, side by side under a white sky.
 fn lossless(base_color: f32) -> Scene {
@@ -68,10 +71,10 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
     };
     let [mut stage, mut broken] =
         [1.0, 0.97].map(|color| Stage::new(&bench, &lossless(color), camera(0), 32, System::BruteForce));
-    let (path, broken_path) = (stage.path(24), broken.path(24));
-    let samples = if is_full() { 128 } else { 8 };
+    let (path, broken_path) = (stage.path(SCATTERINGS), broken.path(SCATTERINGS));
+    let samples = samples(&bench, 8);
     for (i, name) in ["mirror", "glass", "thin glass"].into_iter().enumerate() {
-        // What is still in the glass after 24 scatterings is below a thousandth.
+        // What is still in the glass after so many scatterings is below a thousandth.
         let slack = 1e-3;
         stage.look(camera(i));
         assert_truth(name, &stage.estimate(&path, samples), grey(1.0), slack);

@@ -9,13 +9,9 @@ use rasray_tests::image_truth::{
 };
 use rasray_tests::tier::is_full;
 
-use super::{RESOLUTION, grey, law};
+use super::{RESOLUTION, grey, law, samples};
 
 const SIZE: u32 = 32;
-
-fn samples(quick: u32) -> u32 {
-    if is_full() { 16 * quick } else { quick }
-}
 
 /// Width that each stack has for itself.
 const APART: f64 = 10.0;
@@ -97,11 +93,11 @@ fn stacks_of_glass_let_through_what_their_interfaces_leave() {
         }
         let truth = grey(interface_transmission(&stack.interfaces));
         stage.look(camera(number));
-        let found = stage.estimate(&stage.path(stack.bounces), samples(16));
+        let found = stage.estimate(&stage.path(stack.bounces), samples(&bench, 16));
         assert_truth(stack.name, &found, truth, 1e-3);
         if number == 3 || number == 5 {
             broken.look(camera(number));
-            let found = broken.estimate(&broken.path(stack.bounces), samples(16));
+            let found = broken.estimate(&broken.path(stack.bounces), samples(&bench, 16));
             assert_refused(stack.name, &found, truth, 1e-3);
         }
     }
@@ -117,7 +113,7 @@ fn fragments_show_light_through_two_plates() {
     for (ior, right) in [(1.5, true), (2.0, false)] {
         let stage = Stage::new(&bench, &before_lamp(ior), camera(1), SIZE, system);
         let check = if right { assert_truth } else { assert_refused };
-        check("2 plates, fragments", &stage.estimate(&stage.path(8), samples(4)), truth, slack);
+        check("2 plates, fragments", &stage.estimate(&stage.path(8), samples(&bench, 4)), truth, slack);
     }
 }
 
@@ -150,16 +146,16 @@ fn the_critical_angle_is_met_without_a_jump() {
     for sine in [0.3, 0.5, 0.6, 0.66, critical * (1.0 - 1e-4), 0.7, 0.9] {
         stage.look(camera(sine));
         let name = format!("leaving glass under the sine {sine}");
-        assert_truth(&name, &stage.estimate(&path, samples(8)), grey(transmitted(sine)), 0.0);
+        assert_truth(&name, &stage.estimate(&path, samples(&bench, 8)), grey(transmitted(sine)), 0.0);
     }
     // Within rounding of the critical angle either side may be taken, and hardly anything passes.
     for ulps in -4..=4 {
         let sine = critical * (1.0 + f64::from(ulps) * ulp);
         stage.look(camera(sine));
-        let found = stage.estimate(&path, samples(4));
+        let found = stage.estimate(&path, samples(&bench, 4));
         assert!(found.mean[0] < 1e-2, "at the critical angle and {ulps} ulps: {found:?}");
     }
     broken.look(camera(0.66));
-    let found = broken.estimate(&broken_path, samples(8));
+    let found = broken.estimate(&broken_path, samples(&bench, 8));
     assert_refused("leaving glass of another index", &found, grey(transmitted(0.66)), 0.0);
 }

@@ -8,7 +8,6 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Stage, System, assert_refused, assert_truth, box_around, enclosure, looking,
 };
-use rasray_tests::tier::is_full;
 
 /// One mesh of several.
 fn merged(parts: &[Mesh]) -> Mesh {
@@ -59,7 +58,7 @@ fn a_glowing_room_from_a_file_obeys_its_series() {
     let camera = looking(eye, eye + DVec3::new(-0.5, 0.3, -0.9), 1.0);
     let truth =
         [(1.0, 0.5), (2.0, 0.25), (0.5, 0.75)].map(|(emission, albedo)| enclosure(emission, albedo, 3));
-    let samples = if is_full() { 128 } else { 8 };
+    let samples = super::samples(&bench, 8);
     for (strength, right) in [(2.0, true), (2.1, false)] {
         let stage = Stage::new(&bench, &room(strength), camera.clone(), 64, System::BruteForce);
         let found = stage.estimate(&stage.path(3), samples);

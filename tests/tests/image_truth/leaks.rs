@@ -6,9 +6,12 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Picture, SIGMAS, Stage, System, box_around, diffuse, glowing, looking, scene_of, square,
 };
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::Counts;
 
 use super::{RESOLUTION, law};
+
+/// Paths in a closed box.
+const PATHS: Counts<u32> = Counts { quick: 100_000, software: 1_000_000, full: 10_000_000 };
 
 /// A closed grey box in a bright surrounding.
 fn closed_box() -> Scene {
@@ -34,7 +37,7 @@ fn mean(picture: &Picture) -> f64 {
 #[test]
 fn no_light_enters_a_closed_box() {
     let bench = Bench::new();
-    let paths = if is_full() { 10_000_000 } else { 100_000 };
+    let paths = PATHS.on(bench.device(), "paths");
     let picture = inside(&bench, &closed_box(), System::BruteForce, paths);
     assert!(picture.pixels.iter().flatten().all(|x| *x == 0.0), "brightest: {}", mean(&picture));
     // A scratch of a hundredth of the box lets light in.

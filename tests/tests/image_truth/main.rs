@@ -9,13 +9,23 @@ mod gltf;
 mod leaks;
 mod polygon_light;
 
+use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::System;
+use rasray_tests::tier::Counts;
 
 /// Cells a side of the A-buffer where it is held against closed forms.
 const RESOLUTION: u32 = 64;
 
 /// Brute force and the A-buffer.
 const SYSTEMS: [System; 2] = [System::BruteForce, System::MmrtRobust(RESOLUTION)];
+
+/// Samples over those of the quick tier.
+const MORE: Counts<u32> = Counts { quick: 1, software: 4, full: 16 };
+
+/// Samples of a picture, from those of the quick tier.
+fn samples(bench: &Bench, quick: u32) -> u32 {
+    quick * MORE.on(bench.device(), "samples over those of the quick tier")
+}
 
 /// `exact` for brute force, `fragments` for the A-buffer.
 fn by_system<T>(system: System, exact: T, fragments: T) -> T {

@@ -8,9 +8,8 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
     Stage, assert_refused, assert_truth, diffuse, glowing, parallel, polygon_irradiance, scene_of, square,
 };
-use rasray_tests::tier::is_full;
 
-use super::{SYSTEMS, by_system, grey, law};
+use super::{SYSTEMS, by_system, grey, law, samples};
 
 const ALBEDO: f32 = 0.75;
 
@@ -75,7 +74,7 @@ fn a_polygon_lights_points_by_the_sum_over_its_edges() {
     assert!(below(receivers()[3]) < 5 && below(receivers()[4]) < 5 && below(receivers()[5]) == 5);
     for system in SYSTEMS {
         let size = by_system(system, 64, 32);
-        let samples = by_system(system, 12, 16) * if is_full() { 16 } else { 1 };
+        let samples = samples(&bench, by_system(system, 12, 16));
         let scale = by_system(system, 1.04, 1.1);
         let mut stage = Stage::new(&bench, &scene(1.0), camera(receivers()[0]), size, system);
         let mut broken = Stage::new(&bench, &scene(scale), camera(receivers()[0]), size, system);
