@@ -1,7 +1,7 @@
 //! How much a run tests.
 //!
 //! The quick tier is what every change must pass; the full tier (`RASRAY_FULL=1`, `tools/test --full`) has the large
-//! counts. A program on the processor traces a thousandth of what a GPU does, so a count of the full tier may be
+//! counts. A program on the processor traces far fewer rays than a GPU does, so a count of the full tier may be
 //! smaller there. Counts follow tier and kind of device alone, never the clock, and each run prints its own.
 
 use std::fmt::Debug;
