@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use rasray_shader_compiler::{Module, compile, read_permutations};
 
 /// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in.
-const NUMBER_FILES: [(&str, &str); 7] = [
+const NUMBER_FILES: [(&str, &str); 8] = [
     ("contract", "contract/constants.glsl"),
     ("ads", "ads/constants.glsl"),
     ("abuffer", "abuffer/constants.glsl"),
     ("bvh", "bvh/constants.glsl"),
     ("primitive", "primitive/constants.glsl"),
+    ("voxel", "voxel/constants.glsl"),
     ("scene", "scene/constants.glsl"),
     ("random_dimensions", "scene/random_dimensions.glsl"),
 ];

@@ -52,7 +52,8 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         return false;
     }
-    PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, 2.0 / float(ABUFFER_HEADER(s).resolution), 0.0, ABUFFER_PLANE_REACH);
+    PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, 2.0 / float(ABUFFER_HEADER(s).resolution), 0.0, ABUFFER_PLANE_REACH,
+        false);
     float z_in = origin_z + search.t_low * direction_z;
     float z_out = origin_z + search.t_high * direction_z;
     float rounding = 4.8e-7 * (abs(origin_z) + max(abs(search.t_low), abs(search.t_high)) * abs(direction_z));

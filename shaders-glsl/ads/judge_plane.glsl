@@ -1,10 +1,11 @@
 // What: whether the plane of a fragment's triangle, standing for what is in the fragment's cell, becomes a ray's best
 // hit, and if not, why.
-// Reads: geometry. Writes: nothing.
+// Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
 #ifndef ADS_JUDGE_PLANE_GLSL
 #define ADS_JUDGE_PLANE_GLSL
 
+#include "contract/alpha.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
@@ -16,7 +17,24 @@ struct PlaneCell {
     float slope;          // width a metre of distance from the eye along its largest axis; 0 where all are equal
     float width;          // metres, added to that
     float reach;          // in widths
+    bool anywhere;        // hits of the triangles themselves count wherever they lie, as alpha has them there
 };
+
+// Whether a point with these barycentrics lies on its triangle, and not only on the plane of it.
+bool plane_is_inside(vec2 barycentrics) {
+    return barycentrics.x >= 0.0 && barycentrics.y >= 0.0 && barycentrics.x + barycentrics.y <= 1.000001;
+}
+
+// Whether a candidate replaces the best hit: nearer; as near, and on its triangle where the other is only on the plane
+// of one; else as near with a lower id. The order in which candidates are met does not matter.
+bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
+    bool inside = plane_is_inside(barycentrics);
+    bool best_inside = plane_is_inside(vec2(best.a, best.b));
+    if (t == best.t && best.primitive != PRIMITIVE_NONE && inside != best_inside) {
+        return inside;
+    }
+    return hit_is_better(best, t, primitive);
+}
 
 // The verdict (TEST_*) on the plane of a triangle that is met within [t_low, t_high].
 uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
@@ -38,7 +56,8 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     if (!(t > (inside ? max(ray.t_min, t_error) : ray.t_min))) {
         return TEST_BEFORE;
     }
-    if (!(t >= t_low && t <= t_high)) {
+    bool proper = inside && cell.anywhere;
+    if (!proper && !(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
     }
     if (!inside) {
@@ -61,7 +80,10 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     if (!(t < ray.t_max)) {
         return TEST_BEYOND;
     }
-    return hit_is_better(best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+    if (!plane_is_better(best, t, primitive, barycentrics)) {
+        return TEST_NOT_BETTER;
+    }
+    return !proper || alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
 // Judges a fragment's triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.

@@ -20,6 +20,8 @@
 #include "abuffer/scanned.glsl"
 #elif STRUCTURE == STRUCTURE_BVH
 #include "bvh/scanned.glsl"
+#elif STRUCTURE == STRUCTURE_VOXEL
+#include "voxel/scanned.glsl"
 #else
 #error "STRUCTURE names no structure that scans: add it to ads/scan_select.glsl"
 #endif

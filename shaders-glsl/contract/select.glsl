@@ -42,6 +42,15 @@
 #include "primitive/surface.glsl"
 #define STRUCTURE_SURFACE_AT primitive_surface_at
 #endif
+#elif STRUCTURE == STRUCTURE_VOXEL
+#include "voxel/trace.glsl"
+#define StructureRef VoxelRef
+#define STRUCTURE_TRACE_CLOSEST voxel_trace_closest
+#define STRUCTURE_TRACE_OCCLUDED voxel_trace_occluded
+#ifdef SURFACES_ENABLED
+#include "voxel/surface.glsl"
+#define STRUCTURE_SURFACE_AT voxel_surface_at
+#endif
 #else
 #error "STRUCTURE names no structure: add it to contract/select.glsl"
 #endif

@@ -7,5 +7,6 @@
 #define STRUCTURE_ABUFFER 2
 #define STRUCTURE_BVH 3
 #define STRUCTURE_PRIMITIVE 4
+#define STRUCTURE_VOXEL 6
 
 #endif

@@ -193,7 +193,7 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 19] = [
+    const SHARED: [&str; 21] = [
         "Ray",
         "Hit",
         "TraceState",
@@ -207,6 +207,8 @@ fn records_are_the_same_in_all_modules() {
         "BvhHeader",
         "BvhNode",
         "BvhRecord",
+        "VoxelHeader",
+        "VoxelFragment",
         "Frame",
         "Material",
         "TextureRef",
@@ -303,6 +305,43 @@ fn records_of_primitive_lists() {
     });
     let by_address = &read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST_ADDRESS)["PrimitiveHeader"];
     assert_eq!(*by_address, read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST)["PrimitiveHeader"]);
+}
+
+#[test]
+fn records_of_voxels() {
+    let modules = [
+        &shaders::VOXEL_BUILD_COLUMNS,
+        &shaders::VOXEL_BUILD_1_VOXELS,
+        &shaders::VOXEL_BUILD_2_AXES,
+        &shaders::VOXEL_BUILD_RASTER,
+        &shaders::VOXEL_BUILD_3_COUNT,
+        &shaders::VOXEL_BUILD_4_SCAN_BLOCKS,
+        &shaders::VOXEL_BUILD_4_SCAN_SUMS,
+        &shaders::VOXEL_BUILD_4_SCAN_PLACES,
+        &shaders::VOXEL_BUILD_5_STORE,
+        &shaders::VOXEL_BUILD_6_SORT,
+        &shaders::VOXEL_BUILD_7_STATUS,
+        &shaders::VOXEL_TRACE_CLOSEST,
+        &shaders::VOXEL_TRACE_OCCLUDED,
+    ];
+    check_layout!(modules, rasray_voxel::Header as "VoxelHeader" {
+        status, demand, capacity, fragments, unsorted, corrupted, resolution, grid, samples, cell, voxel,
+        cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
+        fragments_address, sums_address,
+    });
+    let fragment = [("z", 0), ("primitive", 4)].map(|(name, offset)| (name.to_owned(), offset, 4));
+    let sizes = rasray_voxel::plan(&rasray_voxel::Config::robust(8), 1).expect("in range");
+    let pool = sizes.pools.iter().find(|pool| pool.name == "fragments").expect("the pool exists");
+    for shader in [&shaders::VOXEL_BUILD_5_STORE, &shaders::VOXEL_BUILD_6_SORT, &shaders::VOXEL_TRACE_CLOSEST]
+    {
+        check(shader, "VoxelFragment", &fragment, pool.element_bytes as usize);
+        assert_eq!(read_by_us(shader)["VoxelFragment"].stride, Some(pool.element_bytes as usize));
+    }
+    let direct = read_by_us(&shaders::VOXEL_TRACE_CLOSEST);
+    let by_address = read_by_us(&shaders::VOXEL_TRACE_CLOSEST_ADDRESS);
+    for name in ["VoxelHeader", "VoxelFragment"] {
+        assert_eq!(direct[name], by_address[name], "{name}");
+    }
 }
 
 /// With device addresses the header is reached by a pointer, which only the own reader follows.

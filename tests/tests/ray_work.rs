@@ -7,13 +7,14 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
+use rasray_voxel::Voxels;
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 
 type Make = fn(&Bench, &Geometry, Counters) -> Box<dyn Structure>;
 
-/// Brute force and both presets of the A-buffer. Budgets are small, so that rays pause.
-const STRUCTURES: [(&str, Make); 3] = [
+/// Brute force, and both presets of the A-buffer and of voxels. Budgets are small, so that rays pause.
+const STRUCTURES: [(&str, Make); 5] = [
     ("brute force", |bench, geometry, counters| {
         Box::new(BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made"))
     }),
@@ -23,7 +24,23 @@ const STRUCTURES: [(&str, Make); 3] = [
         let config = Config { payload: Payload::Index, ..Config::published(64) };
         abuffer(bench, geometry, config, counters)
     }),
+    ("voxels, robust", |bench, geometry, counters| {
+        voxels(bench, geometry, rasray_voxel::Config::robust(64), counters)
+    }),
+    ("voxels, published", |bench, geometry, counters| {
+        voxels(bench, geometry, rasray_voxel::Config::published_hu(64), counters)
+    }),
 ];
+
+fn voxels(
+    bench: &Bench,
+    geometry: &Geometry,
+    config: rasray_voxel::Config,
+    counters: Counters,
+) -> Box<dyn Structure> {
+    let config = rasray_voxel::Config { counters, work_budget: Some(40), ..config };
+    Box::new(Voxels::new(bench.device(), config, geometry, None).expect("the options are valid"))
+}
 
 fn abuffer(bench: &Bench, geometry: &Geometry, config: Config, counters: Counters) -> Box<dyn Structure> {
     let config = Config { counters, work_budget: Some(40), ..config };

@@ -11,6 +11,7 @@ use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tests::visits::{face_from_world, point};
 use rasray_tracer::{BatchTracer, Replay, TracerError, build_until_complete};
+use rasray_voxel::{Config as VoxelConfig, Voxels};
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 const RESOLUTION: u32 = 64;
@@ -65,7 +66,13 @@ fn lists(
     Box::new(structure)
 }
 
-/// Brute force, trees, lists of triangles and of fragments, with the work that is recorded; budgets are small, so that
+fn voxels(bench: &Bench, geometry: &Geometry, config: VoxelConfig) -> Box<dyn Structure> {
+    let mut structure = Voxels::new(bench.device(), config, geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    Box::new(structure)
+}
+
+/// Brute force, trees, lists of triangles and of fragments, voxels, with the work that is recorded; budgets are small, so that
 /// rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
     let work_budget = Some(40);
@@ -78,6 +85,12 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         lists(bench, geometry, Storage::Linked, counters, work_budget),
         abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
         abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
+        voxels(bench, geometry, VoxelConfig { counters, work_budget, ..VoxelConfig::robust(RESOLUTION) }),
+        voxels(
+            bench,
+            geometry,
+            VoxelConfig { counters, work_budget, ..VoxelConfig::published_hu(RESOLUTION) },
+        ),
     ]
 }
 

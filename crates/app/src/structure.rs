@@ -12,6 +12,10 @@ pub enum SystemName {
     Mmrt,
     /// Lists of triangles per tile of a cube's faces: hits are those of the triangles
     Dirt,
+    /// Voxels over A-buffers along the three axes
+    Hu,
+    /// The same with voxels first, and each fragment in one of the A-buffers
+    Selective,
     /// A bounding volume hierarchy with two children a node: the yardstick
     Bvh,
     /// Every triangle tested against every ray: the judge, slow on purpose
@@ -45,7 +49,7 @@ pub enum Storage {
     Sb,
     /// One behind the other in cells of tile and depth slice, in bricks that say where nothing is
     Bricks,
-    /// Linked pages of several per depth bucket
+    /// Pages of several, linked or one behind the other
     Paged,
 }
 
@@ -83,6 +87,8 @@ pub enum Accept {
     Slope,
     /// The ray meets the plane of its triangle within the cell; needs the payload index
     Plane,
+    /// An odd number of fragments lies before one point of the ray, and an even number before the next
+    Parity,
 }
 
 /// Which cells a triangle gets a fragment in.
@@ -93,6 +99,18 @@ pub enum Coverage {
     Exact,
     /// Whatever the rasterizer covers
     Hardware,
+}
+
+/// In which of the views along the axes a fragment is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Axes {
+    /// In all; a voxel is searched along the axis of its averaged normal
+    All,
+    /// In that of its voxel's averaged normal
+    Voxel,
+    /// In the one that its triangle faces most; a voxel is searched along the axes of all its triangles
+    Triangle,
 }
 
 /// Which projections are drawn.
@@ -170,10 +188,18 @@ pub struct StructureOptions {
     #[arg(long, conflicts_with = "inline")]
     #[serde(skip)]
     pub decoupled: bool,
-    /// With --storage paged: fragments of a page, 1, 2, 4 or 8
+    /// With --storage paged: fragments of a page, 1 to 8
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub page: Option<u32>,
+    /// Voxels along each side of the scene's cube; balanced with --resolution if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<u32>,
+    /// In which of the views along the axes a fragment is kept
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub axes: Option<Axes>,
     /// What a fragment carries
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -182,7 +208,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub march: Option<March>,
-    /// With --march samples: most samples on a face
+    /// With --march samples: most samples on a face, or steps in a voxel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65535))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
@@ -274,6 +300,7 @@ mod tests {
         same_words::<March>();
         same_words::<Accept>();
         same_words::<Coverage>();
+        same_words::<Axes>();
         same_words::<Views>();
         same_words::<Builder>();
         same_words::<Addressing>();

@@ -234,14 +234,17 @@ mod tests {
         for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {
             for value in argument.get_possible_values() {
                 let option = argument.get_long().expect("every option has a name");
-                let accepted = SYSTEMS.iter().any(|system| {
-                    // Attributes are not planes: only this pair of values excludes another.
-                    let options = [("accept", "interval"), (option, value.get_name())]
+                let takes = |system: &System, accept: &str| {
+                    let options = [("accept", accept), (option, value.get_name())]
                         .into_iter()
                         .filter(|(name, _)| system.options.contains(name) || *name == option)
                         .map(|(name, word)| (name.to_owned(), word.to_owned()));
                     Spec::new(system.name, "robust", options).is_ok()
-                });
+                };
+                // Planes are the only value that excludes others: attributes, and samples.
+                let accepted = SYSTEMS
+                    .iter()
+                    .any(|system| ["interval", "parity"].iter().any(|accept| takes(system, accept)));
                 assert!(accepted, "no system takes --{option} {}", value.get_name());
                 tried += 1;
             }

@@ -5,9 +5,12 @@ mod brute_force;
 mod bvh;
 mod dirt;
 mod error;
+mod hu;
 mod mmrt;
 mod option;
+mod selective;
 mod spec;
+mod voxel;
 
 pub use error::SystemsError;
 pub use spec::{Preset, SYSTEMS, Spec, System};

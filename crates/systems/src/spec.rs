@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rasray_ads::{Counters, Geometry, SceneBinding, Structure};
 use rasray_gpu::{Device, Requirements};
 
-use crate::{SystemsError, brute_force, bvh, dirt, mmrt};
+use crate::{SystemsError, brute_force, bvh, dirt, hu, mmrt, selective};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,7 +48,8 @@ pub(crate) type Create =
     fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
 
 /// Every system.
-pub static SYSTEMS: &[System] = &[mmrt::SYSTEM, dirt::SYSTEM, bvh::SYSTEM, brute_force::SYSTEM];
+pub static SYSTEMS: &[System] =
+    &[mmrt::SYSTEM, dirt::SYSTEM, hu::SYSTEM, selective::SYSTEM, bvh::SYSTEM, brute_force::SYSTEM];
 
 /// A system, a preset and the options given over it.
 #[derive(Clone, Debug)]
@@ -171,7 +172,8 @@ mod tests {
     #[test]
     fn what_is_not_registered_is_refused_by_name() {
         let message = |result: Result<Spec, SystemsError>| result.expect_err("refused").to_string();
-        assert!(message(spec("nobody", "robust", &[])).contains("mmrt, dirt, bvh, brute-force"));
+        let known = message(spec("nobody", "robust", &[]));
+        assert!(SYSTEMS.iter().all(|system| known.contains(system.name)), "{known}");
         assert!(message(spec("brute-force", "published", &[])).contains("no preset"));
         assert!(message(spec("mmrt", "robust", &[("colour", "red")])).contains("colour"));
         assert!(

@@ -168,7 +168,7 @@ pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("P8-8", LEAVING, 0.596, 0.941),
 ];
 
-const fn deviation(
+pub(super) const fn deviation(
     case: &'static str,
     reason: &'static str,
     at_least_rate: f64,
@@ -178,11 +178,11 @@ const fn deviation(
 }
 
 /// Errors at a border, which a ray may meet or not.
-const fn line(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
+pub(super) const fn line(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
     Law { case, reason, per_cell, curve: Curve::Line }
 }
 
 /// Errors at many borders, each of which may spoil a ray.
-const fn chances(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
+pub(super) const fn chances(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
     Law { case, reason, per_cell, curve: Curve::Chances }
 }

@@ -1,7 +1,7 @@
 use rasray_ads::{Geometry, Structure};
 use rasray_systems::{Preset, Spec};
 
-use super::deviations;
+use super::{deviations, deviations_voxel};
 use crate::hard_cases;
 use crate::harness::Bench;
 
@@ -200,6 +200,10 @@ const fn robust_law(resolution: u32) -> Demand {
     Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations::ROBUST_LAWS }
 }
 
+const fn voxel_law(resolution: u32) -> Demand {
+    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_voxel::LAWS }
+}
+
 const fn published_law(resolution: u32) -> Demand {
     // A fragment is a depth at its cell's centre: surfaces that lean by 45 degrees are off by half a cell.
     Demand::Law { resolution, per_cell: 1.92, depth_tolerance: 2e-2, laws: &[] }
@@ -237,6 +241,17 @@ const fn dirt(
 ) -> Row {
     let demand = Demand::Exact { rounding: ROUNDING };
     Row { name, system: "dirt", preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
+}
+
+const fn voxel(
+    name: &'static str,
+    (system, preset): (&'static str, Preset),
+    options: &'static [(&'static str, &'static str)],
+    cases: Cases,
+    demand: Demand,
+    deviations: &'static [Deviation],
+) -> Row {
+    Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
 /// All rows.
@@ -320,5 +335,69 @@ pub const ROWS: &[Row] = &[
         Cases::Shallow,
         published_law(128),
         deviations::PUBLISHED_128,
+    ),
+    voxel(
+        "hu-robust-16",
+        ("hu", Preset::Robust),
+        &[("resolution", "16")],
+        Cases::Deep,
+        voxel_law(16),
+        deviations_voxel::ROBUST_16,
+    ),
+    voxel(
+        "hu-robust-64",
+        ("hu", Preset::Robust),
+        &[("resolution", "64")],
+        Cases::Shallow,
+        voxel_law(64),
+        deviations_voxel::ROBUST_64,
+    ),
+    voxel(
+        "hu-robust-128",
+        ("hu", Preset::Robust),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        voxel_law(128),
+        deviations_voxel::ROBUST_128,
+    ),
+    voxel(
+        "hu-published-16",
+        ("hu", Preset::Published),
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_voxel::HU_16,
+    ),
+    voxel(
+        "hu-published-128",
+        ("hu", Preset::Published),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        published_law(128),
+        deviations_voxel::HU_128,
+    ),
+    voxel(
+        "selective-robust-16",
+        ("selective", Preset::Robust),
+        &[("resolution", "16")],
+        Cases::Deep,
+        voxel_law(16),
+        deviations_voxel::ROBUST_16,
+    ),
+    voxel(
+        "selective-published-16",
+        ("selective", Preset::Published),
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_voxel::SELECTIVE_16,
+    ),
+    voxel(
+        "selective-published-128",
+        ("selective", Preset::Published),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        published_law(128),
+        deviations_voxel::SELECTIVE_128,
     ),
 ];

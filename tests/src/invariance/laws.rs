@@ -49,13 +49,14 @@ pub const LAWS: &[Law] = &[
     same_for_primitives("resolution", &["12", "37"]),
     same_for_primitives("slices", &["8", "64"]),
     same_for_primitives("tile", &["1", "2", "4", "8"]),
+    same_for_primitives("axes", &["all", "voxel", "triangle"]),
     same_for_primitives("views", &["cube", "cube+camera", "camera"]),
     // What decides whether a fragment is a hit, or what it stands for.
     Law {
         option: "accept",
         primitive: Value::MayChange,
         fragment: Value::MayChange,
-        values: &["interval", "slope", "plane"],
+        values: &["interval", "slope", "plane", "parity"],
     },
     Law {
         option: "march",

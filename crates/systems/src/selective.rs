@@ -1,0 +1,26 @@
+//! Selective reflections: voxels first, then each fragment in one of the axis A-buffers, with the paper's presets.
+
+use rasray_voxel::{Config, Storage, Voxels};
+
+use crate::{Preset, Spec, System, SystemsError, voxel};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "selective",
+    structure: "voxel",
+    presets: &[Preset::Robust, Preset::Published],
+    options: &voxel::OPTIONS,
+    requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(Voxels::new(device, config(spec)?, geometry, scene)?))
+    },
+};
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let preset = match spec.preset() {
+        Preset::Robust => Config { storage: Storage::Paged, ..Config::robust(voxel::RESOLUTION) },
+        Preset::Published => Config::published_selective(voxel::RESOLUTION),
+    };
+    voxel::config(spec, preset)
+}

@@ -1,0 +1,67 @@
+//! Options of the systems that trace voxels with axis A-buffers.
+
+use rasray_voxel::{Accept, Addressing, Axes, Config, Coverage, March, Storage};
+
+use crate::option::Given;
+use crate::{Spec, SystemsError};
+
+/// Options by their names on the command line.
+pub(crate) const OPTIONS: [&str; 12] = [
+    "resolution",
+    "grid",
+    "axes",
+    "march",
+    "samples",
+    "accept",
+    "coverage",
+    "storage",
+    "page",
+    "sort",
+    "addressing",
+    "capacity",
+];
+
+/// Cells a side of a view where nothing else is asked for.
+pub(crate) const RESOLUTION: u32 = 512;
+
+/// The configuration that a spec stands for over a preset.
+pub(crate) fn config(spec: &Spec, preset: Config) -> Result<Config, SystemsError> {
+    let mut config = Config { counters: spec.counters(), ..preset };
+    for given in Given::all(spec) {
+        match given.name {
+            "resolution" => config.resolution = given.number()?,
+            "grid" => config.grid = Some(given.number()?),
+            "samples" => config.samples = given.number()?,
+            "page" => config.page = given.number()?,
+            "capacity" => config.fragments = Some(given.number()?.into()),
+            "sort" => config.sort = given.switch()?,
+            "axes" => {
+                config.axes = given.choice(&[
+                    ("all", Axes::All),
+                    ("voxel", Axes::Voxel),
+                    ("triangle", Axes::Triangle),
+                ])?;
+            }
+            "march" => {
+                config.march = given.choice(&[("samples", March::Samples), ("exact", March::Exact)])?;
+            }
+            "accept" => {
+                config.accept = given.choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])?;
+            }
+            "coverage" => {
+                config.coverage =
+                    given.choice(&[("exact", Coverage::Exact), ("hardware", Coverage::Hardware)])?;
+            }
+            "storage" => {
+                config.storage = given.choice(&[("sb", Storage::Contiguous), ("paged", Storage::Paged)])?;
+            }
+            "addressing" => {
+                config.addressing = given
+                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
+            }
+            _ => return Err(given.unknown()),
+        }
+    }
+    config.validate()?;
+    Ok(config)
+}

@@ -1,0 +1,89 @@
+//! The build: pipelines, and the passes in the order they are recorded.
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
+use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
+
+use crate::layout::list_count;
+use crate::{Axes, Config};
+
+/// Pipelines of the build.
+#[derive(Debug)]
+pub(crate) struct Build {
+    voxels: Option<RasterPipeline>,
+    axes: Option<ComputePipeline>,
+    count: RasterPipeline,
+    scan: Scan,
+    store: RasterPipeline,
+    sort: ComputePipeline,
+    status: ComputePipeline,
+}
+
+impl Build {
+    pub(crate) fn new(
+        pipelines: &BuildPipelines<'_>,
+        config: &Config,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
+        let [count, store] = if alpha {
+            ["build_3_count.alpha", "build_5_store.alpha"]
+        } else {
+            ["build_3_count", "build_5_store"]
+        };
+        let voxels = || pipelines.raster("build_columns", "build_1_voxels");
+        Ok(Self {
+            voxels: (config.axes != Axes::All).then(voxels).transpose()?,
+            axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
+            count: pipelines.raster("build_raster", count)?,
+            scan: Scan::new(pipelines, "build_4_scan")?,
+            store: pipelines.raster("build_raster", store)?,
+            sort: pipelines.compute("build_6_sort")?,
+            status: pipelines.compute("build_7_status")?,
+        })
+    }
+
+    /// Records all passes.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
+        let lists = list_count(config.resolution);
+        let group = u64::from(VOXEL_GROUP_SIZE);
+        let words = u64::from(config.grid()).pow(3).div_ceil(8);
+        let (side, columns) = (config.resolution + 2, config.grid() + 2);
+        // Where a triangle is kept in the view it faces most, one instance draws it there.
+        let views = if config.axes == Axes::Triangle { 1 } else { 3 };
+        let shaders = Access::COMPUTE | Access::FRAGMENT;
+        let cleared: &[&str] = match config.axes {
+            Axes::Triangle => &["voxels", "lists"],
+            Axes::All | Axes::Voxel => &["voxels", "normals", "lists"],
+        };
+
+        target.pools.record_header(recorder, "voxel/build_0_clear", cleared, shaders | Access::VERTEX_READ);
+        if let Some(voxels) = &self.voxels {
+            target.raster_pass(recorder, "voxel/build_1_voxels", voxels, columns, 1);
+        }
+        let axes = |recorder: &mut Recorder<'_>| {
+            if let Some(axes) = &self.axes {
+                target.compute_pass(recorder, "voxel/build_2_axes", axes, words.div_ceil(group), 0, shaders);
+            }
+        };
+        // Where all views keep all, the normals come with the fragments, and the axes after both.
+        if config.axes == Axes::Voxel {
+            axes(recorder);
+        }
+        target.raster_pass(recorder, "voxel/build_3_count", &self.count, side, views);
+        if config.axes == Axes::All {
+            axes(recorder);
+        }
+        self.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
+        target.raster_pass(recorder, "voxel/build_5_store", &self.store, side, views);
+        target.compute_pass(
+            recorder,
+            "voxel/build_6_sort",
+            &self.sort,
+            lists.div_ceil(group),
+            0,
+            Access::COMPUTE,
+        );
+        target.status_pass(recorder, "voxel/build_7_status", &self.status);
+    }
+}

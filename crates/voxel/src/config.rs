@@ -1,0 +1,242 @@
+//! Options of voxels with axis A-buffers, and the presets.
+
+use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_shaders_glsl::constants::voxel as numbers;
+
+/// In which of the three views a fragment is kept, and along which axes a voxel is searched.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axes {
+    /// All views keep all; a voxel is searched along the axis of its averaged normal.
+    All,
+    /// A view keeps what lies in voxels whose averaged normal has its axis.
+    Voxel,
+    /// A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
+    Triangle,
+}
+
+/// How a ray steps within a voxel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum March {
+    /// [`Config::samples`] steps of equal length.
+    Samples,
+    /// Every cell the ray crosses.
+    Exact,
+}
+
+/// When a fragment counts as hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accept {
+    /// Between two points of the ray with an even and an odd number of fragments before them in their cells.
+    Parity,
+    /// The ray meets the plane of its triangle within the cell. Needs [`March::Exact`].
+    Plane,
+}
+
+/// Who decides which cells a triangle covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// The rasterizer, with its sub-pixel grid.
+    Hardware,
+    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
+    Exact,
+}
+
+/// How the lists of cells are kept. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// Fragments one behind the other.
+    Contiguous,
+    /// The same in whole pages of [`Config::page`] fragments: the room that paged lists take.
+    Paged,
+}
+
+/// Everything that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Cells a side of each view, 1 to 8192.
+    pub resolution: u32,
+    /// Voxels a side, 1 to 1024; the square root of three times the resolution where absent.
+    pub grid: Option<u32>,
+    /// Which views keep a fragment.
+    pub axes: Axes,
+    /// How rays step within a voxel.
+    pub march: March,
+    /// Steps in a voxel, 1 to 64; only for [`March::Samples`].
+    pub samples: u32,
+    /// When a fragment counts.
+    pub accept: Accept,
+    /// Who decides coverage.
+    pub coverage: Coverage,
+    /// How lists are kept.
+    pub storage: Storage,
+    /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
+    pub page: u32,
+    /// Sort lists, so that a search can begin and end within. Changes no hit.
+    pub sort: bool,
+    /// How pools are reached. Changes no hit.
+    pub addressing: Addressing,
+    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    pub fragments: Option<u64>,
+    /// How much of their work rays record. Changes no hit.
+    pub counters: Counters,
+    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// The repaired structure: each triangle in the view it faces most, every cell, planes.
+    pub fn robust(resolution: u32) -> Self {
+        Self {
+            resolution,
+            grid: None,
+            axes: Axes::Triangle,
+            march: March::Exact,
+            samples: 3,
+            accept: Accept::Plane,
+            coverage: Coverage::Exact,
+            storage: Storage::Contiguous,
+            page: 4,
+            sort: true,
+            addressing: Addressing::Descriptor,
+            fragments: None,
+            counters: Counters::Off,
+            work_budget: None,
+        }
+    }
+
+    /// Hu et al.: everything in all views, three steps in a voxel, and parities.
+    pub fn published_hu(resolution: u32) -> Self {
+        Self {
+            axes: Axes::All,
+            march: March::Samples,
+            accept: Accept::Parity,
+            coverage: Coverage::Hardware,
+            ..Self::robust(resolution)
+        }
+    }
+
+    /// Frid Kastrati and Goswami: voxels first, then each fragment in the view of its voxel, in pages of four.
+    pub fn published_selective(resolution: u32) -> Self {
+        Self { axes: Axes::Voxel, storage: Storage::Paged, ..Self::published_hu(resolution) }
+    }
+
+    /// Voxels a side.
+    pub fn grid(&self) -> u32 {
+        let balanced = (3.0 * f64::from(self.resolution)).sqrt().round();
+        self.grid.unwrap_or(balanced as u32).clamp(1, numbers::VOXEL_GRID_LIMIT)
+    }
+
+    /// Fragments a page: one where lists are not paged.
+    pub fn page(&self) -> u32 {
+        match self.storage {
+            Storage::Contiguous => 1,
+            Storage::Paged => self.page,
+        }
+    }
+
+    /// Checks ranges and combinations.
+    ///
+    /// # Errors
+    /// The first option out of range, or the combination that is not possible.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let range = |option, value: u32, lowest, highest, expected| {
+            if (lowest..=highest).contains(&value) {
+                Ok(())
+            } else {
+                Err(AdsError::Option { option, value: value.to_string(), expected })
+            }
+        };
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
+        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels a side")?;
+        range("samples", self.samples, 1, 64, "1 to 64 steps a voxel")?;
+        range("page", self.page, 1, 8, "1 to 8 fragments a page")?;
+        let budget = self.work_budget.unwrap_or(u32::MAX);
+        range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")?;
+        if self.accept == Accept::Plane && self.march == March::Samples {
+            return Err(AdsError::Option {
+                option: "accept",
+                value: "plane".to_owned(),
+                expected: "plane acceptance needs the march `exact`, since samples are points and planes count in a cell",
+            });
+        }
+        Ok(())
+    }
+
+    /// Specialisation constants: id and bits.
+    pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
+        let axes = match self.axes {
+            Axes::All => numbers::VOXEL_AXES_ALL,
+            Axes::Voxel => numbers::VOXEL_AXES_VOXEL,
+            Axes::Triangle => numbers::VOXEL_AXES_TRIANGLE,
+        };
+        let march = match self.march {
+            March::Samples => numbers::VOXEL_MARCH_SAMPLES,
+            March::Exact => numbers::VOXEL_MARCH_EXACT,
+        };
+        let accept = match self.accept {
+            Accept::Parity => numbers::VOXEL_ACCEPT_PARITY,
+            Accept::Plane => numbers::VOXEL_ACCEPT_PLANE,
+        };
+        let coverage = match self.coverage {
+            Coverage::Hardware => numbers::VOXEL_COVERAGE_HARDWARE,
+            Coverage::Exact => numbers::VOXEL_COVERAGE_EXACT,
+        };
+        vec![
+            (70, axes),
+            (71, march),
+            (72, accept),
+            (73, coverage),
+            (74, self.page()),
+            (75, u32::from(self.sort)),
+        ]
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        let storage = match self.storage {
+            Storage::Contiguous => "sb",
+            Storage::Paged => "paged",
+        };
+        let mut options = vec![
+            ("storage", storage.to_owned()),
+            ("resolution", self.resolution.to_string()),
+            ("grid", self.grid().to_string()),
+            ("axes", lower(&self.axes)),
+            ("march", lower(&self.march)),
+            ("accept", lower(&self.accept)),
+            ("sort", if self.sort { "on" } else { "off" }.to_owned()),
+        ];
+        if self.storage == Storage::Paged {
+            options.push(("page", self.page.to_string()));
+        }
+        if self.march == March::Samples {
+            options.push(("samples", self.samples.to_string()));
+        }
+        options
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        vec![
+            ("builder", "raster".to_owned()),
+            ("coverage", lower(&self.coverage)),
+            ("addressing", self.addressing.name().to_owned()),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The paper's rule of thumb: 64 voxels for 1280 cells, about as many for 1024.
+    #[test]
+    fn the_grid_follows_the_resolution() {
+        for (resolution, grid) in [(1280, 62), (1024, 55), (512, 39), (1, 2), (8192, 157)] {
+            assert_eq!(Config::robust(resolution).grid(), grid);
+        }
+        assert_eq!(Config { grid: Some(64), ..Config::robust(1024) }.grid(), 64);
+    }
+}

@@ -1,0 +1,47 @@
+//! The header of voxels with axis A-buffers as shaders see it.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `VoxelHeader` of `shaders-glsl/voxel/types.glsl`, field by field.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Header {
+    /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
+    pub status: u32,
+    /// Entries of all pages, also those beyond the capacity.
+    pub demand: u32,
+    /// Entries the pool holds.
+    pub capacity: u32,
+    /// Fragments met by the build, without what is left of their pages.
+    pub fragments: u32,
+    /// Lists longer than the sort pass sorts.
+    pub unsorted: u32,
+    /// Lists that reached beyond the pool.
+    pub corrupted: u32,
+    /// Cells a side of a view.
+    pub resolution: u32,
+    /// Voxels a side.
+    pub grid: u32,
+    /// Steps in a voxel.
+    pub samples: u32,
+    /// Side of a cell, metres.
+    pub cell: f32,
+    /// Side of a voxel, metres.
+    pub voxel: f32,
+    /// Cells a metre.
+    pub cells_per_metre: f32,
+    /// Voxels a metre.
+    pub voxels_per_metre: f32,
+    /// Lower corner of the cube, metres relative to the frame origin.
+    pub lower: [f32; 3],
+    /// Device address of the voxels; zero with descriptors.
+    pub voxels_address: [u32; 2],
+    /// Device address of the sums of normals.
+    pub normals_address: [u32; 2],
+    /// Device address of the lists.
+    pub lists_address: [u32; 2],
+    /// Device address of the fragments.
+    pub fragments_address: [u32; 2],
+    /// Device address of the sums of the scan.
+    pub sums_address: [u32; 2],
+}

@@ -1,0 +1,150 @@
+//! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
+
+use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+
+use crate::{Axes, Config, Header};
+
+/// Names of the pools in the order of [`Sizes::pools`].
+pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "sums"];
+
+/// Lists of all three views: one a cell.
+pub fn list_count(resolution: u32) -> u64 {
+    3 * u64::from(resolution) * u64::from(resolution)
+}
+
+/// What a configuration allocates to hold `entries` fragments, those included that fill up pages.
+///
+/// # Errors
+/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+pub fn plan(config: &Config, entries: u64) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    let voxels = u64::from(config.grid()).pow(3);
+    let lists = list_count(config.resolution);
+    let normals = if config.axes == Axes::Triangle { 0 } else { voxels };
+    let sizes = [
+        (1, size_of::<Header>() as u64),
+        (voxels.div_ceil(8), 4),
+        (normals, 12),
+        (lists, 4),
+        (entries, 8),
+        (Scan::sums(lists), 4),
+    ];
+    let pools: Vec<PoolSize> = POOLS
+        .iter()
+        .zip(sizes)
+        .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
+        .collect();
+    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
+    if let Some(pool) =
+        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
+    {
+        return Err(AdsError::PoolTooLarge { structure: "voxel", pool: pool.name, elements: pool.elements });
+    }
+    Ok(Sizes { pools })
+}
+
+/// The first guess where nothing has been counted: one a cell of one view.
+pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
+    plan(config, config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3))
+}
+
+/// The cube that voxels and views divide: its lower corner, and its side, metres.
+///
+/// It holds the bounds and is wider by a 256th, so that nothing lies on its sides but where coordinates are too coarse
+/// for that.
+pub(crate) fn cube([lower, upper]: [[f32; 3]; 2]) -> ([f32; 3], f32) {
+    let pairs = || lower.iter().zip(&upper).map(|(&low, &high)| (f64::from(low), f64::from(high)));
+    let extent = pairs().fold(0.0_f64, |extent, (low, high)| extent.max(high - low));
+    let side = (extent * (1.0 + 1.0 / 256.0)).max(1.0e-30);
+    let corner: Vec<f32> = pairs().map(|(low, high)| (0.5 * (low + high - side)) as f32).collect();
+    // Rounding may have moved the corner away from the far end.
+    let reach = corner
+        .iter()
+        .zip(&upper)
+        .fold(side, |reach, (&corner, &high)| reach.max(f64::from(high) - f64::from(corner)));
+    ([corner[0], corner[1], corner[2]], (reach as f32).next_up())
+}
+
+/// Bytes for counted voxels, cells and entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FormulaBytes {
+    /// Per eight voxels a word of 4; and 12 a voxel where normals are averaged.
+    pub voxels: u64,
+    /// Per cell of three views: 4.
+    pub lists: u64,
+    /// Per entry: 8.
+    pub fragments: u64,
+    /// Header; a sum of 4 per 1024 lists for the scan.
+    pub rest: u64,
+}
+
+impl FormulaBytes {
+    /// Sum of all parts.
+    pub fn total(&self) -> u64 {
+        self.voxels + self.lists + self.fragments + self.rest
+    }
+}
+
+/// The page's formula. It does not look at [`plan`], so that the two check each other.
+pub fn formula_bytes(config: &Config, entries: u64) -> FormulaBytes {
+    let grid = u64::from(config.grid());
+    let cells = u64::from(config.resolution) * u64::from(config.resolution) * 3;
+    let averaged = config.axes != Axes::Triangle;
+    FormulaBytes {
+        voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
+        lists: cells * 4,
+        fragments: entries * 8,
+        rest: 104 + cells.div_ceil(1024) * 4,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Accept;
+
+    #[test]
+    fn plan_equals_formula() {
+        for (resolution, grid) in [(64, None), (512, Some(64)), (33, Some(7)), (1, None)] {
+            for config in [
+                Config { grid, ..Config::robust(resolution) },
+                Config { grid, ..Config::published_hu(resolution) },
+                Config { grid, ..Config::published_selective(resolution) },
+            ] {
+                let sizes = plan(&config, 12_345).expect("options are in range");
+                assert_eq!(sizes.bytes(), formula_bytes(&config, 12_345).total());
+                assert_ne!(sizes.bytes(), formula_bytes(&config, 12_346).total());
+            }
+        }
+    }
+
+    #[test]
+    fn out_of_range_options_are_named() {
+        let message = |config: Config| plan(&config, 0).unwrap_err().to_string();
+        assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
+        assert!(message(Config { grid: Some(1025), ..Config::robust(64) }).contains("grid is 1025"));
+        assert!(message(Config { samples: 0, ..Config::robust(64) }).contains("samples is 0"));
+        assert!(message(Config { page: 9, ..Config::robust(64) }).contains("page is 9"));
+        assert!(message(Config { work_budget: Some(0), ..Config::robust(64) }).contains("work budget is 0"));
+        assert!(message(Config { accept: Accept::Plane, ..Config::published_hu(64) }).contains("march"));
+        assert!(plan(&Config::robust(64), 1 << 32).unwrap_err().to_string().contains("fragments"));
+    }
+
+    #[test]
+    fn the_cube_holds_the_bounds() {
+        for bounds in [
+            [[-1.0, -2.0, 0.5], [1.0, 3.0, 0.5]],
+            [[1.0e5, -1.0e5, 0.0], [1.0e5 + 2.0, -1.0e5 + 2.0, 2.0]],
+            [[1.0e9, 0.0, 0.0], [1.0e9, 0.0, 0.0]],
+            [[-1.8e18; 3], [1.8e18; 3]],
+            [[0.0; 3]; 2],
+        ] {
+            let (lower, side) = cube(bounds);
+            assert!(side > 0.0 && side.is_finite());
+            for axis in 0..3 {
+                assert!(lower[axis] <= bounds[0][axis]);
+                assert!(f64::from(lower[axis]) + f64::from(side) >= f64::from(bounds[1][axis]));
+            }
+        }
+    }
+}

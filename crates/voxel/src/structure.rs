@@ -1,0 +1,228 @@
+//! Voxels with axis A-buffers as a structure.
+
+use rasray_ads::{
+    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
+    PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
+    TraceKernels, TraceKernelsDesc, TraceMode,
+};
+use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+
+use crate::build::Build;
+use crate::layout::{cube, first_plan, formula_bytes, plan};
+use crate::{Config, Contents, Header};
+
+/// A voxel grid over three axis A-buffers.
+#[derive(Debug)]
+pub struct Voxels {
+    config: Config,
+    geometry: Geometry,
+    build: Build,
+    kernels: TraceKernels,
+    pools: Pools,
+    scene: Option<BindingSet>,
+}
+
+impl Voxels {
+    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks and surfaces.
+    ///
+    /// # Errors
+    /// An option is out of range or needs what the device does not provide; out of memory; a pool exceeds
+    /// what one binding can hold (then use device addresses).
+    pub fn new(
+        device: &Device,
+        config: Config,
+        geometry: &Geometry,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        let sizes = first_plan(&config)?;
+        config.addressing.check(device)?;
+        device.require("the voxels", &Self::requirements_of(&config))?;
+        let pools = Pools::new(device, "voxel", config.addressing, &sizes)?;
+        let modules = Modules { structure: "voxel", prefix: "voxel", addressing: config.addressing };
+        let constants = config.constants();
+        let pipelines = BuildPipelines::new(device, modules, geometry, &pools, scene, &constants);
+        let build = Build::new(&pipelines, &config, scene)?;
+        let kernels = TraceKernels::new(
+            device,
+            geometry,
+            &TraceKernelsDesc {
+                modules: modules.trace(scene)?,
+                structure_layout: pools.layout(),
+                constants: &constants,
+                counters: config.counters,
+                work_budget: config.work_budget,
+                scene,
+            },
+        )?;
+        let scene = scene.map(|scene| scene.set.clone());
+        Ok(Self { config, geometry: geometry.clone(), build, kernels, pools, scene })
+    }
+
+    /// What a device must and may offer for a configuration.
+    pub fn requirements_of(config: &Config) -> Requirements {
+        let mut requirements = Requirements::floor();
+        requirements.required.push(Feature::FragmentStoresAndAtomics);
+        config.addressing.add_to(&mut requirements);
+        requirements
+    }
+
+    /// The configuration it was made with.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The header that the next build starts from.
+    fn first_header(&self) -> Header {
+        let (lower, side) = cube(self.geometry.bounds());
+        let (resolution, grid) = (self.config.resolution as f32, self.config.grid() as f32);
+        Header {
+            capacity: self.pools.sizes().elements("fragments") as u32,
+            resolution: self.config.resolution,
+            grid: self.config.grid(),
+            samples: self.config.samples,
+            cell: side / resolution,
+            voxel: side / grid,
+            cells_per_metre: resolution / side,
+            voxels_per_metre: grid / side,
+            lower,
+            voxels_address: self.pools.address_of("voxels"),
+            normals_address: self.pools.address_of("normals"),
+            lists_address: self.pools.address_of("lists"),
+            fragments_address: self.pools.address_of("fragments"),
+            sums_address: self.pools.address_of("sums"),
+            ..Header::default()
+        }
+    }
+
+    /// The header as the last build left it. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    pub fn header(&self) -> Result<Header, GpuError> {
+        self.pools.header()
+    }
+
+    /// Downloads what rays read, for checks. Submits and waits: for tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
+        let words = |name| self.pools.download_words(device, name);
+        Ok(Contents {
+            config: self.config,
+            header: device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0],
+            voxels: words("voxels")?,
+            lists: words("lists")?,
+            fragments: words("fragments")?,
+        })
+    }
+}
+
+impl Structure for Voxels {
+    fn name(&self) -> &'static str {
+        "voxel"
+    }
+
+    fn kind(&self) -> StructureKind {
+        StructureKind::Fragment
+    }
+
+    fn requirements(&self) -> Requirements {
+        Self::requirements_of(&self.config)
+    }
+
+    fn counters(&self) -> Counters {
+        self.kernels.counters()
+    }
+
+    fn sizes(&self) -> &Sizes {
+        self.pools.sizes()
+    }
+
+    fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        self.pools.resize(device, sizes)
+    }
+
+    fn set_geometry(&mut self, _device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        self.geometry = geometry.clone();
+        Ok(())
+    }
+
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+        self.pools.begin_build(&self.first_header())?;
+        let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
+        self.build.record(recorder, &self.config, target);
+        Ok(())
+    }
+
+    fn status(&self) -> Result<BuildStatus, GpuError> {
+        let header = self.header()?;
+        Ok(BuildStatus {
+            complete: header.status & STATUS_COMPLETE != 0,
+            pools: vec![PoolStatus {
+                name: "fragments",
+                demand: header.demand.into(),
+                capacity: header.capacity.into(),
+            }],
+            unsorted: header.unsorted.into(),
+            corrupted: header.corrupted.into(),
+        })
+    }
+
+    fn check(&self, status: &BuildStatus) -> Check {
+        let short = status.pools.iter().find(|pool| pool.demand > pool.capacity);
+        let Some(short) = short.filter(|_| !status.complete) else {
+            return Check::Complete;
+        };
+        // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
+        plan(&self.config, short.demand).map_or(Check::Complete, Check::Grow)
+    }
+
+    fn rounds(&self) -> u32 {
+        // Three views' cells and the voxels along a ray, and lists that hold every triangle.
+        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+        let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
+        16 + (steps + u64::from(self.geometry.triangle_count())).div_ceil(budget) as u32
+    }
+
+    fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        self.pools.record_trace(recorder, &self.kernels, &self.geometry, queue, count, mode, rounds);
+    }
+
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
+        self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
+    }
+
+    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
+        Some(self.pools.inline_trace(self.config.constants()))
+    }
+
+    fn report(&self) -> Result<StructureReport, GpuError> {
+        let header = self.header()?;
+        let entries = u64::from(header.demand);
+        let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
+            "fragments" => entries,
+            _ => pool.elements,
+        });
+        Ok(StructureReport {
+            options: self.config.options(),
+            paths: self.config.paths(),
+            bytes_by_part,
+            formula_bytes: formula_bytes(&self.config, entries).total(),
+            stored: Some(header.fragments.into()),
+        })
+    }
+}

@@ -1,0 +1,134 @@
+// What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
+// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// Reads, writes: header, voxels, normals, lists, fragments, sums. Every access checks the capacity.
+// A list is a cell of a view. Once all is stored its word holds where its fragments end; they begin with the page
+// after the end of the list before it.
+#ifndef VOXEL_ACCESSORS_GLSL
+#define VOXEL_ACCESSORS_GLSL
+
+#include "voxel/header.glsl"
+#include "ads/axis_views.glsl"
+
+#ifdef ADDRESSING_ADDRESS
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWordAddress { uint words[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelFragmentAddress { VoxelFragment fragments[]; };
+#define VOXEL_VOXELS(s) VoxelWordAddress(VOXEL_HEADER(s).voxels_address).words
+#define VOXEL_NORMALS(s) VoxelWordAddress(VOXEL_HEADER(s).normals_address).words
+#define VOXEL_LISTS(s) VoxelWordAddress(VOXEL_HEADER(s).lists_address).words
+#define VOXEL_FRAGMENTS(s) VoxelFragmentAddress(VOXEL_HEADER(s).fragments_address).fragments
+#define VOXEL_SUMS(s) VoxelWordAddress(VOXEL_HEADER(s).sums_address).words
+#else
+layout(set = STRUCTURE_SET, binding = 1, scalar) buffer VoxelVoxelsBuffer { uint voxel_voxel_words[]; };
+layout(set = STRUCTURE_SET, binding = 2, scalar) buffer VoxelNormalsBuffer { uint voxel_normal_words[]; };
+layout(set = STRUCTURE_SET, binding = 3, scalar) buffer VoxelListsBuffer { uint voxel_list_words[]; };
+layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { VoxelFragment voxel_fragments[]; };
+layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelSumsBuffer { uint voxel_sum_words[]; };
+#define VOXEL_VOXELS(s) voxel_voxel_words
+#define VOXEL_NORMALS(s) voxel_normal_words
+#define VOXEL_LISTS(s) voxel_list_words
+#define VOXEL_FRAGMENTS(s) voxel_fragments
+#define VOXEL_SUMS(s) voxel_sum_words
+#endif
+
+// The view along an axis, with the cells of the fragments.
+AxisView voxel_view(VoxelRef s, uint axis) {
+    return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).cell, VOXEL_HEADER(s).resolution, axis);
+}
+
+// The same with one cell a column of voxels.
+AxisView voxel_column_view(VoxelRef s, uint axis) {
+    return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).voxel, VOXEL_HEADER(s).grid, axis);
+}
+
+uint voxel_count(VoxelRef s) {
+    uint grid = VOXEL_HEADER(s).grid;
+    return grid * grid * grid;
+}
+
+// Running index of a voxel; 2^32 - 1 outside of the grid.
+uint voxel_index(VoxelRef s, ivec3 voxel) {
+    uint grid = VOXEL_HEADER(s).grid;
+    uvec3 v = uvec3(voxel);
+    return any(greaterThanEqual(v, uvec3(grid))) ? 0xFFFFFFFFu : (v.z * grid + v.y) * grid + v.x;
+}
+
+// Sets bits of a voxel.
+void voxel_mark(VoxelRef s, uint index, uint bits) {
+    if (index < voxel_count(s)) {
+        uint shift = VOXEL_BITS * (index % 8u);
+        // Many fragments mark the same voxel: most find it marked.
+        if ((VOXEL_VOXELS(s)[index / 8u] >> shift & bits) != bits) {
+            atomicOr(VOXEL_VOXELS(s)[index / 8u], bits << shift);
+        }
+    }
+}
+
+// The bits of a voxel: those of the axes it is searched along, and VOXEL_OCCUPIED.
+uint voxel_bits(VoxelRef s, uint index) {
+    return index < voxel_count(s) ? VOXEL_VOXELS(s)[index / 8u] >> (VOXEL_BITS * (index % 8u)) & 15u : 0u;
+}
+
+// Whether the view along an axis keeps the fragments that lie in a voxel.
+bool voxel_keeps(VoxelRef s, uint index, uint axis) {
+    return VOXEL_AXES != VOXEL_AXES_VOXEL || (voxel_bits(s, index) >> axis & 1u) != 0u;
+}
+
+// Adds a triangle's unit normal to the sum of a voxel. Whole numbers: the order of additions does not matter.
+void voxel_add_normal(VoxelRef s, uint index, vec3 normal) {
+    if (index < voxel_count(s)) {
+        ivec3 steps = ivec3(round(normal * VOXEL_NORMAL_STEPS));
+        for (uint k = 0u; k < 3u; k++) {
+            if (steps[k] != 0) {
+                atomicAdd(VOXEL_NORMALS(s)[3u * index + k], uint(steps[k]));
+            }
+        }
+    }
+}
+
+// The axis of a voxel's averaged normal; ties go to the lowest axis.
+uint voxel_normal_axis(VoxelRef s, uint index) {
+    uvec3 size;
+    for (uint k = 0u; k < 3u; k++) {
+        size[k] = uint(abs(int(VOXEL_NORMALS(s)[3u * index + k])));
+    }
+    return size.x >= size.y && size.x >= size.z ? 0u : (size.y >= size.z ? 1u : 2u);
+}
+
+uint voxel_list_count(VoxelRef s) {
+    uint resolution = VOXEL_HEADER(s).resolution;
+    return AXIS_VIEWS * resolution * resolution;
+}
+
+// A length rounded up to whole pages.
+uint voxel_paged(uint length) {
+    return (length + VOXEL_PAGE - 1u) / VOXEL_PAGE * VOXEL_PAGE;
+}
+
+// Adds one to the length of a list.
+void voxel_list_count_one(VoxelRef s, uint list) {
+    atomicAdd(VOXEL_LISTS(s)[list], 1u);
+}
+
+// Puts a fragment into a list, whose word holds where the next one goes. What has no room has been counted.
+void voxel_list_store(VoxelRef s, uint list, VoxelFragment fragment) {
+    uint place = atomicAdd(VOXEL_LISTS(s)[list], 1u);
+    if (place < VOXEL_HEADER(s).capacity) {
+        VOXEL_FRAGMENTS(s)[place] = fragment;
+    }
+}
+
+// Where the fragments of a list begin and end. A list that leaves the pool is counted and answered as empty.
+uvec2 voxel_list(VoxelRef s, uint list) {
+    if (list >= voxel_list_count(s)) {
+        return uvec2(0u);
+    }
+    uint begin = list == 0u ? 0u : voxel_paged(VOXEL_LISTS(s)[list - 1u]);
+    uint end = VOXEL_LISTS(s)[list];
+    if (begin > end || end > min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand)) {
+        atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
+        return uvec2(0u);
+    }
+    return uvec2(begin, end);
+}
+
+#endif

@@ -1,0 +1,29 @@
+// What: the length of the list of each cell; where views keep everything, also the normals of voxels.
+// Reads: geometry, header, voxels (one axis a voxel). Writes: lists; voxels and normals.
+// Source: Hu et al. section 3.1, the one geometry pass; counted first, so that lists can be stored one behind the other.
+#version 460
+#include "contract/extensions.glsl"
+#include "voxel/raster.glsl"
+#include "contract/alpha.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_axis;
+
+void main() {
+    uint primitive = primitive_and_axis.x;
+    uint axis = primitive_and_axis.y;
+    VoxelFound found;
+    if (!voxel_fragment(primitive, axis, gl_FragCoord, found) || !alpha_accepts(primitive, found.barycentrics)) {
+        return;
+    }
+    if (VOXEL_AXES == VOXEL_AXES_ALL) {
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        geometry_vertices(primitive, a, b, c);
+        voxel_mark(voxel_built, found.voxel, VOXEL_OCCUPIED);
+        voxel_add_normal(voxel_built, found.voxel, voxel_unit_normal(a, b, c));
+    } else if (!voxel_keeps(voxel_built, found.voxel, axis)) {
+        return;
+    }
+    voxel_list_count_one(voxel_built, found.list);
+}

@@ -1,0 +1,36 @@
+// What: proposes, for each triangle, the columns of voxels that it may reach into, in the view it faces most.
+// Reads: geometry, header. Writes: nothing.
+// Source: Frid Kastrati and Goswami section 3.2; a dilated triangle replaces conservative rasterization.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/axis_views.glsl"
+#include "ads/geometry.glsl"
+#define VOXEL_READ_ONLY
+#include "voxel/header.glsl"
+
+layout(push_constant, scalar) uniform VoxelBuildConstants {
+    VoxelRef voxel_built;
+};
+
+layout(location = 0) flat out uvec2 primitive_and_axis;
+
+void main() {
+    uint primitive = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    uint axis = axis_of_triangle(a, b, c);
+    primitive_and_axis = uvec2(primitive, axis);
+    // A triangle without area is never hit.
+    if (!triangle_has_area(a, b, c)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
+    AxisView view = AxisView(VOXEL_HEADER(voxel_built).lower, VOXEL_HEADER(voxel_built).voxel,
+        VOXEL_HEADER(voxel_built).grid, axis);
+    // The centre of every column that it reaches into, with 1/32 of a column for the hardware's grid.
+    gl_Position = axis_proposal(view, axis_from_world(view, a), axis_from_world(view, b), axis_from_world(view, c), corner,
+        0.5 + VOXEL_SLACK + 1.0 / 32.0);
+}

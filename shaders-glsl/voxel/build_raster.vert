@@ -1,0 +1,38 @@
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover.
+// Reads: geometry, header. Writes: nothing.
+// Source: Hu et al. section 3.1; instances replace the paper's geometry-shader amplification.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/axis_views.glsl"
+#include "ads/geometry.glsl"
+#define VOXEL_READ_ONLY
+#include "voxel/header.glsl"
+
+layout(push_constant, scalar) uniform VoxelBuildConstants {
+    VoxelRef voxel_built;
+};
+
+layout(location = 0) flat out uvec2 primitive_and_axis;
+
+void main() {
+    uint primitive = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    uint axis = VOXEL_AXES == VOXEL_AXES_TRIANGLE ? axis_of_triangle(a, b, c) : uint(gl_InstanceIndex);
+    primitive_and_axis = uvec2(primitive, axis);
+    AxisView view = AxisView(VOXEL_HEADER(voxel_built).lower, VOXEL_HEADER(voxel_built).cell,
+        VOXEL_HEADER(voxel_built).resolution, axis);
+    a = axis_from_world(view, a);
+    b = axis_from_world(view, b);
+    c = axis_from_world(view, c);
+    if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
+        gl_Position = axis_proposal(view, a, b, c, corner, 1.0 / 32.0);
+    } else {
+        vec3 p = axis_on_screen(view, corner == 0u ? a : (corner == 1u ? b : c));
+        float to_clip = float(view.resolution) / float(view.resolution + 2u);
+        gl_Position = vec4(p.xy * to_clip, 0.5, 1.0);
+    }
+}

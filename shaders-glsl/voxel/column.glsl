@@ -1,0 +1,58 @@
+// What: which voxels of a column a triangle reaches into. It may accept more than is exact, never less.
+// Reads, writes: nothing.
+// Source: separating axes of a triangle and a square, and the plane's depths over the square.
+#ifndef VOXEL_COLUMN_GLSL
+#define VOXEL_COLUMN_GLSL
+
+#include "ads/axis_views.glsl"
+#include "voxel/types.glsl"
+
+// Whether all of the square of half a side `half_side` around the origin lies beyond the edge p q, on the side away
+// from the triangle, which is wound by the sign of `area`.
+bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
+    vec2 span = q - p;
+    float value = p.x * span.y - p.y * span.x;
+    float slack = half_side * (abs(span.x) + abs(span.y))
+        + 1.0e-6 * (abs(p.x * span.y) + abs(p.y * span.x));
+    return area > 0.0 ? value < -slack : value > slack;
+}
+
+// The first and last voxel of a column that the triangle a, b, c (frame of the view) reaches into, or comes within
+// VOXEL_SLACK of; false where it does not meet the column. The triangle faces the view more than the others.
+bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out ivec2 range) {
+    vec3 center = vec3(vec2(column) + 0.5, 0.0);
+    a = a / view.cell - center;
+    b = b / view.cell - center;
+    c = c / view.cell - center;
+    range = ivec2(0);
+    float half_side = 0.5 + VOXEL_SLACK;
+    vec3 lower = min(a, min(b, c));
+    vec3 upper = max(a, max(b, c));
+    if (any(greaterThan(lower.xy, vec2(half_side))) || any(lessThan(upper.xy, vec2(-half_side)))) {
+        return false;
+    }
+    vec3 ab = b - a;
+    vec3 ac = c - a;
+    vec3 normal = cross(ab, ac);
+    float uncertain = 4.0e-6 * (abs(ab.x * ac.y) + abs(ab.y * ac.x) + abs(ab.y * ac.z) + abs(ab.z * ac.y)
+        + abs(ab.z * ac.x) + abs(ab.x * ac.z));
+    // Where rounding may have made the winding or the plane, the corners alone count.
+    if (abs(normal.z) > 64.0 * uncertain) {
+        if (column_beyond(a.xy, b.xy, half_side, normal.z) || column_beyond(b.xy, c.xy, half_side, normal.z)
+            || column_beyond(c.xy, a.xy, half_side, normal.z)) {
+            return false;
+        }
+        vec2 slope = normal.xy / normal.z;
+        float middle = a.z + dot(slope, a.xy);
+        // Twice the relative error of the slopes, for the distance from a corner that they are used over.
+        float reach = half_side * (abs(slope.x) + abs(slope.y))
+            + 2.0 * uncertain / abs(normal.z) * (abs(a.x) + abs(a.y) + 1.0);
+        lower.z = max(lower.z, middle - reach);
+        upper.z = min(upper.z, middle + reach);
+    }
+    int last = int(view.resolution) - 1;
+    range = ivec2(clamp(floor(vec2(lower.z - VOXEL_SLACK, upper.z + VOXEL_SLACK)), vec2(0.0), vec2(float(last))));
+    return true;
+}
+
+#endif

@@ -1,0 +1,53 @@
+// Numbers that the voxels' shaders and crate share. Only `#define NAME number` may stand here.
+#ifndef VOXEL_CONSTANTS_GLSL
+#define VOXEL_CONSTANTS_GLSL
+
+// In which of the three views a fragment is kept, and in which of them a voxel is searched.
+// All views keep all; a voxel is searched along the axis of its averaged normal.
+#define VOXEL_AXES_ALL 0u
+// A view keeps what lies in voxels whose averaged normal has its axis.
+#define VOXEL_AXES_VOXEL 1u
+// A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
+#define VOXEL_AXES_TRIANGLE 2u
+
+// How a ray steps within a voxel.
+#define VOXEL_MARCH_SAMPLES 0u
+#define VOXEL_MARCH_EXACT 1u
+
+// When a fragment counts as hit.
+#define VOXEL_ACCEPT_PARITY 0u
+#define VOXEL_ACCEPT_PLANE 1u
+
+// Who decides that a cell is covered.
+#define VOXEL_COVERAGE_HARDWARE 0u
+#define VOXEL_COVERAGE_EXACT 1u
+
+// Most voxels a side: three coordinates share a word of a paused ray.
+#define VOXEL_GRID_LIMIT 1024u
+
+// Bits of a voxel: one for each axis it is searched along, and one that says that something lies in it.
+#define VOXEL_OCCUPIED 8u
+#define VOXEL_BITS 4u
+
+// How much wider than a voxel everything is that is said to lie in it, in voxels: more than rounding moves a ray.
+#define VOXEL_SLACK 0.00390625
+
+// Unit normals are added up as whole numbers of this many steps.
+#define VOXEL_NORMAL_STEPS 127.0
+
+// Longest list that is sorted; longer ones stay unordered and are counted.
+#define VOXEL_SORT_LIMIT 2048u
+
+// Lists longer than this are entered by bisection where they are sorted.
+#define VOXEL_BISECT_FROM 8u
+
+// Halvings by which the place of a hit is refined between two points of a ray.
+#define VOXEL_REFINEMENTS 8u
+
+// How far a fragment's plane reaches beyond its triangle, in widths of a cell.
+#define VOXEL_PLANE_REACH 2.0
+
+// Threads in a workgroup of the build's compute passes.
+#define VOXEL_GROUP_SIZE 64u
+
+#endif

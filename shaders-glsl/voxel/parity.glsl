@@ -1,0 +1,150 @@
+// What: searches one voxel along one axis for the first place where a ray goes from outside to inside or back, a point
+// being inside where an odd number of fragments lies before it in its cell.
+// Reads: header, lists, fragments. Writes: header.corrupted.
+// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one a cell, then bisection.
+// As published it takes surfaces for closed, and a voxel for one smooth surface.
+#ifndef VOXEL_PARITY_GLSL
+#define VOXEL_PARITY_GLSL
+
+#include "contract/trace_log.glsl"
+#include "voxel/search.glsl"
+
+// A point of the ray in a cell.
+struct VoxelPoint {
+    uvec2 list;
+    float depth;
+    bool inside;
+};
+
+ivec2 voxel_cell_at(VoxelRef s, VoxelWalk walk, float t) {
+    vec3 p = triangle_permute(walk.origin + t * walk.direction, walk.axis) * VOXEL_HEADER(s).cells_per_metre;
+    return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
+}
+
+// Counts the fragments of a cell that lie before the ray's point at t.
+VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout TraceState state, inout uint work) {
+    VoxelPoint point;
+    point.list = voxel_list(s, axis_cell_index(walk.axis, cell, VOXEL_HEADER(s).resolution));
+    point.depth = walk.origin[walk.axis] + t * walk.direction[walk.axis];
+    state.cells++;
+    work++;
+    trace_log(STEP_CELL, walk.axis, uint(cell.x), uint(cell.y), t, t);
+    bool sorted = voxel_lists_sorted(s);
+    uint place = sorted ? voxel_bisect(s, point.list, point.depth, state, work) : point.list.x;
+    uint before = place - point.list.x;
+    // No list is longer than VOXEL_SORT_LIMIT here, or the build would not be complete.
+    for (; place < point.list.y; place++) {
+        float z = VOXEL_FRAGMENTS(s)[place].z;
+        state.entries++;
+        work++;
+        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+        if (z < point.depth) {
+            before++;
+        } else if (sorted) {
+            break;
+        }
+    }
+    point.inside = (before & 1u) != 0u;
+    return point;
+}
+
+// The fragment nearest in depth to a point, the lowest triangle of equals; PRIMITIVE_NONE in an empty cell.
+uint voxel_nearest(VoxelRef s, VoxelPoint point, inout TraceState state, inout uint work) {
+    VoxelFragment nearest = VoxelFragment(uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
+    for (uint place = point.list.x; place < point.list.y; place++) {
+        VoxelFragment fragment = VOXEL_FRAGMENTS(s)[place];
+        state.entries++;
+        work++;
+        trace_log(STEP_ENTRY, place, 0u, 0u, fragment.z, fragment.z);
+        float far = abs(fragment.z - point.depth);
+        float near = abs(nearest.z - point.depth);
+        if (far < near || (far == near && fragment.primitive < nearest.primitive)) {
+            nearest = fragment;
+        }
+    }
+    return nearest.primitive;
+}
+
+// Bisects between a point on one side and one on the other, and lets the triangle there become the best hit.
+void voxel_refine(VoxelRef s, Ray ray, VoxelWalk walk, float t_before, float t_after, ivec2 cell_after, bool inside_before,
+    inout TraceState state, inout uint work) {
+    VoxelPoint after = voxel_point(s, walk, t_after, cell_after, state, work);
+    for (uint k = 0u; k < VOXEL_REFINEMENTS; k++) {
+        float t = 0.5 * (t_before + t_after);
+        VoxelPoint middle = voxel_point(s, walk, t, voxel_cell_at(s, walk, t), state, work);
+        if (middle.inside == inside_before) {
+            t_before = t;
+        } else {
+            t_after = t;
+            after = middle;
+        }
+    }
+    uint primitive = voxel_nearest(s, after, state, work);
+    if (primitive == PRIMITIVE_NONE) {
+        // Only the cell before holds anything.
+        VoxelPoint before = voxel_point(s, walk, t_before, voxel_cell_at(s, walk, t_before), state, work);
+        primitive = voxel_nearest(s, before, state, work);
+    }
+    float t = 0.5 * (t_before + t_after);
+    uint verdict = primitive == PRIMITIVE_NONE ? TEST_BESIDE : (primitive == ray.exclude_primitive ? TEST_EXCLUDED
+        : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
+        : (hit_is_better(state.best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER))));
+    trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, after.depth);
+    if (verdict == TEST_ACCEPTED) {
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        geometry_vertices(primitive, a, b, c);
+        vec2 found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        state.best = Hit(t, primitive, found.x, found.y);
+    }
+}
+
+// Searches the walk's voxel in the walk's view. True if the work budget ended first.
+bool voxel_search_parity(VoxelRef s, Ray ray, inout VoxelWalk walk, inout TraceState state, inout uint work) {
+    vec2 stretch = vec2(max(walk.voxels.t_in, ray.t_min), min(walk.voxels.t_out, ray.t_max));
+    bool restored = walk.searching;
+    uint steps = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? VOXEL_HEADER(s).samples : 0u;
+    if (!(stretch.x <= stretch.y) || !voxel_begin_cells(s, stretch, walk)) {
+        return false;
+    }
+    if (restored) {
+        voxel_restore_cells(state, walk);
+    } else {
+        walk.inside = voxel_point(s, walk, stretch.x, walk.cells.cell.xy, state, work).inside;
+        walk.place = 0u;
+    }
+    walk.searching = true;
+    uint best = state.best.primitive;
+    float t_best = state.best.t;
+    bool more = true;
+    while (more) {
+        if (work >= WORK_BUDGET) {
+            return true;
+        }
+        float t_before = max(walk.cells.t_in, stretch.x);
+        float t_after = min(walk.cells.t_out, stretch.y);
+        ivec2 cell = walk.cells.cell.xy;
+        if (VOXEL_MARCH == VOXEL_MARCH_SAMPLES) {
+            float length = stretch.y - stretch.x;
+            t_before = stretch.x + length * (float(walk.place) / float(steps));
+            t_after = stretch.x + length * (float(walk.place + 1u) / float(steps));
+            cell = voxel_cell_at(s, walk, t_after);
+        }
+        VoxelPoint point = voxel_point(s, walk, t_after, cell, state, work);
+        if (point.inside != walk.inside) {
+            voxel_refine(s, ray, walk, t_before, t_after, cell, walk.inside, state, work);
+        }
+        walk.inside = point.inside;
+        // The first crossing that counts is the nearest.
+        bool found = state.best.primitive != best || state.best.t != t_best;
+        walk.place++;
+        more = !found && (VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? walk.place < steps : grid_next(walk.cells));
+        walk.cell = walk.cells.cell;
+    }
+    walk.searching = false;
+    return false;
+}
+
+#endif

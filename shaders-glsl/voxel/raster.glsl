@@ -1,0 +1,78 @@
+// What: the fragment's side of the draws of the axis A-buffers: triangles pulled from the geometry, one instance a view,
+// or one in all where a triangle is drawn only into the view that it faces most.
+// Reads: geometry, header. Writes: nothing.
+// Without attachments no layers are needed: the view travels as a varying.
+#ifndef VOXEL_RASTER_GLSL
+#define VOXEL_RASTER_GLSL
+
+#include "ads/geometry.glsl"
+#include "voxel/accessors.glsl"
+
+layout(push_constant, scalar) uniform VoxelBuildConstants {
+    VoxelRef voxel_built;
+};
+
+// The corners of a triangle in the frame of a view.
+void voxel_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+    a = axis_from_world(view, a);
+    b = axis_from_world(view, b);
+    c = axis_from_world(view, c);
+}
+
+// A triangle's unit normal in the frame of its corners.
+vec3 voxel_unit_normal(vec3 a, vec3 b, vec3 c) {
+    vec3 normal = cross(b - a, c - a);
+    // Scaled first, so that no square overflows or vanishes.
+    float largest = max(abs(normal.x), max(abs(normal.y), abs(normal.z)));
+    return largest > 0.0 ? normalize(normal / largest) : vec3(0.0);
+}
+
+// What a fragment invocation finds in its cell.
+struct VoxelFound {
+    uint list;            // running index of the cell
+    uint voxel;           // running index of the voxel that the fragment lies in
+    float z;
+    vec2 barycentrics;
+};
+
+// False where the triangle leaves no fragment in the cell.
+bool voxel_fragment(uint primitive, uint axis, vec4 frag_coord, out VoxelFound found) {
+    AxisView view = voxel_view(voxel_built, axis);
+    ivec2 cell = ivec2(frag_coord.xy) - 1;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    found = VoxelFound(0u, 0xFFFFFFFFu, 0.0, vec2(1.0 / 3.0));
+    if (any(lessThan(cell, ivec2(0))) || any(greaterThanEqual(cell, ivec2(view.resolution)))) {
+        return false;
+    }
+    voxel_view_vertices(view, primitive, a, b, c);
+    if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
+        if (!axis_at_center(view, a, b, c, cell, found.z, found.barycentrics)) {
+            return false;
+        }
+    } else {
+        // Where the rasterizer says so: the plane's depth, within those of the corners.
+        vec3 center = axis_center(view, cell);
+        precise vec3 ab = b - a;
+        precise vec3 ac = c - a;
+        precise vec3 normal = ab.yzx * ac.zxy - ab.zxy * ac.yzx;
+        if (normal.z == 0.0) {
+            return false;
+        }
+        precise float z = a.z + ((a.x - center.x) * normal.x + (a.y - center.y) * normal.y) / normal.z;
+        found.z = clamp(z, min(a.z, min(b.z, c.z)), max(a.z, max(b.z, c.z)));
+        found.barycentrics = clamp(triangle_barycentrics(vec3(center.xy, found.z), a, b, c), 0.0, 1.0);
+    }
+    found.list = axis_cell_index(axis, cell, view.resolution);
+    // In voxels. Precise, like all that decides whether a fragment is kept: a pass that counts and one that stores must
+    // decide alike.
+    float voxels_per_metre = VOXEL_HEADER(voxel_built).voxels_per_metre;
+    precise vec3 place = vec3(axis_center(view, cell).xy, found.z) * voxels_per_metre;
+    ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(voxel_built).grid) - 1);
+    found.voxel = voxel_index(voxel_built, axis_to_world(voxel, axis));
+    return true;
+}
+
+#endif

@@ -1,0 +1,35 @@
+// What: the numbers that the scan of lists runs over: lengths become places, and their sum, in whole pages, the demand.
+// Reads, writes: lists, sums, header.demand.
+#ifndef VOXEL_SCANNED_GLSL
+#define VOXEL_SCANNED_GLSL
+
+#include "voxel/accessors.glsl"
+
+#define ScanRef VoxelRef
+
+uint scan_count(VoxelRef s, uint step) {
+    return voxel_list_count(s);
+}
+
+// Places are whole pages already, so that rounding changes none of them.
+uint scan_number(VoxelRef s, uint step, uint i) {
+    return voxel_paged(VOXEL_LISTS(s)[i]);
+}
+
+void scan_set_number(VoxelRef s, uint step, uint i, uint number) {
+    VOXEL_LISTS(s)[i] = number;
+}
+
+uint scan_sum(VoxelRef s, uint step, uint block) {
+    return VOXEL_SUMS(s)[block];
+}
+
+void scan_set_sum(VoxelRef s, uint step, uint block, uint sum) {
+    VOXEL_SUMS(s)[block] = sum;
+}
+
+void scan_set_total(VoxelRef s, uint step, uint total) {
+    VOXEL_HEADER(s).demand = total;
+}
+
+#endif

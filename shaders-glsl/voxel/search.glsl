@@ -1,0 +1,118 @@
+// What: searches one voxel along one axis for the nearest fragment whose plane a ray hits.
+// Reads: header, lists, fragments, geometry. Writes: header.corrupted.
+// Source: Hu et al. section 3.2, 2D-DDA; planes instead of the parity of depths. The order of lists only skips fragments
+// that the depths would refuse, so hits do not depend on it.
+#ifndef VOXEL_SEARCH_GLSL
+#define VOXEL_SEARCH_GLSL
+
+#include "contract/trace_log.glsl"
+#include "ads/judge_plane.glsl"
+#include "voxel/walk.glsl"
+
+bool voxel_lists_sorted(VoxelRef s) {
+    return VOXEL_SORT != 0u && VOXEL_HEADER(s).unsorted == 0u;
+}
+
+// The first fragment of a sorted list that lies at a depth or beyond, but for the last few steps.
+uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
+    // Each step halves what is left.
+    for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
+        uint middle = list.x + (list.y - list.x) / 2u;
+        float z = VOXEL_FRAGMENTS(s)[middle].z;
+        state.entries++;
+        work++;
+        trace_log(STEP_ENTRY, middle, 0u, 0u, z, z);
+        list = z < depth ? uvec2(middle + 1u, list.y) : uvec2(list.x, middle);
+    }
+    return list.x;
+}
+
+// Searches the list of the walk's cell over the ray's stretch in it. True if the work budget ended first.
+bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, inout TraceState state, inout uint work) {
+    uint resolution = VOXEL_HEADER(s).resolution;
+    float width = VOXEL_HEADER(s).cell;
+    uint index = axis_cell_index(walk.axis, walk.cell.xy, resolution);
+    uvec2 list = voxel_list(s, index);
+    bool sorted = voxel_lists_sorted(s);
+    // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises by a cell at
+    // most from the centre to a corner. A cell more finds triangles that the ray meets in the next cell, whose centre
+    // they may not cover.
+    float origin_z = walk.origin[walk.axis];
+    float direction_z = walk.direction[walk.axis];
+    float z_in = origin_z + stretch.x * direction_z;
+    float z_out = origin_z + stretch.y * direction_z;
+    float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE
+        ? 2.01 * width + 4.8e-7 * (abs(origin_z) + max(abs(stretch.x), abs(stretch.y)) * abs(direction_z))
+        : uintBitsToFloat(0x7F800000u);
+    float low = min(z_in, z_out) - slack;
+    float high = max(z_in, z_out) + slack;
+    PlaneCell plane_cell = PlaneCell(vec3(0.0), 0.0, width, VOXEL_PLANE_REACH, true);
+    uint place = walk.place;
+    if (!walk.in_list) {
+        trace_log(STEP_LIST, index, list.x, list.y, low, high);
+        place = sorted && list.y - list.x > VOXEL_BISECT_FROM ? voxel_bisect(s, list, low, state, work) : list.x;
+    }
+    walk.in_list = false;
+    for (; place < list.y; place++) {
+        if (work >= WORK_BUDGET) {
+            walk.place = place;
+            walk.in_list = true;
+            return true;
+        }
+        work++;
+        state.entries++;
+        VoxelFragment fragment = VOXEL_FRAGMENTS(s)[place];
+        trace_log(STEP_ENTRY, place, 0u, 0u, fragment.z, fragment.z);
+        if (fragment.z > high && sorted) {
+            trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
+            return false;
+        }
+        if (fragment.z < low || fragment.z > high) {
+            trace_log(STEP_FRAGMENT, fragment.primitive, TEST_OUTSIDE_CELL, 0u, 0.0, fragment.z);
+            continue;
+        }
+        state.tests++;
+        test_plane(plane_cell, ray, fragment.primitive, stretch.x, stretch.y, state.best);
+    }
+    return false;
+}
+
+// Searches the walk's voxel in the walk's view. True if the work budget ended first.
+bool voxel_search(VoxelRef s, Ray ray, vec2 stretch, bool any_hit, inout VoxelWalk walk, inout TraceState state,
+    inout uint work) {
+    bool restored = walk.searching;
+    if (!voxel_begin_cells(s, stretch, walk)) {
+        return false;
+    }
+    if (restored) {
+        voxel_restore_cells(state, walk);
+    } else {
+        walk.in_list = false;
+    }
+    walk.searching = true;
+    bool more = true;
+    while (more) {
+        vec2 within = vec2(max(stretch.x, walk.cells.t_in - walk.cells.error_in),
+            min(stretch.y, walk.cells.t_out + walk.cells.t_error));
+        if (within.x > state.best.t) {
+            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, within.x, within.y);
+            break;
+        }
+        if (!walk.in_list) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            state.cells++;
+            trace_log(STEP_CELL, walk.axis, uint(walk.cell.x), uint(walk.cell.y), within.x, within.y);
+        }
+        if (voxel_search_list(s, ray, within, walk, state, work)) {
+            return true;
+        }
+        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next_cell(walk);
+    }
+    walk.searching = false;
+    return false;
+}
+
+#endif

@@ -1,0 +1,76 @@
+// What: follows a ray through the voxels, and searches those in which something lies along their axes.
+// Reads: all pools, geometry. Writes: header.corrupted.
+// Source: Hu et al. section 3.2.
+#ifndef VOXEL_TRACE_GLSL
+#define VOXEL_TRACE_GLSL
+
+#include "voxel/search.glsl"
+#include "voxel/parity.glsl"
+
+uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
+    if ((VOXEL_HEADER(s).status & STATUS_COMPLETE) == 0u) {
+        return TRACE_NOT_READY;
+    }
+    VoxelWalk walk;
+    if (!ray_is_valid(ray)) {
+        return TRACE_MISS;
+    }
+    bool more = voxel_begin(s, ray, walk);
+    if (!more) {
+        trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
+    } else if ((state.cursor[0] & VOXEL_CURSOR_STARTED) != 0u) {
+        voxel_restore(state, walk);
+    }
+    bool entered = walk.searching;
+    uint work = 0u;
+    while (more) {
+        vec2 stretch = voxel_stretch(walk);
+        // Nothing behind the best hit can be nearer.
+        if (stretch.x > state.best.t) {
+            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+            break;
+        }
+        uint bits = voxel_bits(s, voxel_index(s, walk.voxel));
+        if (!entered) {
+            if (work >= WORK_BUDGET) {
+                voxel_save(walk, state);
+                return TRACE_PAUSED;
+            }
+            work++;
+            state.cells++;
+            // A cell of a fourth view, whose rows are those of all layers.
+            uint row = uint(walk.voxel.y) + VOXEL_HEADER(s).grid * uint(walk.voxel.z);
+            trace_log(STEP_CELL, AXIS_VIEWS, uint(walk.voxel.x), row, stretch.x, stretch.y);
+        }
+        entered = false;
+        if (bits == 0u) {
+            trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
+        }
+        for (; walk.axis < AXIS_VIEWS; walk.axis++) {
+            if ((bits >> walk.axis & 1u) == 0u || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+                continue;
+            }
+            bool paused = VOXEL_ACCEPT == VOXEL_ACCEPT_PLANE ? voxel_search(s, ray, stretch, any_hit, walk, state, work)
+                : voxel_search_parity(s, ray, walk, state, work);
+            if (paused) {
+                voxel_save(walk, state);
+                return TRACE_PAUSED;
+            }
+        }
+        walk.axis = 0u;
+        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next(walk);
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+
+uint voxel_trace_closest(VoxelRef s, Ray ray, inout TraceState state, out Hit hit) {
+    uint result = voxel_trace(s, ray, state, false);
+    hit = state.best;
+    return result;
+}
+
+uint voxel_trace_occluded(VoxelRef s, Ray ray, inout TraceState state) {
+    return voxel_trace(s, ray, state, true);
+}
+
+#endif

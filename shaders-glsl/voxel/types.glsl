@@ -1,0 +1,47 @@
+// What: the records and options of voxels with axis A-buffers.
+// Reads, writes: nothing.
+// Source: Hu et al. 2014, section 3.1; Frid Kastrati and Goswami 2017, section 3.
+#ifndef VOXEL_TYPES_GLSL
+#define VOXEL_TYPES_GLSL
+
+#include "contract/types.glsl"
+#include "voxel/constants.glsl"
+
+// Constant ids 70 to 89 belong to voxels.
+layout(constant_id = 70) const uint VOXEL_AXES = VOXEL_AXES_TRIANGLE;
+layout(constant_id = 71) const uint VOXEL_MARCH = VOXEL_MARCH_EXACT;
+layout(constant_id = 72) const uint VOXEL_ACCEPT = VOXEL_ACCEPT_PLANE;
+layout(constant_id = 73) const uint VOXEL_COVERAGE = VOXEL_COVERAGE_EXACT;
+layout(constant_id = 74) const uint VOXEL_PAGE = 1u;
+layout(constant_id = 75) const uint VOXEL_SORT = 1u;
+
+// State and sizes of one value. 104 bytes.
+struct VoxelHeader {
+    uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
+    uint demand;          // entries of all pages, also those beyond the capacity
+    uint capacity;        // entries the pool holds
+    uint fragments;       // fragments met by the build, without what is left of their pages
+    uint unsorted;        // lists longer than the sort pass sorts
+    uint corrupted;       // lists that reached beyond the pool
+    uint resolution;      // cells a side of a view
+    uint grid;            // voxels a side
+    uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
+    float cell;           // metres: side of a cell
+    float voxel;          // metres: side of a voxel
+    float cells_per_metre;
+    float voxels_per_metre;
+    vec3 lower;           // metres relative to the frame origin: lower corner of the cube
+    uvec2 voxels_address; // device addresses of the pools, zero where descriptors are used
+    uvec2 normals_address;
+    uvec2 lists_address;
+    uvec2 fragments_address;
+    uvec2 sums_address;
+};
+
+// A fragment: 8 bytes.
+struct VoxelFragment {
+    float z;              // depth at the cell's centre, metres from the lower side of the cube
+    uint primitive;
+};
+
+#endif

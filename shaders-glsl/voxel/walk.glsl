@@ -1,0 +1,140 @@
+// What: a ray's way through the voxels, and through the cells of a view within a voxel, able to stop and go on.
+// Reads: header. Writes: nothing.
+// Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells (ads/march_grid.glsl).
+// cursor: 0 flags and small numbers, 1 voxel, 2 its entry, 3 its neighbours, 4 cell, 5 its entry, 6 place in what is being
+// searched.
+#ifndef VOXEL_WALK_GLSL
+#define VOXEL_WALK_GLSL
+
+#include "contract/trace_state.glsl"
+#include "ads/march_grid.glsl"
+#include "voxel/accessors.glsl"
+
+#define VOXEL_CURSOR_STARTED 1u
+// The walk through the cells of a view has begun.
+#define VOXEL_CURSOR_SEARCHING 2u
+// The search of the cell has begun: it stands at `place`.
+#define VOXEL_CURSOR_IN_LIST 4u
+// The point before the next step lies inside (parity).
+#define VOXEL_CURSOR_INSIDE 8u
+
+struct VoxelWalk {
+    vec3 origin;          // metres from the lower corner of the cube
+    vec3 direction;
+    GridMarch voxels;
+    ivec3 voxel;          // the voxel being searched: that of the march or one beside it
+    uint axis;            // the view being searched
+    GridMarch cells;
+    ivec3 cell;
+    bool searching;
+    bool in_list;
+    bool inside;
+    uint place;           // the next fragment, or the next step
+};
+
+// Starts the walk through the voxels; false where the ray does not meet them.
+bool voxel_begin(VoxelRef s, Ray ray, out VoxelWalk walk) {
+    vec3 lower = VOXEL_HEADER(s).lower;
+    precise vec3 origin = ray.origin - lower;
+    float scale = VOXEL_HEADER(s).voxels_per_metre;
+    walk.origin = origin;
+    walk.direction = ray.direction;
+    walk.axis = 0u;
+    walk.searching = false;
+    walk.in_list = false;
+    walk.inside = false;
+    walk.place = 0u;
+    bool meets = grid_begin(origin * scale, ray.direction * scale, ivec3(VOXEL_HEADER(s).grid), ray.t_min, ray.t_max, walk.voxels);
+    walk.voxel = walk.voxels.cell;
+    return meets;
+}
+
+// Goes to the next voxel; false at the end.
+bool voxel_next(inout VoxelWalk walk) {
+    if (grid_take_neighbour(walk.voxels, walk.voxel)) {
+        return true;
+    }
+    bool more = grid_next(walk.voxels);
+    walk.voxel = walk.voxels.cell;
+    return more;
+}
+
+// The ray's stretch in the voxel, widened by the errors of its ends.
+vec2 voxel_stretch(VoxelWalk walk) {
+    return vec2(walk.voxels.t_in - walk.voxels.error_in, walk.voxels.t_out + walk.voxels.t_error);
+}
+
+// Starts the walk through the cells of the walk's view over a stretch of the ray; false where it meets none. The third
+// axis is depth, on which everything is one cell.
+bool voxel_begin_cells(VoxelRef s, vec2 stretch, inout VoxelWalk walk) {
+    int resolution = int(VOXEL_HEADER(s).resolution);
+    float scale = VOXEL_HEADER(s).cells_per_metre;
+    vec3 to_cells = vec3(scale, scale, scale / float(resolution));
+    vec3 origin = triangle_permute(walk.origin, walk.axis) * to_cells;
+    vec3 direction = triangle_permute(walk.direction, walk.axis) * to_cells;
+    bool meets = grid_begin(origin, direction, ivec3(resolution, resolution, 1), stretch.x, stretch.y, walk.cells);
+    walk.cell = walk.cells.cell;
+    return meets;
+}
+
+// Goes to the next cell; false at the end.
+bool voxel_next_cell(inout VoxelWalk walk) {
+    if (grid_take_neighbour(walk.cells, walk.cell)) {
+        return true;
+    }
+    bool more = grid_next(walk.cells);
+    walk.cell = walk.cells.cell;
+    return more;
+}
+
+// The 3x3x3 place of a cell beside another one, and back.
+uint voxel_beside(ivec3 cell, ivec3 center) {
+    ivec3 offset = cell - center + 1;
+    return uint(offset.x + 3 * offset.y + 9 * offset.z);
+}
+
+ivec3 voxel_from_beside(uint beside, ivec3 center) {
+    int k = int(beside);
+    return center + ivec3(k % 3, (k / 3) % 3, k / 9) - 1;
+}
+
+void voxel_save(VoxelWalk walk, inout TraceState state) {
+    state.cursor[0] = VOXEL_CURSOR_STARTED | (walk.searching ? VOXEL_CURSOR_SEARCHING : 0u)
+        | (walk.in_list ? VOXEL_CURSOR_IN_LIST : 0u) | (walk.inside ? VOXEL_CURSOR_INSIDE : 0u) | walk.axis << 4
+        | uint(walk.voxels.entry_axis + 1) << 6 | voxel_beside(walk.voxel, walk.voxels.cell) << 8;
+    state.cursor[1] = uint(walk.voxels.cell.x) | uint(walk.voxels.cell.y) << 10 | uint(walk.voxels.cell.z) << 20;
+    state.cursor[2] = floatBitsToUint(walk.voxels.t_in);
+    state.cursor[3] = walk.voxels.neighbours;
+    state.cursor[6] = walk.place;
+    if (walk.searching) {
+        // Of the cells around a cell of a view only the nine at its depth exist.
+        state.cursor[0] |= uint(walk.cells.entry_axis + 1) << 13 | voxel_beside(walk.cell, walk.cells.cell) << 15
+            | (walk.cells.neighbours >> 9 & 511u) << 20;
+        state.cursor[4] = uint(walk.cells.cell.x) | uint(walk.cells.cell.y) << 16;
+        state.cursor[5] = floatBitsToUint(walk.cells.t_in);
+    }
+}
+
+// Takes a walk through the voxels that has begun to where it stood.
+void voxel_restore(TraceState state, inout VoxelWalk walk) {
+    uint flags = state.cursor[0];
+    uint voxel = state.cursor[1];
+    grid_resume(walk.voxels, ivec3(voxel & 1023u, voxel >> 10 & 1023u, voxel >> 20), uintBitsToFloat(state.cursor[2]),
+        int(flags >> 6 & 3u) - 1, state.cursor[3]);
+    walk.voxel = voxel_from_beside(flags >> 8 & 31u, walk.voxels.cell);
+    walk.axis = flags >> 4 & 3u;
+    walk.searching = (flags & VOXEL_CURSOR_SEARCHING) != 0u;
+    walk.in_list = (flags & VOXEL_CURSOR_IN_LIST) != 0u;
+    walk.inside = (flags & VOXEL_CURSOR_INSIDE) != 0u;
+    walk.place = state.cursor[6];
+}
+
+// The same for the walk through the cells of a view.
+void voxel_restore_cells(TraceState state, inout VoxelWalk walk) {
+    uint flags = state.cursor[0];
+    grid_resume(walk.cells, ivec3(state.cursor[4] & 0xFFFFu, state.cursor[4] >> 16, 0), uintBitsToFloat(state.cursor[5]),
+        int(flags >> 13 & 3u) - 1, (flags >> 20 & 511u) << 9);
+    walk.cell = voxel_from_beside(flags >> 15 & 31u, walk.cells.cell);
+}
+
+#endif
