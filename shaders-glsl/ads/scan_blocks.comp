@@ -16,6 +16,10 @@ const uint SHARE = SCAN_BLOCK / SCAN_THREADS;
 void main() {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint count = scan_count(scanned, scan_step);
+    // Structures whose count only the device knows dispatch for all that there is room for.
+    if (block * SCAN_BLOCK >= count) {
+        return;
+    }
     uint first = block * SCAN_BLOCK + gl_LocalInvocationID.x * SHARE;
     uint numbers[SHARE];
     uint sum = 0u;
@@ -30,7 +34,7 @@ void main() {
         }
         before += numbers[i];
     }
-    if (gl_LocalInvocationID.x == 0u && block * SCAN_BLOCK < count) {
+    if (gl_LocalInvocationID.x == 0u) {
         scan_set_sum(scanned, scan_step, block, scan_total());
     }
 }

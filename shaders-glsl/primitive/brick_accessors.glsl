@@ -70,10 +70,9 @@ bool brick_has_nothing(PrimitiveRef s, uint brick) {
     return (PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 0u)] | PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 1u)]) == 0u;
 }
 
-// Files a record, or counts that there was no room for it, and counts its entries.
+// Files a record, or counts that there was no room for it.
 void brick_file_record(PrimitiveRef s, BrickRecord record) {
     uint place = atomicAdd(PRIMITIVE_HEADER(s).record_demand, 1u);
-    atomicAdd(PRIMITIVE_HEADER(s).demand, record.last - record.first + 1u);
     if (place < PRIMITIVE_HEADER(s).record_capacity) {
         PRIMITIVE_RECORDS(s)[3u * place] = record.primitive;
         PRIMITIVE_RECORDS(s)[3u * place + 1u] = record.x | record.y << 12 | record.face << 24;
@@ -95,8 +94,8 @@ uint brick_rank(PrimitiveRef s, uint brick, uint word, uint bit) {
 }
 
 // The list of a cell that lists something, while the words of bricks are those of the scan.
-uint brick_list(PrimitiveRef s, uint face, ivec3 cell) {
-    uint brick = brick_index(face, cell, PRIMITIVE_HEADER(s).tiles, PRIMITIVE_HEADER(s).slices);
+uint brick_list(PrimitiveRef s, uint face, ivec3 cell, uint tiles, uint slices) {
+    uint brick = brick_index(face, cell, tiles, slices);
     return PRIMITIVE_BRICKS(s)[brick_at(brick)] + brick_rank(s, brick, brick_word(cell), brick_bit(cell));
 }
 

@@ -36,16 +36,29 @@ void brick_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     bounds = vec4(min(bounds.xy, place), max(bounds.zw, place));
 }
 
-// False where the triangle reaches into no column of the face.
-bool brick_bin_begin(PrimitiveRef s, uint primitive, uint face, out BrickBin bin) {
+// The corners of a triangle relative to the eye; false for one without area, which is in no list.
+bool brick_bin_corners(PrimitiveRef s, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+    bool listed = triangle_has_area(a, b, c);
+    vec3 eye = PRIMITIVE_HEADER(s).eye;
+    a -= eye;
+    b -= eye;
+    c -= eye;
+    return listed;
+}
+
+// a, b, c relative to the eye. False where the triangle reaches into no column of the face.
+bool brick_bin_begin(PrimitiveGrid grid, Slices slices, uint primitive, uint face, vec3 a, vec3 b, vec3 c, out BrickBin bin) {
     bin.primitive = primitive;
     bin.face = face;
-    bin.grid = primitive_grid(s);
-    bin.slices = primitive_slices(s);
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    primitive_face_vertices(s, primitive, face, a, b, c);
+    bin.grid = grid;
+    bin.slices = slices;
+    a = face_from_world(a, face);
+    b = face_from_world(b, face);
+    c = face_from_world(c, face);
+    if (max(a.z, max(b.z, c.z)) < 0.5 * grid.near_size) {
+        return false;
+    }
     float nearest = min(a.z, min(b.z, c.z));
     bin.margin = brick_margin(bin.grid, nearest);
     // What lies nearer than half the near box is met there. Cutting an edge there is right to a column.
@@ -60,8 +73,7 @@ bool brick_bin_begin(PrimitiveRef s, uint primitive, uint face, out BrickBin bin
     brick_bound_edge(a, c, near_size, bounds);
     float reach = bin.margin + 2.0e-6 + (nearest < near_size ? 2.0 / float(bin.grid.tiles) : 0.0);
     bounds += vec4(-reach, -reach, reach, reach);
-    if (bounds.x > 1.0 || bounds.y > 1.0 || bounds.z < -1.0 || bounds.w < -1.0 || bounds.x > bounds.z
-        || !primitive_is_listed(primitive)) {
+    if (bounds.x > 1.0 || bounds.y > 1.0 || bounds.z < -1.0 || bounds.w < -1.0) {
         return false;
     }
     float half_side = 0.5 * float(bin.grid.tiles);
@@ -87,8 +99,9 @@ bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
     return widest - narrow < 0.125 * half_side || primitive_overlap_at(bin.grid, bin.overlap, vec3(place, 1.0), narrow, depths);
 }
 
-// Files the triangle in the columns from `lower` to `upper` that it reaches into.
-void brick_bin_columns(PrimitiveRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
+// Files the triangle in the columns from `lower` to `upper` that it reaches into. Returns how many entries that makes.
+uint brick_bin_columns(PrimitiveRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
+    uint entries = 0u;
     for (int y = lower.y; y <= upper.y; y++) {
         for (int x = lower.x; x <= upper.x; x++) {
             vec2 depths;
@@ -96,9 +109,11 @@ void brick_bin_columns(PrimitiveRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
                 uint first = uint(slice_of(depths.x - bin.grid.rounding, bin.slices));
                 uint last = uint(slice_of(depths.y + bin.grid.rounding, bin.slices));
                 brick_file_record(s, BrickRecord(bin.primitive, uint(x), uint(y), bin.face, first, last));
+                entries += last - first + 1u;
             }
         }
     }
+    return entries;
 }
 
 #endif

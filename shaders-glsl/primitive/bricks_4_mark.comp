@@ -17,11 +17,13 @@ void main() {
         return;
     }
     BrickRecord record = brick_record(primitive_built, place);
+    uint tiles = PRIMITIVE_HEADER(primitive_built).tiles;
+    uint slices = PRIMITIVE_HEADER(primitive_built).slices;
     for (uint slice = record.first & ~1u; slice <= record.last; slice += 2u) {
         ivec3 cell = ivec3(record.x, record.y, slice);
         uint bit = brick_bit(cell);
         uint bits = (slice >= record.first ? 1u << bit : 0u) | (slice < record.last ? 1u << (bit + 16u) : 0u);
-        uint brick = brick_index(record.face, cell, PRIMITIVE_HEADER(primitive_built).tiles, PRIMITIVE_HEADER(primitive_built).slices);
+        uint brick = brick_index(record.face, cell, tiles, slices);
         uint word = brick_mask_at(brick, brick_word(cell));
         // Most bits are set already, and reading is cheaper.
         if ((PRIMITIVE_BRICKS(primitive_built)[word] & bits) != bits) {

@@ -17,11 +17,15 @@ void main() {
         return;
     }
     BrickRecord record = brick_record(primitive_built, place);
+    uint tiles = PRIMITIVE_HEADER(primitive_built).tiles;
+    uint slices = PRIMITIVE_HEADER(primitive_built).slices;
+    uint cells = PRIMITIVE_HEADER(primitive_built).cell_capacity;
+    uint capacity = PRIMITIVE_HEADER(primitive_built).capacity;
     for (uint slice = record.first; slice <= record.last; slice++) {
-        uint list = brick_list(primitive_built, record.face, ivec3(record.x, record.y, slice));
-        if (list < PRIMITIVE_HEADER(primitive_built).cell_capacity) {
+        uint list = brick_list(primitive_built, record.face, ivec3(record.x, record.y, slice), tiles, slices);
+        if (list < cells) {
             uint entry = atomicAdd(PRIMITIVE_LISTS(primitive_built)[list], 1u);
-            if (entry < PRIMITIVE_HEADER(primitive_built).capacity) {
+            if (entry < capacity) {
                 PRIMITIVE_ENTRIES(primitive_built)[entry] = record.primitive;
             }
         }

@@ -1,8 +1,9 @@
 // What: declares the structure complete, or says what was missing.
-// Reads: header. Writes: header.status.
+// Reads: header, geometry. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/header.glsl"
+#include "ads/geometry.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -14,6 +15,7 @@ void main() {
     bool lists_fit = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
         && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
     bool fits = lists_fit && PRIMITIVE_HEADER(primitive_built).record_demand <= PRIMITIVE_HEADER(primitive_built).record_capacity
-        && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity;
+        && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity
+        && (PRIMITIVE_STORAGE != PRIMITIVE_STORAGE_BRICKS || geometry_triangle_count() <= PRIMITIVE_HEADER(primitive_built).triangle_capacity);
     PRIMITIVE_HEADER(primitive_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
 }

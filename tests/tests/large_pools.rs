@@ -2,7 +2,7 @@
 //! same hits; and, in the full tier, a million triangles in every kind of structure.
 
 use rasray_ads::{AdsError, Hit, Ray, Structure};
-use rasray_ads_primitive::{Addressing, Config, PrimitiveLists};
+use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
 use rasray_tests::harness::Bench;
@@ -27,7 +27,7 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     triangles.extend(closed_box([-4.0; 3], [4.0; 3]));
     let geometry = bench.geometry(&triangles);
     // A word a list: 202 million bytes of lists.
-    let config = Config { tile: 1, buckets: 8, ..Config::robust(1024) };
+    let config = Config { tile: 1, buckets: 8, storage: Storage::Contiguous, ..Config::robust(1024) };
     let described = PrimitiveLists::new(bench.device(), config, &geometry, None);
     if limit >= 202 << 20 {
         println!("skipped: one binding of this device holds {limit} bytes");
@@ -79,7 +79,10 @@ fn a_million_triangles_are_found_alike() {
         let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
         check(builder.name(), &mut tree);
     }
-    let mut lists = PrimitiveLists::new(bench.device(), Config::robust(512), &geometry, None)
-        .expect("the options are valid");
-    check("dirt", &mut lists);
+    for storage in [Storage::Contiguous, Storage::Bricks] {
+        let config = Config { storage, ..Config::robust(512) };
+        let mut lists =
+            PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        check(&format!("{storage:?}"), &mut lists);
+    }
 }

@@ -177,6 +177,23 @@ fn bricks_grow_from_any_room_to_what_they_need() {
     }
 }
 
+/// Pools for fewer triangles than there are make no half structure.
+#[test]
+fn bricks_notice_missing_room_for_triangles() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let config = Config { storage: Storage::Bricks, ..Config::robust(32) };
+    let mut structure = made(&bench, config, &triangles);
+    let few = Demand { triangles: 3, ..room(1 << 20, 1 << 10, &triangles) };
+    structure.resize(bench.device(), &plan(&config, &few).expect("in range")).expect("it fits");
+    let status = build(&bench, &mut structure);
+    assert!(!status.complete, "{status:?}");
+    let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
+    structure.resize(bench.device(), &sizes).expect("it fits");
+    assert!(build(&bench, &mut structure).complete);
+    assert!(trace(&bench, &structure, &rays).iter().all(Hit::is_hit));
+}
+
 /// More triangles than there was room for when the structure was made.
 #[test]
 fn bricks_take_another_geometry() {

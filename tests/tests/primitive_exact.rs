@@ -148,7 +148,7 @@ fn lists_that_cover_too_little_are_noticed() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays(5, 4000, 9.0));
     let expected = brute_force(&bench, &triangles, &rays);
-    let config = Config { coverage: Coverage::Hardware, ..Config::robust(64) };
+    let config = Config { coverage: Coverage::Hardware, storage: Storage::Contiguous, ..Config::robust(64) };
     let structure = lists(&bench, config, &triangles, EYES[0]);
     let lost = differences(&bench.trace(&structure, &rays).hits, &expected).len();
     assert!(lost > 50, "{lost} of {} hits differ", rays.len());

@@ -83,6 +83,7 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         bvh(bench, geometry, Builder::Lbvh, counters, Some(5)),
         lists(bench, geometry, Storage::Contiguous, counters, work_budget),
         lists(bench, geometry, Storage::Linked, counters, work_budget),
+        lists(bench, geometry, Storage::Bricks, counters, Some(5)),
         abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
         abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
         voxels(bench, geometry, VoxelConfig { counters, work_budget, ..VoxelConfig::robust(RESOLUTION) }),

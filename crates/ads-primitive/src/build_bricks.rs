@@ -9,8 +9,6 @@ use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 use crate::layout::brick_count;
 use crate::{Config, Header};
 
-/// Faces of the cube.
-const VIEWS: u64 = 6;
 /// What the steps of the scan run over.
 const SCAN_LISTS: u32 = 0;
 const SCAN_BRICKS: u32 = 1;
@@ -77,7 +75,7 @@ impl BuildBricks {
         pass(recorder, "primitive/build_1_near", &self.near, triangles, compute);
         pass(recorder, "primitive/bricks_2_slices", &self.slices, 1, compute);
         let arguments = compute | Access::INDIRECT_READ;
-        pass(recorder, "primitive/bricks_3_bin", &self.bin, VIEWS * triangles, arguments);
+        pass(recorder, "primitive/bricks_3_bin", &self.bin, triangles, arguments);
         let groups = offset_of!(Header, groups) as u64;
         target.indirect_pass(recorder, "primitive/bricks_3_bin_many", &self.bin_many, groups, compute);
         pass(recorder, "primitive/bricks_4_mark", &self.mark, records, compute);

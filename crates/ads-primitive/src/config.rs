@@ -70,7 +70,7 @@ impl Config {
             buckets: 16,
             slices: None,
             corners: true,
-            storage: Storage::Contiguous,
+            storage: Storage::Bricks,
             coverage: Coverage::Exact,
             skip: true,
             addressing: Addressing::Descriptor,
@@ -78,6 +78,16 @@ impl Config {
             counters: Counters::Off,
             work_budget: None,
         }
+    }
+
+    /// The same with as many pixels a side as suit that many triangles: bricks whose tiles are about as wide as a
+    /// triangle is seen, a power of two from 32 to 256.
+    pub fn robust_for(triangles: u32) -> Self {
+        let wanted = f64::from(triangles).sqrt() / 4.0;
+        // Of two powers of two the nearer by ratio.
+        let tiles = 2.0_f64.powf(wanted.max(1.0).log2().round()).clamp(32.0, 256.0) as u32;
+        let unit = Self::robust(1);
+        Self::robust(tiles * unit.tile)
     }
 
     /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels. Bricks have a

@@ -97,7 +97,8 @@ impl PrimitiveLists {
             Storage::Bricks => numbers::PRIMITIVE_BRICK_ROUNDING,
             Storage::Linked | Storage::Contiguous => numbers::PRIMITIVE_ROUNDING,
         } * farthest;
-        let near_size = numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest;
+        // What a ray outside of the near box meets is not behind the eye, also where tiles are few.
+        let near_size = (numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest).max(2.0 * rounding);
         Header {
             capacity: self.pools.sizes().elements("entries") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
@@ -244,7 +245,7 @@ impl Structure for PrimitiveLists {
             near: demand("near").max(allocated.near),
             records: demand("records").max(allocated.records),
             cells: demand("lists").max(allocated.cells),
-            triangles: allocated.triangles,
+            triangles: allocated.triangles.max(self.geometry.triangle_count().into()),
         };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, &demand).map_or(Check::Complete, Check::Grow)

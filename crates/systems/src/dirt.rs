@@ -11,9 +11,10 @@ pub(crate) const SYSTEM: System = System {
     structure: "ads-primitive",
     presets: &[Preset::Robust],
     options: &OPTIONS,
-    requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec)?)),
+    requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
     create: |spec, device, geometry, scene| {
-        Ok(Box::new(PrimitiveLists::new(device, config(spec)?, geometry, scene)?))
+        let config = config(spec, geometry.triangle_count())?;
+        Ok(Box::new(PrimitiveLists::new(device, config, geometry, scene)?))
     },
 };
 
@@ -31,12 +32,16 @@ const OPTIONS: [&str; 10] = [
     "capacity",
 ];
 
-/// Pixels a side of a face where nothing else is asked for.
+/// Pixels a side of a face where lists are asked for and nothing else is.
 const RESOLUTION: u32 = 256;
 
-/// The configuration that a spec stands for.
-fn config(spec: &Spec) -> Result<Config, SystemsError> {
-    let mut config = Config::robust(RESOLUTION);
+/// The configuration that a spec stands for, for a geometry of that many triangles.
+fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
+    let mut config = Config::robust_for(triangles);
+    let lists = Given::all(spec).any(|given| given.name == "storage" && given.is_not("bricks"));
+    if lists {
+        config.resolution = RESOLUTION;
+    }
     config.counters = spec.counters();
     for given in Given::all(spec) {
         match given.name {

@@ -18,6 +18,11 @@ impl<'a> Given<'a> {
         spec.options().iter().map(move |(name, value)| Given { system, name, value })
     }
 
+    /// Whether it is something else than a word.
+    pub(crate) fn is_not(&self, word: &str) -> bool {
+        self.value != word
+    }
+
     /// A whole number.
     pub(crate) fn number(&self) -> Result<u32, SystemsError> {
         self.value.parse().map_err(|_| self.refused("a whole number is expected"))

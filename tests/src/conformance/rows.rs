@@ -270,20 +270,15 @@ pub const ROWS: &[Row] = &[
     },
     // 16 coarse tiles a side, few buckets, linked lists.
     dirt(
-        "dirt-robust-16",
+        "dirt-lists-16",
         &[("resolution", "64"), ("tile", "4"), ("buckets", "4"), ("storage", "llb")],
         Tier::Quick,
         Cases::All,
     ),
-    dirt("dirt-robust-128", &[], Tier::Quick, Cases::Shallow),
+    dirt("dirt-lists-128", &[("storage", "sb")], Tier::Quick, Cases::Shallow),
     // 16 tiles a side and few slices, then as many as a scene of a hundred thousand triangles gets.
-    dirt(
-        "dirt-bricks-16",
-        &[("storage", "bricks"), ("resolution", "16"), ("tile", "1"), ("slices", "12")],
-        Tier::Quick,
-        Cases::All,
-    ),
-    dirt("dirt-bricks-128", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
+    dirt("dirt-robust-16", &[("resolution", "16"), ("tile", "1"), ("slices", "12")], Tier::Quick, Cases::All),
+    dirt("dirt-robust-128", &[("resolution", "256")], Tier::Quick, Cases::Shallow),
     mmrt(
         "mmrt-robust-16",
         Preset::Robust,

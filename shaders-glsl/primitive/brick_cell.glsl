@@ -1,0 +1,84 @@
+// What: what a ray finds in one cell of the bricks: how far around it nothing is, or the list to test.
+// Reads: bricks, lists, triangles, geometry. Writes: header.corrupted.
+// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks.
+#ifndef PRIMITIVE_BRICK_CELL_GLSL
+#define PRIMITIVE_BRICK_CELL_GLSL
+
+#include "primitive/brick_accessors.glsl"
+#include "primitive/search.glsl"
+
+// What stays the same for a ray.
+struct BrickWalk {
+    Slices slices;
+    int tiles;
+    float half_side;      // half the columns of a face
+    float column;         // width of one in x/z
+    float rounding;       // metres: how far from its place the ray may be found
+    uint stored;          // entries
+    uint listed;          // cells with a list
+};
+
+// Cells that a ray may cross in one step: all between first and last along each axis.
+struct BrickBox {
+    ivec3 first;
+    ivec3 last;
+    bool listed;          // one cell, which lists something
+    uint list;
+};
+
+BrickBox brick_box(PrimitiveRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 up) {
+    uint brick = brick_index(face, cell, uint(walk.tiles), uint(walk.slices.count));
+    uint word = PRIMITIVE_BRICKS(s)[brick_at(brick)];
+    BrickBox box = BrickBox(cell, cell, false, 0u);
+    int inside = 0;
+    int beyond = 0;
+    if (PRIMITIVE_SKIP != 0u && brick_is_empty(word)) {
+        inside = 3;
+        beyond = 4 * brick_distance(word, brick_octant(up));
+    } else {
+        uint bits = PRIMITIVE_BRICKS(s)[brick_mask_at(brick, brick_word(cell))];
+        if (PRIMITIVE_SKIP != 0u && (bits & brick_octet(cell)) == 0u) {
+            inside = 1;
+        } else {
+            uint bit = brick_bit(cell);
+            box.listed = (bits >> bit & 1u) != 0u;
+            if (box.listed) {
+                box.list = word + uint(bitCount(bits & ((1u << bit) - 1u)))
+                    + (brick_word(cell) != 0u ? uint(bitCount(PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 0u)])) : 0u);
+            }
+        }
+    }
+    box.first = max((cell & ~inside) - beyond, ivec3(0));
+    box.last = min((cell | inside) + beyond, ivec3(walk.tiles - 1, walk.tiles - 1, walk.slices.count - 1));
+    return box;
+}
+
+// Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
+uvec2 brick_entries(PrimitiveRef s, BrickWalk walk, uint list) {
+    if (list < walk.listed) {
+        uvec2 entries = uvec2(list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u], PRIMITIVE_LISTS(s)[list]);
+        if (entries.y <= walk.stored) {
+            return entries;
+        }
+    }
+    atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+    return uvec2(0u);
+}
+
+// Tests a candidate with the corners kept here, or with those of the geometry.
+void brick_test(PrimitiveRef s, uint primitive, Ray ray, inout TraceState state) {
+    if (PRIMITIVE_CORNERS_KEPT == 0u) {
+        primitive_test(primitive, ray, state);
+        return;
+    }
+    float infinity = uintBitsToFloat(0x7F800000u);
+    if (primitive >= PRIMITIVE_HEADER(s).triangle_capacity) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        return;
+    }
+    state.tests++;
+    test_corners(ray, primitive, PRIMITIVE_CORNERS(s)[3u * primitive], PRIMITIVE_CORNERS(s)[3u * primitive + 1u],
+        PRIMITIVE_CORNERS(s)[3u * primitive + 2u], -infinity, infinity, state.best);
+}
+
+#endif
