@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use rasray_shader_compiler::{Module, compile, read_permutations};
 
 /// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in.
-const NUMBER_FILES: [(&str, &str); 8] = [
+const NUMBER_FILES: [(&str, &str); 9] = [
     ("contract", "contract/constants.glsl"),
     ("ads", "ads/constants.glsl"),
     ("abuffer", "abuffer/constants.glsl"),
     ("bvh", "bvh/constants.glsl"),
+    ("ldc", "ldc/constants.glsl"),
     ("primitive", "primitive/constants.glsl"),
     ("voxel", "voxel/constants.glsl"),
     ("scene", "scene/constants.glsl"),

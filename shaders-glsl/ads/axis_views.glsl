@@ -1,6 +1,6 @@
 // What: the three orthographic views along the axes of a cube of space, and what a triangle does to their cells:
-// which view it faces most, which cells' centres it covers, and the screen triangle that makes the rasterizer visit
-// at least those.
+// which view it faces most, which cells' centres it covers, which cells it reaches into, and the screen triangle that
+// makes the rasterizer visit at least those.
 // Reads, writes: nothing.
 // View 0 looks along x, 1 along y, 2 along z. In the frame of a view the origin is the lower corner of the cube, z is
 // depth, and the order of axes is turned, which is exact. A view has `resolution` cells a side and a border of one, as a
@@ -71,6 +71,74 @@ vec3 axis_center(AxisView view, ivec2 cell) {
 bool axis_at_center(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float z, out vec2 barycentrics) {
     float error;
     return triangle_intersect(axis_center(view, cell), vec3(0.0, 0.0, 1.0), a, b, c, z, barycentrics, error);
+}
+
+// Whether a cell is one of the view, not of its border.
+bool axis_has_cell(uint resolution, ivec2 cell) {
+    return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(resolution)));
+}
+
+// Depth of the plane of a triangle (frame of the view) at a point; that of a corner where the plane is edge-on.
+float axis_plane_depth(vec3 a, vec3 b, vec3 c, vec2 p) {
+    vec3 normal = cross(b - a, c - a);
+    return normal.z == 0.0 ? a.z : a.z - dot(normal.xy, p - a.xy) / normal.z;
+}
+
+// Largest difference of the plane's depth within a cell from that at its centre, metres. A triangle that faces the
+// view most leans by at most a cell a cell along each side.
+float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
+    vec3 normal = cross(b - a, c - a);
+    float rise = 0.5 * (abs(normal.x) + abs(normal.y));
+    return rise < abs(normal.z) ? rise / abs(normal.z) * view.cell : view.cell;
+}
+
+// Whether a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
+// never less.
+bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
+    // In cells, from the centre.
+    float slack = 1.0e-4 + 1.0e-6 * float(view.resolution);
+    vec2 center = vec2(cell) + 0.5;
+    vec2 pa = a.xy / view.cell - center;
+    vec2 pb = b.xy / view.cell - center;
+    vec2 pc = c.xy / view.cell - center;
+    float reach = 0.5 + slack;
+    if (any(greaterThan(min(pa, min(pb, pc)), vec2(reach))) || any(lessThan(max(pa, max(pb, pc)), vec2(-reach)))) {
+        return false;
+    }
+    vec2 ab = pb - pa;
+    vec2 ac = pc - pa;
+    float area = ab.x * ac.y - ab.y * ac.x;
+    // Where the winding is not certain the corners' bounds decide alone.
+    if (!(abs(area) > slack * (abs(ab.x) + abs(ab.y) + abs(ac.x) + abs(ac.y)))) {
+        return true;
+    }
+    float winding = area < 0.0 ? -1.0 : 1.0;
+    vec2 from[3] = vec2[3](pa, pb, pc);
+    vec2 to[3] = vec2[3](pb, pc, pa);
+    for (int edge = 0; edge < 3; edge++) {
+        vec2 span = to[edge] - from[edge];
+        // Positive inside, at the centre.
+        float inside = winding * (from[edge].x * span.y - from[edge].y * span.x);
+        if (inside + reach * (abs(span.x) + abs(span.y)) < 0.0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The point of a triangle that is nearest to a point beside it, across the view.
+vec2 axis_nearest_point(vec3 a, vec3 b, vec3 c, vec2 p) {
+    vec2 from[3] = vec2[3](a.xy, b.xy, c.xy);
+    vec2 to[3] = vec2[3](b.xy, c.xy, a.xy);
+    vec2 nearest = a.xy;
+    for (int edge = 0; edge < 3; edge++) {
+        vec2 span = to[edge] - from[edge];
+        float squared = dot(span, span);
+        float share = squared > 0.0 ? clamp(dot(p - from[edge], span) / squared, 0.0, 1.0) : 0.0;
+        vec2 candidate = from[edge] + share * span;
+        nearest = dot(candidate - p, candidate - p) < dot(nearest - p, nearest - p) ? candidate : nearest;
+    }
+    return nearest;
 }
 
 #endif

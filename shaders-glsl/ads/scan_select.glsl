@@ -22,6 +22,8 @@
 #include "bvh/scanned.glsl"
 #elif STRUCTURE == STRUCTURE_VOXEL
 #include "voxel/scanned.glsl"
+#elif STRUCTURE == STRUCTURE_LDC
+#include "ldc/scanned.glsl"
 #else
 #error "STRUCTURE names no structure that scans: add it to ads/scan_select.glsl"
 #endif

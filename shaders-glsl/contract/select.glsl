@@ -51,6 +51,15 @@
 #include "voxel/surface.glsl"
 #define STRUCTURE_SURFACE_AT voxel_surface_at
 #endif
+#elif STRUCTURE == STRUCTURE_LDC
+#include "ldc/trace.glsl"
+#define StructureRef LdcRef
+#define STRUCTURE_TRACE_CLOSEST ldc_trace_closest
+#define STRUCTURE_TRACE_OCCLUDED ldc_trace_occluded
+#ifdef SURFACES_ENABLED
+#include "ldc/surface.glsl"
+#define STRUCTURE_SURFACE_AT ldc_surface_at
+#endif
 #else
 #error "STRUCTURE names no structure: add it to contract/select.glsl"
 #endif

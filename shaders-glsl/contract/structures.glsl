@@ -7,6 +7,7 @@
 #define STRUCTURE_ABUFFER 2
 #define STRUCTURE_BVH 3
 #define STRUCTURE_PRIMITIVE 4
+#define STRUCTURE_LDC 5
 #define STRUCTURE_VOXEL 6
 
 #endif

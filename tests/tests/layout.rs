@@ -344,6 +344,31 @@ fn records_of_voxels() {
     }
 }
 
+#[test]
+fn records_of_layered_depth_cubes() {
+    let modules = [
+        &shaders::LDC_BUILD_RASTER,
+        &shaders::LDC_BUILD_RASTER_FRINGE,
+        &shaders::LDC_BUILD_1_COUNT,
+        &shaders::LDC_BUILD_2_SCAN_BLOCKS,
+        &shaders::LDC_BUILD_2_SCAN_SUMS,
+        &shaders::LDC_BUILD_2_SCAN_PLACES,
+        &shaders::LDC_BUILD_3_STORE,
+        &shaders::LDC_BUILD_4_SORT,
+        &shaders::LDC_BUILD_5_FRINGE,
+        &shaders::LDC_BUILD_6_STATUS,
+        &shaders::LDC_TRACE_CLOSEST,
+        &shaders::LDC_TRACE_OCCLUDED,
+    ];
+    check_layout!(modules, rasray_ldc::Header as "LdcHeader" {
+        status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
+        tolerance, spare, origin, spare_origin, lower, spare_lower, upper, spare_upper, lists_address,
+        depths_address, primitives_address, blocks_address, heads_address, fringe_address, sums_address,
+    });
+    let by_address = &read_by_us(&shaders::LDC_TRACE_CLOSEST_ADDRESS)["LdcHeader"];
+    assert_eq!(*by_address, read_by_us(&shaders::LDC_TRACE_CLOSEST)["LdcHeader"]);
+}
+
 /// With device addresses the header is reached by a pointer, which only the own reader follows.
 #[test]
 fn records_reached_by_address_are_the_same() {

@@ -5,6 +5,7 @@ use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, 
 use rasray_ads_primitive::{PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::Timing;
+use rasray_ldc::LayeredDepthCube;
 use rasray_reference::oracle::Verdict;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
@@ -72,6 +73,13 @@ fn voxels(bench: &Bench, geometry: &Geometry, config: VoxelConfig) -> Box<dyn St
     Box::new(structure)
 }
 
+fn cube(bench: &Bench, geometry: &Geometry, config: rasray_ldc::Config) -> Box<dyn Structure> {
+    let mut structure =
+        LayeredDepthCube::new(bench.device(), config, geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+    Box::new(structure)
+}
+
 /// Brute force, trees, lists of triangles and of fragments, voxels, with the work that is recorded; budgets are small, so that
 /// rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
@@ -91,6 +99,20 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
             bench,
             geometry,
             VoxelConfig { counters, work_budget, ..VoxelConfig::published_hu(RESOLUTION) },
+        ),
+        cube(
+            bench,
+            geometry,
+            rasray_ldc::Config { counters, work_budget: Some(100), ..rasray_ldc::Config::robust(RESOLUTION) },
+        ),
+        cube(
+            bench,
+            geometry,
+            rasray_ldc::Config {
+                counters,
+                work_budget: Some(100),
+                ..rasray_ldc::Config::published(RESOLUTION)
+            },
         ),
     ]
 }

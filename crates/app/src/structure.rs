@@ -16,6 +16,8 @@ pub enum SystemName {
     Hu,
     /// The same with voxels first, and each fragment in one of the A-buffers
     Selective,
+    /// Layers of fragments along three axes, each triangle along the one it faces most
+    Ldc,
     /// A bounding volume hierarchy with two children a node: the yardstick
     Bvh,
     /// Every triangle tested against every ray: the judge, slow on purpose
@@ -83,6 +85,8 @@ pub enum Accept {
     Interval,
     /// The same with a thickness behind the fragment
     Thickness,
+    /// Its depth is within a fixed tolerance of the ray's depths in the cell
+    Tolerance,
     /// The depths that its triangle takes within the cell meet those of the ray; needs the payload index
     Slope,
     /// The ray meets the plane of its triangle within the cell; needs the payload index
@@ -97,6 +101,8 @@ pub enum Accept {
 pub enum Coverage {
     /// Centre of the cell inside, decided by the shared function
     Exact,
+    /// The same, and cells it reaches into where nothing stands for it
+    Conservative,
     /// Whatever the rasterizer covers
     Hardware,
 }
@@ -119,6 +125,21 @@ pub enum Axes {
 pub enum Views {
     /// Six faces around the centre
     Cube,
+    /// Three along the axes, which do not depend on the eye
+    Axes,
+}
+
+/// How a fragment keeps its depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+pub enum Depth {
+    /// A half, as a share of the cube's side
+    #[value(name = "16")]
+    #[serde(rename = "16")]
+    Bits16,
+    /// A float
+    #[value(name = "32")]
+    #[serde(rename = "32")]
+    Bits32,
 }
 
 /// Who makes a structure, and how.
@@ -164,6 +185,10 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
+    /// Cells along each side of a block of the upper level, a power of two
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub block: Option<u32>,
     /// Depth buckets per cell
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -220,6 +245,14 @@ pub struct StructureOptions {
     #[arg(long, value_name = "METRES", value_parser = crate::arguments::values::not_negative)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f32>,
+    /// With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side
+    #[arg(long, value_name = "SHARE", value_parser = crate::arguments::values::not_negative)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f32>,
+    /// How a fragment keeps its depth
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<Depth>,
     /// Which cells a triangle gets a fragment in
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -302,6 +335,7 @@ mod tests {
         same_words::<Coverage>();
         same_words::<Axes>();
         same_words::<Views>();
+        same_words::<Depth>();
         same_words::<Builder>();
         same_words::<Addressing>();
         same_words::<Switch>();

@@ -242,9 +242,9 @@ mod tests {
                     Spec::new(system.name, "robust", options).is_ok()
                 };
                 // Planes are the only value that excludes others: attributes, and samples.
-                let accepted = SYSTEMS
-                    .iter()
-                    .any(|system| ["interval", "parity"].iter().any(|accept| takes(system, accept)));
+                let accepted = SYSTEMS.iter().any(|system| {
+                    ["interval", "parity", "tolerance"].iter().any(|accept| takes(system, accept))
+                });
                 assert!(accepted, "no system takes --{option} {}", value.get_name());
                 tried += 1;
             }

@@ -6,6 +6,7 @@ mod bvh;
 mod dirt;
 mod error;
 mod hu;
+mod ldc;
 mod mmrt;
 mod option;
 mod selective;

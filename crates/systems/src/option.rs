@@ -33,6 +33,11 @@ impl<'a> Given<'a> {
         self.value.parse().map_err(|_| self.refused("a length in metres is expected"))
     }
 
+    /// A share of a whole.
+    pub(crate) fn share(&self) -> Result<f32, SystemsError> {
+        self.value.parse().map_err(|_| self.refused("a number from 0 to 1 is expected"))
+    }
+
     /// `on` or `off`.
     pub(crate) fn switch(&self) -> Result<bool, SystemsError> {
         self.choice(&[("on", true), ("off", false)])

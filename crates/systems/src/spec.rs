@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rasray_ads::{Counters, Geometry, SceneBinding, Structure};
 use rasray_gpu::{Device, Requirements};
 
-use crate::{SystemsError, brute_force, bvh, dirt, hu, mmrt, selective};
+use crate::{SystemsError, brute_force, bvh, dirt, hu, ldc, mmrt, selective};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -48,8 +48,15 @@ pub(crate) type Create =
     fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
 
 /// Every system.
-pub static SYSTEMS: &[System] =
-    &[mmrt::SYSTEM, dirt::SYSTEM, hu::SYSTEM, selective::SYSTEM, bvh::SYSTEM, brute_force::SYSTEM];
+pub static SYSTEMS: &[System] = &[
+    mmrt::SYSTEM,
+    dirt::SYSTEM,
+    hu::SYSTEM,
+    selective::SYSTEM,
+    ldc::SYSTEM,
+    bvh::SYSTEM,
+    brute_force::SYSTEM,
+];
 
 /// A system, a preset and the options given over it.
 #[derive(Clone, Debug)]

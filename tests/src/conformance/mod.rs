@@ -13,6 +13,7 @@
 //! most [`FALSE_ALARM`] where every law holds, whatever the seed.
 
 mod deviations;
+mod deviations_ldc;
 mod deviations_voxel;
 mod judge;
 mod measure;

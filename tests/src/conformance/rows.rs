@@ -1,7 +1,7 @@
 use rasray_ads::{Geometry, Structure};
 use rasray_systems::{Preset, Spec};
 
-use super::{deviations, deviations_voxel};
+use super::{deviations, deviations_ldc, deviations_voxel};
 use crate::hard_cases;
 use crate::harness::Bench;
 
@@ -220,6 +220,21 @@ const fn mmrt(
     Row { name, system: "mmrt", preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
+const fn ldc(
+    name: &'static str,
+    preset: Preset,
+    options: &'static [(&'static str, &'static str)],
+    cases: Cases,
+    demand: Demand,
+    deviations: &'static [Deviation],
+) -> Row {
+    Row { name, system: "ldc", preset, options, tier: Tier::Quick, cases, demand, deviations }
+}
+
+const fn ldc_law(resolution: u32) -> Demand {
+    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_ldc::ROBUST_LAWS }
+}
+
 const fn bvh(name: &'static str, builder: &'static [(&'static str, &'static str)]) -> Row {
     Row {
         name,
@@ -394,5 +409,27 @@ pub const ROWS: &[Row] = &[
         Cases::Shallow,
         published_law(128),
         deviations_voxel::SELECTIVE_128,
+    ),
+    ldc("ldc-robust-16", Preset::Robust, &[("resolution", "16")], Cases::Deep, ldc_law(16), &[]),
+    ldc("ldc-robust-64", Preset::Robust, &[("resolution", "64")], Cases::Shallow, ldc_law(64), &[]),
+    Row {
+        tier: Tier::Full,
+        ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
+    },
+    ldc(
+        "ldc-published-16",
+        Preset::Published,
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_ldc::PUBLISHED_16,
+    ),
+    ldc(
+        "ldc-published-64",
+        Preset::Published,
+        &[("resolution", "64")],
+        Cases::Shallow,
+        published_law(64),
+        deviations_ldc::PUBLISHED_64,
     ),
 ];

@@ -36,6 +36,7 @@ const fn same_for_primitives(option: &'static str, values: &'static [&'static st
 pub const LAWS: &[Law] = &[
     same("addressing", &["descriptor", "address"]),
     same("builder", &["raster", "binning", "sah", "lbvh"]),
+    same("block", &["1", "4", "64"]),
     same("buckets", &["1", "2", "8", "32"]),
     same("corners", &["on", "off"]),
     same("inline", &["on", "off"]),
@@ -50,7 +51,7 @@ pub const LAWS: &[Law] = &[
     same_for_primitives("slices", &["8", "64"]),
     same_for_primitives("tile", &["1", "2", "4", "8"]),
     same_for_primitives("axes", &["all", "voxel", "triangle"]),
-    same_for_primitives("views", &["cube", "cube+camera", "camera"]),
+    same_for_primitives("views", &["cube", "cube+camera", "camera", "axes"]),
     // What decides whether a fragment is a hit, or what it stands for.
     Law {
         option: "accept",
@@ -58,6 +59,7 @@ pub const LAWS: &[Law] = &[
         fragment: Value::MayChange,
         values: &["interval", "slope", "plane", "parity"],
     },
+    Law { option: "depth", primitive: Value::MayChange, fragment: Value::MayChange, values: &["16", "32"] },
     Law {
         option: "march",
         primitive: Value::MayChange,
@@ -67,6 +69,7 @@ pub const LAWS: &[Law] = &[
     Law { option: "payload", primitive: Value::Same, fragment: Value::MayChange, values: &["index"] },
     Law { option: "samples", primitive: Value::MayChange, fragment: Value::MayChange, values: &["5"] },
     Law { option: "thickness", primitive: Value::MayChange, fragment: Value::MayChange, values: &["0.5"] },
+    Law { option: "tolerance", primitive: Value::MayChange, fragment: Value::MayChange, values: &["0.01"] },
     Law { option: "capacity", primitive: Value::Room, fragment: Value::Room, values: &["0", "1", "1000"] },
 ];
 

@@ -1,0 +1,177 @@
+//! Options of the layered depth cube and the two presets.
+
+use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_shaders_glsl::constants::ldc as numbers;
+
+/// When a fragment counts as hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accept {
+    /// Its depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
+    Tolerance,
+    /// The same with a tolerance that follows the lean of its triangle: half of its rise over the cell.
+    Slope,
+    /// The ray meets the plane of its triangle within the cell.
+    Plane,
+}
+
+/// Which cells a triangle gets a fragment in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// Those whose centre the rasterizer covers, with its sub-pixel grid.
+    Hardware,
+    /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
+    Exact,
+    /// The same, and it is kept beside the centre of other cells that it reaches into, where no fragment stands
+    /// for it: there its own hits count.
+    Conservative,
+}
+
+/// How fragments keep their depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    /// A half, as a share of the cube's side: 2 bytes.
+    Bits16,
+    /// A float in metres: 4 bytes.
+    Bits32,
+}
+
+/// Everything that may be chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Config {
+    /// Cells a side of each view, 1 to 8192.
+    pub resolution: u32,
+    /// Cells a side of a block of the upper level, a power of two up to 64. Changes no hit.
+    pub block: u32,
+    /// When a fragment counts.
+    pub accept: Accept,
+    /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
+    pub tolerance: f32,
+    /// Who decides coverage.
+    pub coverage: Coverage,
+    /// How depths are kept.
+    pub depth: Depth,
+    /// Skip blocks and parts of lists that the ray's depths cannot meet. Changes no hit.
+    pub skip: bool,
+    /// How pools are reached. Changes no hit.
+    pub addressing: Addressing,
+    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    pub fragments: Option<u64>,
+    /// How much of their work rays record. Changes no hit.
+    pub counters: Counters,
+    /// Work units a ray may spend in one dispatch; the shared default where absent. Changes no hit.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// The repaired structure: planes, full depth, and nothing lost between the views.
+    pub fn robust(resolution: u32) -> Self {
+        Self {
+            resolution,
+            block: 8,
+            accept: Accept::Plane,
+            tolerance: 0.001,
+            coverage: Coverage::Conservative,
+            depth: Depth::Bits32,
+            skip: true,
+            addressing: Addressing::Descriptor,
+            fragments: None,
+            counters: Counters::Off,
+            work_budget: None,
+        }
+    }
+
+    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, the rasterizer's own coverage.
+    pub fn published(resolution: u32) -> Self {
+        Self {
+            accept: Accept::Tolerance,
+            coverage: Coverage::Hardware,
+            depth: Depth::Bits16,
+            ..Self::robust(resolution)
+        }
+    }
+
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// The first option out of range.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
+        if !(1..=8192).contains(&self.resolution) {
+            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells a side");
+        }
+        if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
+            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells a side");
+        }
+        if !(0.0..=1.0).contains(&self.tolerance) {
+            return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
+        }
+        match self.work_budget {
+            // A dispatch that resumes a search counts its cell before it reads an entry.
+            Some(budget @ 0..2) => refused(
+                "work budget",
+                budget.to_string(),
+                "2 units or more a dispatch, or rays make no progress",
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    /// Specialisation constants: id and bits.
+    pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
+        let accept = match self.accept {
+            Accept::Tolerance => numbers::LDC_ACCEPT_TOLERANCE,
+            Accept::Slope => numbers::LDC_ACCEPT_SLOPE,
+            Accept::Plane => numbers::LDC_ACCEPT_PLANE,
+        };
+        let coverage = match self.coverage {
+            Coverage::Hardware => numbers::LDC_COVERAGE_HARDWARE,
+            Coverage::Exact => numbers::LDC_COVERAGE_EXACT,
+            Coverage::Conservative => numbers::LDC_COVERAGE_CONSERVATIVE,
+        };
+        vec![
+            (50, accept),
+            (51, coverage),
+            (52, self.depth.bits()),
+            (53, u32::from(self.skip)),
+            (54, self.block),
+        ]
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
+        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
+        let mut options = vec![
+            ("storage", "sb".to_owned()),
+            ("resolution", self.resolution.to_string()),
+            ("block", self.block.to_string()),
+            ("accept", lower(&self.accept)),
+            ("depth", self.depth.bits().to_string()),
+            ("payload", "index".to_owned()),
+            ("views", "axes".to_owned()),
+            ("skip", if self.skip { "on" } else { "off" }.to_owned()),
+        ];
+        if self.accept == Accept::Tolerance {
+            options.push(("tolerance", self.tolerance.to_string()));
+        }
+        options
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("builder", "raster".to_owned()),
+            ("coverage", format!("{:?}", self.coverage).to_lowercase()),
+            ("addressing", self.addressing.name().to_owned()),
+        ]
+    }
+}
+
+impl Depth {
+    /// Bits of a depth.
+    pub fn bits(self) -> u32 {
+        match self {
+            Self::Bits16 => 16,
+            Self::Bits32 => 32,
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! The header of a layered depth cube as shaders see it.
+
+use bytemuck::{Pod, Zeroable};
+
+/// `LdcHeader` of `shaders-glsl/ldc/types.glsl`, field by field.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct Header {
+    /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
+    pub status: u32,
+    /// Places of fragments in all lists, also those beyond the capacity.
+    pub demand: u32,
+    /// Places the pools hold.
+    pub capacity: u32,
+    /// Triangles kept beside centres; counted once all fragments fit.
+    pub fringe_demand: u32,
+    /// Triangles the fringe holds.
+    pub fringe_capacity: u32,
+    /// Lists too long to be sorted.
+    pub unsorted: u32,
+    /// List entries that named no fragment.
+    pub corrupted: u32,
+    /// Cells a side of a view.
+    pub resolution: u32,
+    /// Side of a cell, metres.
+    pub cell: f32,
+    /// Side of the cube, metres.
+    pub size: f32,
+    /// How far a fragment may be from the ray along the view, metres.
+    pub tolerance: f32,
+    /// Zero.
+    pub spare: u32,
+    /// Lower corner of the cube, metres relative to the frame origin.
+    pub origin: [f32; 3],
+    /// Zero.
+    pub spare_origin: f32,
+    /// Lower corner of the geometry, metres relative to the frame origin.
+    pub lower: [f32; 3],
+    /// Zero.
+    pub spare_lower: f32,
+    /// Upper corner of the geometry, metres relative to the frame origin.
+    pub upper: [f32; 3],
+    /// Zero.
+    pub spare_upper: f32,
+    /// Device address of the lists; zero with descriptors.
+    pub lists_address: [u32; 2],
+    /// Device address of the depths.
+    pub depths_address: [u32; 2],
+    /// Device address of the triangles of fragments.
+    pub primitives_address: [u32; 2],
+    /// Device address of the blocks.
+    pub blocks_address: [u32; 2],
+    /// Device address of the heads of the fringe.
+    pub heads_address: [u32; 2],
+    /// Device address of the fringe.
+    pub fringe_address: [u32; 2],
+    /// Device address of the sums of the scan.
+    pub sums_address: [u32; 2],
+}

@@ -1,0 +1,200 @@
+//! Checks the contents of a built layered depth cube.
+
+use crate::{Config, Coverage, Depth, Header, cell_count};
+
+/// All pools as downloaded, in words.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// The configuration they were built with.
+    pub config: Config,
+    /// The header.
+    pub header: Header,
+    /// One past the last place of each cell's list.
+    pub lists: Vec<u32>,
+    /// Depths of fragments.
+    pub depths: Vec<u32>,
+    /// Triangles of fragments.
+    pub primitives: Vec<u32>,
+    /// Smallest (its complement) and largest depth of each block.
+    pub blocks: Vec<u32>,
+    /// First link of each cell's fringe.
+    pub heads: Vec<u32>,
+    /// Triangle and next link of each node of the fringe.
+    pub fringe: Vec<u32>,
+}
+
+/// What is wrong with a list.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A list leaves the pool, or ends before it begins.
+    #[error("cell {cell}: the list from {begin} to {end} leaves the pool or runs backwards")]
+    Range {
+        /// Cell.
+        cell: usize,
+        /// First place.
+        begin: u32,
+        /// One past the last.
+        end: u32,
+    },
+    /// A sorted list is not in order, or a fragment stands there twice.
+    #[error("cell {cell}: the fragment at place {place} is out of order")]
+    Order {
+        /// Cell.
+        cell: usize,
+        /// Place of the fragment.
+        place: u32,
+    },
+    /// A depth lies outside of its block's, or is no number.
+    #[error("cell {cell}: depth {z} at place {place} is outside of its block's")]
+    Depth {
+        /// Cell.
+        cell: usize,
+        /// Place of the fragment.
+        place: u32,
+        /// The depth, as text: it may be no number.
+        z: String,
+    },
+    /// A fragment or a node of the fringe names no triangle.
+    #[error("cell {cell}: there is no triangle {primitive}")]
+    Primitive {
+        /// Cell.
+        cell: usize,
+        /// What is stored.
+        primitive: u32,
+    },
+    /// A link of the fringe names no node.
+    #[error("cell {cell}: link {link} names no node")]
+    Dangling {
+        /// Cell.
+        cell: usize,
+        /// The link.
+        link: u32,
+    },
+    /// Places or nodes are in no list, or in more than one.
+    #[error("{stored} places or nodes were counted and {listed} are in lists")]
+    Count {
+        /// Counted by the build.
+        stored: usize,
+        /// Found in lists.
+        listed: usize,
+    },
+}
+
+impl Contents {
+    /// Places of a cell's list: the first, and one past the last.
+    ///
+    /// # Errors
+    /// The list leaves the pool or runs backwards.
+    pub fn list(&self, cell: usize) -> Result<std::ops::Range<u32>, Fault> {
+        let before = if cell == 0 { 0 } else { self.lists[cell - 1] };
+        let begin = if self.config.depth == Depth::Bits16 { before.next_multiple_of(2) } else { before };
+        let end = self.lists[cell];
+        if begin > end || end > self.header.demand.min(self.header.capacity) {
+            return Err(Fault::Range { cell, begin, end });
+        }
+        Ok(begin..end)
+    }
+
+    /// The bits of a depth, which order as depths do.
+    pub fn depth_bits(&self, place: u32) -> u32 {
+        match self.config.depth {
+            Depth::Bits32 => self.depths[place as usize],
+            Depth::Bits16 => (self.depths[place as usize / 2] >> (16 * (place % 2))) & 0xFFFF,
+        }
+    }
+
+    /// A depth in metres.
+    pub fn depth(&self, place: u32) -> f32 {
+        let bits = self.depth_bits(place);
+        match self.config.depth {
+            Depth::Bits32 => f32::from_bits(bits),
+            Depth::Bits16 => half(bits) * self.header.size,
+        }
+    }
+
+    /// The triangles of a cell's fringe.
+    ///
+    /// # Errors
+    /// A link names no node, or the list is a ring.
+    pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
+        let stored = self.header.fringe_demand.min(self.header.fringe_capacity) as usize;
+        let mut found = Vec::new();
+        let mut link = self.heads.get(cell).copied().unwrap_or(0);
+        while link != 0 {
+            if link as usize > stored || found.len() == stored {
+                return Err(Fault::Dangling { cell, link });
+            }
+            let node = 2 * (link as usize - 1);
+            found.push(self.fringe[node]);
+            link = self.fringe[node + 1];
+        }
+        Ok(found)
+    }
+
+    /// The block of a cell.
+    fn block(&self, cell: usize) -> usize {
+        let side = self.config.resolution as usize;
+        let (block, blocks) =
+            (self.config.block as usize, self.config.resolution.div_ceil(self.config.block) as usize);
+        let (view, x, y) = (cell / (side * side), cell % side, cell / side % side);
+        (view * blocks + y / block) * blocks + x / block
+    }
+}
+
+/// The value of a half that is not negative.
+fn half(bits: u32) -> f32 {
+    let (exponent, mantissa) = ((bits >> 10) & 31, (bits & 1023) as f32);
+    match exponent {
+        0 => mantissa * 2.0_f32.powi(-24),
+        31 => f32::NAN,
+        _ => (1.0 + mantissa / 1024.0) * 2.0_f32.powi(exponent as i32 - 15),
+    }
+}
+
+/// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they should be,
+/// that depths lie within their blocks', and that every node of the fringe is in exactly one list.
+///
+/// # Errors
+/// The first fault found.
+pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
+    let sorted = contents.header.unsorted == 0;
+    let (mut listed, mut nodes) = (0, 0);
+    for cell in 0..cell_count(contents.config.resolution) as usize {
+        let list = contents.list(cell)?;
+        let block = 2 * contents.block(cell);
+        let [z_min, z_max] = [!contents.blocks[block], contents.blocks[block + 1]].map(f32::from_bits);
+        let mut previous = None;
+        for place in list.clone() {
+            let primitive = contents.primitives[place as usize];
+            if primitive >= triangles {
+                return Err(Fault::Primitive { cell, primitive });
+            }
+            let z = contents.depth(place);
+            // The device's arithmetic of a half's share may differ in the last place.
+            let slack = if contents.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
+            if !(z >= z_min - slack && z <= z_max + slack) {
+                return Err(Fault::Depth { cell, place, z: z.to_string() });
+            }
+            let key = Some((contents.depth_bits(place), primitive));
+            if sorted && key <= previous {
+                return Err(Fault::Order { cell, place });
+            }
+            previous = key;
+        }
+        listed = list.end as usize;
+        let fringe = contents.fringe_of(cell)?;
+        if let Some(&primitive) = fringe.iter().find(|&&primitive| primitive >= triangles) {
+            return Err(Fault::Primitive { cell, primitive });
+        }
+        nodes += fringe.len();
+    }
+    let listed = if contents.config.depth == Depth::Bits16 { listed.next_multiple_of(2) } else { listed };
+    let stored = contents.header.demand as usize;
+    if listed != stored {
+        return Err(Fault::Count { stored, listed });
+    }
+    let kept = contents.config.coverage == Coverage::Conservative;
+    let stored = if kept { contents.header.fringe_demand as usize } else { 0 };
+    if nodes == stored { Ok(()) } else { Err(Fault::Count { stored, listed: nodes }) }
+}

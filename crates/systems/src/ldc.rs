@@ -1,0 +1,81 @@
+//! LDC: the layered depth cube with the paper's presets.
+
+use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube};
+
+use crate::option::Given;
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "ldc",
+    structure: "ldc",
+    presets: &[Preset::Robust, Preset::Published],
+    options: &OPTIONS,
+    requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(LayeredDepthCube::new(device, config(spec)?, geometry, scene)?))
+    },
+};
+
+/// Options by their names on the command line.
+const OPTIONS: [&str; 12] = [
+    "resolution",
+    "block",
+    "storage",
+    "payload",
+    "accept",
+    "tolerance",
+    "depth",
+    "coverage",
+    "skip",
+    "views",
+    "addressing",
+    "capacity",
+];
+
+/// Cells a side of a view where nothing else is asked for.
+const RESOLUTION: u32 = 512;
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let mut config = match spec.preset() {
+        Preset::Robust => Config::robust(RESOLUTION),
+        Preset::Published => Config::published(RESOLUTION),
+    };
+    config.counters = spec.counters();
+    for given in Given::all(spec) {
+        match given.name {
+            "resolution" => config.resolution = given.number()?,
+            "block" => config.block = given.number()?,
+            "capacity" => config.fragments = Some(given.number()?.into()),
+            "tolerance" => config.tolerance = given.share()?,
+            "skip" => config.skip = given.switch()?,
+            // One word each so far: a value is checked, and nothing else is chosen.
+            "storage" => given.choice(&[("sb", ())])?,
+            "payload" => given.choice(&[("index", ())])?,
+            "views" => given.choice(&[("axes", ())])?,
+            "depth" => config.depth = given.choice(&[("16", Depth::Bits16), ("32", Depth::Bits32)])?,
+            "accept" => {
+                config.accept = given.choice(&[
+                    ("tolerance", Accept::Tolerance),
+                    ("slope", Accept::Slope),
+                    ("plane", Accept::Plane),
+                ])?;
+            }
+            "coverage" => {
+                config.coverage = given.choice(&[
+                    ("exact", Coverage::Exact),
+                    ("hardware", Coverage::Hardware),
+                    ("conservative", Coverage::Conservative),
+                ])?;
+            }
+            "addressing" => {
+                config.addressing = given
+                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
+            }
+            _ => return Err(given.unknown()),
+        }
+    }
+    config.validate()?;
+    Ok(config)
+}

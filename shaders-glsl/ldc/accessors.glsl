@@ -1,0 +1,165 @@
+// What: the pools of a layered depth cube, and the only place that knows how they are reached: through the
+// descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
+// Reads, writes: header, lists, depths, primitives, blocks, heads, fringe, sums. Every access checks the capacity.
+#ifndef LDC_ACCESSORS_GLSL
+#define LDC_ACCESSORS_GLSL
+
+#include "ads/axis_views.glsl"
+#include "ldc/header.glsl"
+
+#ifdef ADDRESSING_ADDRESS
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddress { uint words[]; };
+#define LDC_LISTS(s) LdcWordAddress(LDC_HEADER(s).lists_address).words
+#define LDC_DEPTHS(s) LdcWordAddress(LDC_HEADER(s).depths_address).words
+#define LDC_PRIMITIVES(s) LdcWordAddress(LDC_HEADER(s).primitives_address).words
+#define LDC_BLOCKS(s) LdcWordAddress(LDC_HEADER(s).blocks_address).words
+#define LDC_HEADS(s) LdcWordAddress(LDC_HEADER(s).heads_address).words
+#define LDC_FRINGE(s) LdcWordAddress(LDC_HEADER(s).fringe_address).words
+#define LDC_SUMS(s) LdcWordAddress(LDC_HEADER(s).sums_address).words
+#else
+layout(set = STRUCTURE_SET, binding = 1, scalar) buffer LdcListsBuffer { uint ldc_list_words[]; };
+layout(set = STRUCTURE_SET, binding = 2, scalar) buffer LdcDepthsBuffer { uint ldc_depth_words[]; };
+layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPrimitivesBuffer { uint ldc_primitive_words[]; };
+layout(set = STRUCTURE_SET, binding = 4, scalar) buffer LdcBlocksBuffer { uint ldc_block_words[]; };
+layout(set = STRUCTURE_SET, binding = 5, scalar) buffer LdcHeadsBuffer { uint ldc_head_words[]; };
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcFringeBuffer { uint ldc_fringe_words[]; };
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcSumsBuffer { uint ldc_sum_words[]; };
+#define LDC_LISTS(s) ldc_list_words
+#define LDC_DEPTHS(s) ldc_depth_words
+#define LDC_PRIMITIVES(s) ldc_primitive_words
+#define LDC_BLOCKS(s) ldc_block_words
+#define LDC_HEADS(s) ldc_head_words
+#define LDC_FRINGE(s) ldc_fringe_words
+#define LDC_SUMS(s) ldc_sum_words
+#endif
+
+AxisView ldc_view(LdcRef s, uint axis) {
+    return AxisView(LDC_HEADER(s).origin, LDC_HEADER(s).cell, LDC_HEADER(s).resolution, axis);
+}
+
+uint ldc_cell_count(LdcRef s) {
+    return AXIS_VIEWS * LDC_HEADER(s).resolution * LDC_HEADER(s).resolution;
+}
+
+// Running index of a cell over all views.
+uint ldc_cell(LdcRef s, uint axis, ivec2 cell) {
+    return axis_cell_index(axis, cell, LDC_HEADER(s).resolution);
+}
+
+// Blocks a side of a view; the last ones may reach beyond its cells.
+uint ldc_blocks_a_side(LdcRef s) {
+    return (LDC_HEADER(s).resolution + LDC_BLOCK - 1u) / LDC_BLOCK;
+}
+
+uint ldc_block(LdcRef s, uint axis, ivec2 block) {
+    return axis_cell_index(axis, block, ldc_blocks_a_side(s));
+}
+
+bool ldc_fragments_fit(LdcRef s) {
+    return LDC_HEADER(s).demand <= LDC_HEADER(s).capacity;
+}
+
+// With 16 bits two depths share a word: lists begin at even places, so that no word belongs to two of them.
+uint ldc_aligned(uint place) {
+    return LDC_DEPTH_BITS == 16u ? (place + 1u) & ~1u : place;
+}
+
+// Places of a cell's list: first, and one past the last. A list that leaves the pool is counted and empty.
+uvec2 ldc_list(LdcRef s, uint cell) {
+    uint begin = cell == 0u ? 0u : ldc_aligned(LDC_LISTS(s)[cell - 1u]);
+    uint end = LDC_LISTS(s)[cell];
+    if (begin > end || end > min(LDC_HEADER(s).capacity, LDC_HEADER(s).demand)) {
+        atomicAdd(LDC_HEADER(s).corrupted, 1u);
+        return uvec2(0u);
+    }
+    return uvec2(begin, end);
+}
+
+// Depth of a fragment as stored, metres: with 16 bits a share of the cube's side.
+float ldc_depth(LdcRef s, uint place) {
+    if (LDC_DEPTH_BITS == 16u) {
+        vec2 pair = unpackHalf2x16(LDC_DEPTHS(s)[place >> 1u]);
+        return ((place & 1u) == 0u ? pair.x : pair.y) * LDC_HEADER(s).size;
+    }
+    return uintBitsToFloat(LDC_DEPTHS(s)[place]);
+}
+
+// The bits a depth is stored as.
+uint ldc_depth_bits(LdcRef s, float z) {
+    return LDC_DEPTH_BITS == 16u ? packHalf2x16(vec2(z / LDC_HEADER(s).size, 0.0)) & 0xFFFFu : floatBitsToUint(z);
+}
+
+float ldc_depth_of_bits(LdcRef s, uint bits) {
+    return LDC_DEPTH_BITS == 16u ? unpackHalf2x16(bits).x * LDC_HEADER(s).size : uintBitsToFloat(bits);
+}
+
+// How far a stored depth may be from the depth, metres.
+float ldc_depth_rounding(LdcRef s) {
+    return LDC_DEPTH_BITS == 16u ? 2.5e-4 * LDC_HEADER(s).size : 0.0;
+}
+
+// Stores the first depth at a place; words start out zeroed where two depths share one.
+void ldc_add_depth(LdcRef s, uint place, uint bits) {
+    if (LDC_DEPTH_BITS == 16u) {
+        atomicOr(LDC_DEPTHS(s)[place >> 1u], bits << (16u * (place & 1u)));
+    } else {
+        LDC_DEPTHS(s)[place] = bits;
+    }
+}
+
+uint ldc_bits_at(LdcRef s, uint place) {
+    if (LDC_DEPTH_BITS == 16u) {
+        return (LDC_DEPTHS(s)[place >> 1u] >> (16u * (place & 1u))) & 0xFFFFu;
+    }
+    return LDC_DEPTHS(s)[place];
+}
+
+// Replaces the depth at a place of a list that no other thread writes.
+void ldc_set_bits(LdcRef s, uint place, uint bits) {
+    if (LDC_DEPTH_BITS == 16u) {
+        uint shift = 16u * (place & 1u);
+        LDC_DEPTHS(s)[place >> 1u] = (LDC_DEPTHS(s)[place >> 1u] & ~(0xFFFFu << shift)) | bits << shift;
+    } else {
+        LDC_DEPTHS(s)[place] = bits;
+    }
+}
+
+// Widens the depths of a block. Word 0 holds the complement of the smallest depth's bits, so that a cleared block
+// is empty and both ends are maxima; depths are not negative, and order like their bits.
+void ldc_widen_block(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
+    uint word = 2u * ldc_block(s, axis, cell / int(LDC_BLOCK));
+    atomicMax(LDC_BLOCKS(s)[word], ~floatBitsToUint(z_low));
+    atomicMax(LDC_BLOCKS(s)[word + 1u], floatBitsToUint(z_high));
+}
+
+LdcBlock ldc_block_depths(LdcRef s, uint axis, ivec2 block) {
+    uint word = 2u * ldc_block(s, axis, block);
+    uint low = LDC_BLOCKS(s)[word];
+    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]));
+}
+
+// Puts a triangle into a cell's fringe, or counts that there was no room for it. Links are node number + 1; 0
+// ends a list.
+void ldc_add_fringe(LdcRef s, uint cell, uint primitive) {
+    uint node = atomicAdd(LDC_HEADER(s).fringe_demand, 1u);
+    if (node < LDC_HEADER(s).fringe_capacity) {
+        LDC_FRINGE(s)[2u * node] = primitive;
+        LDC_FRINGE(s)[2u * node + 1u] = atomicExchange(LDC_HEADS(s)[cell], node + 1u);
+    }
+}
+
+// The first link of a cell's fringe.
+uint ldc_fringe_head(LdcRef s, uint cell) {
+    return LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? LDC_HEADS(s)[cell] : 0u;
+}
+
+// Primitive and next of the node behind a link. A link past the end is counted and answers the end.
+uvec2 ldc_fringe_node(LdcRef s, uint link) {
+    if (link - 1u >= min(LDC_HEADER(s).fringe_capacity, LDC_HEADER(s).fringe_demand)) {
+        atomicAdd(LDC_HEADER(s).corrupted, 1u);
+        return uvec2(PRIMITIVE_NONE, 0u);
+    }
+    return uvec2(LDC_FRINGE(s)[2u * link - 2u], LDC_FRINGE(s)[2u * link - 1u]);
+}
+
+#endif

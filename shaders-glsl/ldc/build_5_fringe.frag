@@ -1,0 +1,75 @@
+// What: keeps the triangle in cells that it reaches into without covering their centre, where no fragment stands for
+// it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a cell.
+// Reads: geometry, header, lists, depths, primitives. Writes: heads, fringe, blocks, header.fringe_demand. Conservative
+// coverage only.
+// Source: not in the paper, whose rays pass between the views' cells there.
+#version 460
+#include "contract/extensions.glsl"
+#include "ldc/accessors.glsl"
+#include "ldc/raster.glsl"
+
+layout(location = 0) flat in uvec2 primitive_and_axis;
+
+// Whether the plane of a fragment of the cell passes within `close` metres of this point of the triangle, in the view.
+bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
+    uvec2 list = ldc_list(ldc_built, cell);
+    if (list.y - list.x > LDC_FRINGE_LIMIT) {
+        return false;
+    }
+    // Both planes lean by at most a cell each between point and centre.
+    float window = 2.0 * view.cell + close + ldc_depth_rounding(ldc_built);
+    for (uint place = list.x; place < list.y; place++) {
+        if (abs(ldc_depth(ldc_built, place) - z_center) > window) {
+            continue;
+        }
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        ldc_view_vertices(view, LDC_PRIMITIVES(ldc_built)[place], a, b, c);
+        if (abs(axis_plane_depth(a, b, c, point) - z_point) <= close) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void main() {
+    if (!ldc_fragments_fit(ldc_built)) {
+        // What stands for what is not known until all fragments fit.
+        return;
+    }
+    AxisView view = ldc_built_view(primitive_and_axis.y);
+    uint primitive = primitive_and_axis.x;
+    ivec2 place = ivec2(gl_FragCoord.xy) - 1;
+    if (!axis_has_cell(view.resolution, place)) {
+        return;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    ldc_view_vertices(view, primitive, a, b, c);
+    float z;
+    vec2 barycentrics;
+    if (!axis_reaches_into(view, a, b, c, place) || axis_at_center(view, a, b, c, place, z, barycentrics)) {
+        return;
+    }
+    vec2 center = axis_center(view, place).xy;
+    vec2 point = axis_nearest_point(a, b, c, center);
+    float z_nearest = min(a.z, min(b.z, c.z));
+    float z_farthest = max(a.z, max(b.z, c.z));
+    float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
+    float z_center = axis_plane_depth(a, b, c, center);
+    uint cell = ldc_cell(ldc_built, view.axis, place);
+    // What is far smaller than a cell is not taken for a surface that is near for a cell only.
+    vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
+    float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
+    if (is_stood_for(view, cell, point, z_point, z_center, LDC_FRINGE_DEPTH * size)) {
+        return;
+    }
+    ldc_add_fringe(ldc_built, cell, primitive);
+    float extent = axis_extent(view, a, b, c);
+    // The part of the triangle within the cell.
+    float z_low = clamp(z_center - extent, z_nearest, z_farthest);
+    float z_high = clamp(z_center + extent, z_nearest, z_farthest);
+    ldc_widen_block(ldc_built, view.axis, place, max(z_low, 0.0), max(z_high, 0.0));
+}

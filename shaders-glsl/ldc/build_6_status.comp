@@ -1,0 +1,17 @@
+// What: declares the structure complete, or says what was missing.
+// Reads: header. Writes: header.status.
+#version 460
+#include "contract/extensions.glsl"
+#include "ldc/accessors.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant, scalar) uniform LdcBuildConstants {
+    LdcRef ldc_built;
+};
+
+void main() {
+    bool fits = ldc_fragments_fit(ldc_built) && LDC_HEADER(ldc_built).fringe_demand <= LDC_HEADER(ldc_built).fringe_capacity;
+    uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    LDC_HEADER(ldc_built).status = status | (LDC_HEADER(ldc_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
+}

@@ -1,0 +1,39 @@
+// What: proposes, for each triangle, the cells of its view whose centres it may cover, with FRINGE those that it may
+// reach into.
+// Reads: geometry, header. Writes: nothing.
+// Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader.
+#version 460
+#include "contract/extensions.glsl"
+#define LDC_READ_ONLY
+#include "ldc/raster.glsl"
+
+layout(location = 0) flat out uvec2 primitive_and_axis;
+
+void main() {
+    uint primitive = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    AxisView view = ldc_built_view(axis_of_triangle(a, b, c));
+    primitive_and_axis = uvec2(primitive, view.axis);
+    if (!triangle_has_area(a, b, c)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+        return;
+    }
+    ldc_view_vertices(view, primitive, a, b, c);
+#ifdef FRINGE
+    // Half a cell to its sides, and 1/32 for the hardware's grid.
+    gl_Position = axis_proposal(view, a, b, c, corner, 0.5 + 1.0 / 32.0);
+#else
+    if (LDC_COVERAGE == LDC_COVERAGE_HARDWARE) {
+        vec3 p = corner == 0u ? a : (corner == 1u ? b : c);
+        // The viewport has a border of one cell.
+        vec2 on_screen = axis_on_screen(view, p).xy;
+        gl_Position = vec4(on_screen * (float(view.resolution) / float(view.resolution + 2u)), 0.5, 1.0);
+    } else {
+        gl_Position = axis_proposal(view, a, b, c, corner, 1.0 / 32.0);
+    }
+#endif
+}

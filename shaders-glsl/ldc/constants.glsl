@@ -1,0 +1,40 @@
+// Numbers that the layered depth cube's shaders and crate share. Only `#define NAME number` may stand here.
+#ifndef LDC_CONSTANTS_GLSL
+#define LDC_CONSTANTS_GLSL
+
+// When a fragment counts as hit.
+#define LDC_ACCEPT_TOLERANCE 0u
+#define LDC_ACCEPT_SLOPE 1u
+#define LDC_ACCEPT_PLANE 2u
+
+// Which cells a triangle gets a fragment in.
+#define LDC_COVERAGE_HARDWARE 0u
+#define LDC_COVERAGE_EXACT 1u
+#define LDC_COVERAGE_CONSERVATIVE 2u
+
+// Longest list that is sorted; longer ones stay unordered and are counted.
+#define LDC_SORT_LIMIT 1024u
+
+// Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
+// with more, every such triangle is kept.
+#define LDC_FRINGE_LIMIT 4096u
+
+// A fragment stands for a triangle beside the centre if its plane passes the triangle's nearest point this close,
+// in widths of a cell or, where that is smaller, of the triangle.
+#define LDC_FRINGE_DEPTH 0.25
+
+// How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle leans little in the view it
+// faces most, so that its plane leaves the cell before that.
+#define LDC_PLANE_REACH 2.0
+
+// How far a fragment's plane counts before and behind the ray's stretch in its cell, in widths of a cell. More keeps
+// rays from leaving a bent surface between two cells, less keeps planes from standing out beside it.
+#define LDC_PLANE_SLACK 0.125
+
+// How far a ray has to be from its origin, in widths of a cell, to meet a plane that it started close to.
+#define LDC_LEAVING 2.0
+
+// Threads in a workgroup of the build's compute passes.
+#define LDC_GROUP_SIZE 64u
+
+#endif

@@ -1,0 +1,49 @@
+// What: the draw of the build: every triangle once, in the view it faces most, pulled from the geometry.
+// Reads: geometry, header. Writes: nothing.
+// Without attachments no layers are needed: the view travels as a varying.
+#ifndef LDC_RASTER_GLSL
+#define LDC_RASTER_GLSL
+
+#include "ads/axis_views.glsl"
+#include "ads/geometry.glsl"
+#include "ldc/header.glsl"
+
+layout(push_constant, scalar) uniform LdcBuildConstants {
+    LdcRef ldc_built;
+};
+
+AxisView ldc_built_view(uint axis) {
+    return AxisView(LDC_HEADER(ldc_built).origin, LDC_HEADER(ldc_built).cell, LDC_HEADER(ldc_built).resolution, axis);
+}
+
+// The corners of a triangle in the frame of a view.
+void ldc_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+    a = axis_from_world(view, a);
+    b = axis_from_world(view, b);
+    c = axis_from_world(view, c);
+}
+
+// Depth and barycentrics of a triangle at the centre of the fragment's cell; false where it gets no fragment there.
+bool ldc_fragment(AxisView view, uint primitive, vec4 frag_coord, out ivec2 cell, out float z, out vec2 barycentrics) {
+    cell = ivec2(frag_coord.xy) - 1;
+    if (!axis_has_cell(view.resolution, cell)) {
+        return false;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    ldc_view_vertices(view, primitive, a, b, c);
+    bool covers = axis_at_center(view, a, b, c, cell, z, barycentrics);
+    if (LDC_COVERAGE == LDC_COVERAGE_HARDWARE && !covers) {
+        vec3 center = axis_center(view, cell);
+        center.z = axis_plane_depth(a, b, c, center.xy);
+        z = clamp(center.z, min(a.z, min(b.z, c.z)), max(a.z, max(b.z, c.z)));
+        barycentrics = clamp(triangle_barycentrics(center, a, b, c), 0.0, 1.0);
+        covers = true;
+    }
+    z = max(z, 0.0);
+    return covers;
+}
+
+#endif

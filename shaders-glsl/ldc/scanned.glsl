@@ -1,0 +1,35 @@
+// What: the numbers that the scan of lists runs over: lengths become places, their sum the demand.
+// Reads, writes: lists, sums, header.demand.
+#ifndef LDC_SCANNED_GLSL
+#define LDC_SCANNED_GLSL
+
+#include "ldc/accessors.glsl"
+
+#define ScanRef LdcRef
+
+uint scan_count(LdcRef s, uint step) {
+    return ldc_cell_count(s);
+}
+
+// Places are aligned already, so that aligning them again changes nothing.
+uint scan_number(LdcRef s, uint step, uint i) {
+    return ldc_aligned(LDC_LISTS(s)[i]);
+}
+
+void scan_set_number(LdcRef s, uint step, uint i, uint number) {
+    LDC_LISTS(s)[i] = number;
+}
+
+uint scan_sum(LdcRef s, uint step, uint block) {
+    return LDC_SUMS(s)[block];
+}
+
+void scan_set_sum(LdcRef s, uint step, uint block, uint sum) {
+    LDC_SUMS(s)[block] = sum;
+}
+
+void scan_set_total(LdcRef s, uint step, uint total) {
+    LDC_HEADER(s).demand = total;
+}
+
+#endif

@@ -1,0 +1,206 @@
+// What: searches one cell for the nearest fragment that a ray hits within it.
+// Reads: lists, depths, primitives, heads, fringe, geometry. Writes: header.corrupted.
+// Source: Bürger et al. section 1.4. The order of a list only skips fragments that the acceptance would refuse, so hits do
+// not depend on it. The nearest along the ray is taken, whichever layer it is.
+#ifndef LDC_SEARCH_GLSL
+#define LDC_SEARCH_GLSL
+
+#include "ads/judge.glsl"
+#include "ads/judge_plane.glsl"
+#include "ldc/accessors.glsl"
+
+// Lists at least this long are entered by bisection.
+#define LDC_BISECTION_LENGTH 8u
+
+// One search, able to stop between two entries.
+struct LdcSearch {
+    uint axis;
+    ivec2 cell;
+    float t_low;          // the ray's stretch in the cell, widened by its rounding
+    float t_high;
+    float z_origin;       // metres from the view's near side
+    float z_direction;
+    bool begun;
+    bool in_fringe;
+    uint place;           // of the next fragment, or link of the next node of the fringe
+};
+
+// How far beyond the ray's depths in a cell fragments can lie that it hits there, at most.
+float ldc_margin(LdcRef s) {
+    if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
+        return LDC_HEADER(s).tolerance;
+    }
+    // A plane leans by at most a cell a cell, and the ray may meet it before or behind its stretch.
+    float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK : 0.0;
+    return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
+}
+
+// How much of t before and behind its stretch a fragment can be hit.
+float ldc_slack(LdcRef s, Ray ray) {
+    return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
+}
+
+// Depths that the ray has between two t, widened by their rounding.
+vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_high) {
+    float z_in = z_origin + t_low * z_direction;
+    float z_out = z_origin + t_high * z_direction;
+    float rounding = 4.8e-7 * (abs(z_origin) + max(abs(t_low), abs(t_high)) * abs(z_direction));
+    return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
+}
+
+// Judges the triangle of a fragment, or (beside a centre) the triangle alone, logs it, and lets it replace the best hit
+// if it may.
+void ldc_test(LdcRef s, Ray ray, LdcSearch search, uint primitive, bool plane, inout TraceState state) {
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    uint verdict;
+    state.tests++;
+    // What is as near as the best hit is ranked here.
+    Hit rival = state.best;
+    rival.primitive = rival.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
+    if (plane) {
+        float cell = LDC_HEADER(s).cell;
+        float slack = ldc_slack(s, ray);
+        verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
+            search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
+        // A surface that the ray leaves is met close to its origin, if at all.
+        if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
+            verdict = t < ray.t_max ? (hit_is_better(rival, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER) : TEST_BEYOND;
+        }
+    } else {
+        verdict = judge_triangle(ray, rival, primitive, search.t_low, search.t_high, t, barycentrics, t_error);
+    }
+    if (verdict == TEST_ACCEPTED && !plane_is_better(state.best, t, primitive, barycentrics)) {
+        verdict = TEST_NOT_BETTER;
+    }
+    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    }
+}
+
+// How far a fragment may be from the ray, by its triangle's own lean: half a cell's rise, but no less than two units
+// of the last place of its depth.
+float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    vec3 normal = triangle_permute(cross(b - a, c - a), search.axis);
+    float rise = 0.5 * (abs(normal.x) + abs(normal.y)) / max(abs(normal.z), 1.0e-30);
+    float last_place = LDC_DEPTH_BITS == 16u ? ldc_depth_rounding(s) : 1.2e-7 * z;
+    return max(min(rise, 1.0) * LDC_HEADER(s).cell, 2.0 * last_place);
+}
+
+// Judges a fragment by its depth: the hit is where the ray passes it, within the cell.
+void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint primitive, float z, inout TraceState state) {
+    float tolerance = LDC_ACCEPT == LDC_ACCEPT_TOLERANCE ? LDC_HEADER(s).tolerance
+        : ldc_slope_tolerance(s, search, primitive, z);
+    float t = search.z_direction == 0.0 ? search.t_low
+        : clamp((z - search.z_origin) / search.z_direction, search.t_low, search.t_high);
+    bool near = z >= depths.x - tolerance && z <= depths.y + tolerance;
+    uint verdict = primitive == ray.exclude_primitive ? TEST_EXCLUDED : (!near ? TEST_OUTSIDE_CELL
+        : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
+        : (t <= state.best.t ? TEST_ACCEPTED : TEST_NOT_BETTER))));
+    vec2 barycentrics = vec2(0.0);
+    if (verdict == TEST_ACCEPTED) {
+        vec3 a;
+        vec3 b;
+        vec3 c;
+        geometry_vertices(primitive, a, b, c);
+        barycentrics = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        verdict = plane_is_better(state.best, t, primitive, barycentrics) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+    }
+    trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    }
+}
+
+// The first place of a sorted list whose depth is not below z.
+uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout uint work) {
+    uint begin = list.x;
+    uint end = list.y;
+    for (uint turn = 0u; turn < 32u && begin < end; turn++) {
+        uint middle = begin + (end - begin) / 2u;
+        float found = ldc_depth(s, middle);
+        work++;
+        state.entries++;
+        trace_log(STEP_ENTRY, middle, 0u, 0u, found, found);
+        if (found < z) {
+            begin = middle + 1u;
+        } else {
+            end = middle;
+        }
+    }
+    return begin;
+}
+
+// Searches the nodes of the fringe; true if the work budget ended first.
+bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
+    while (search.place != 0u) {
+        if (work >= WORK_BUDGET) {
+            return true;
+        }
+        work++;
+        state.entries++;
+        trace_log(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
+        uvec2 node = ldc_fringe_node(s, search.place);
+        search.place = node.y;
+        if (node.x != PRIMITIVE_NONE) {
+            ldc_test(s, ray, search, node.x, false, state);
+        }
+    }
+    return false;
+}
+
+// Searches a cell; true if the work budget ended first.
+bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout TraceState state, inout uint work) {
+    uint cell = ldc_cell(s, search.axis, search.cell);
+    if (!search.in_fringe) {
+        uvec2 list = ldc_list(s, cell);
+        vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
+        float margin = ldc_margin(s);
+        vec2 wanted = vec2(depths.x - margin, depths.y + margin);
+        if (!search.begun) {
+            trace_log(STEP_LIST, 0u, list.x, 0u, wanted.x, wanted.y);
+            search.begun = true;
+            search.place = list.x;
+            if (LDC_SKIP != 0u && ordered && list.y - list.x >= LDC_BISECTION_LENGTH) {
+                search.place = ldc_first_from(s, list, wanted.x, state, work);
+            }
+        }
+        while (search.place < list.y) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            state.entries++;
+            uint place = search.place;
+            float z = ldc_depth(s, place);
+            search.place++;
+            trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+            if (z < wanted.x || z > wanted.y) {
+                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, wanted.x, wanted.y);
+                if (LDC_SKIP != 0u && ordered && z > wanted.y) {
+                    break;
+                }
+                continue;
+            }
+            uint primitive = LDC_PRIMITIVES(s)[place];
+            if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
+                ldc_test(s, ray, search, primitive, true, state);
+            } else {
+                ldc_judge_depth(s, ray, search, depths, primitive, z, state);
+            }
+        }
+        search.in_fringe = true;
+        search.place = ldc_fringe_head(s, cell);
+    }
+    return ldc_search_fringe(s, ray, search, state, work);
+}
+
+#endif

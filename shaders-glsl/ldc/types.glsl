@@ -1,0 +1,54 @@
+// What: the records and options of the layered depth cube.
+// Reads, writes: nothing.
+// Source: Bürger, Hertel, Krüger, Westermann 2007: layered depth images along three axes, each triangle in the
+// one it faces most, with minimum and maximum depth per block of pixels.
+#ifndef LDC_TYPES_GLSL
+#define LDC_TYPES_GLSL
+
+#include "contract/types.glsl"
+#include "ldc/constants.glsl"
+
+// Constant ids 50 to 69 belong to the layered depth cube.
+layout(constant_id = 50) const uint LDC_ACCEPT = LDC_ACCEPT_PLANE;
+layout(constant_id = 51) const uint LDC_COVERAGE = LDC_COVERAGE_CONSERVATIVE;
+layout(constant_id = 52) const uint LDC_DEPTH_BITS = 32u;
+layout(constant_id = 53) const uint LDC_SKIP = 1u;
+layout(constant_id = 54) const uint LDC_BLOCK = 8u;
+
+// State and sizes of one value. 152 bytes.
+struct LdcHeader {
+    uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
+    uint demand;          // places of fragments in all lists, also those beyond the capacity
+    uint capacity;        // places the pools hold
+    uint fringe_demand;   // triangles kept beside centres; counted once all fragments fit
+    uint fringe_capacity;
+    uint unsorted;        // lists longer than is sorted
+    uint corrupted;       // list entries that named no fragment
+    uint resolution;      // cells a side of a view
+    float cell;           // metres: side of a cell
+    float size;           // metres: side of the cube
+    float tolerance;      // metres, LDC_ACCEPT_TOLERANCE only
+    uint spare;
+    vec3 origin;          // metres relative to the frame origin: lower corner of the cube
+    float spare_origin;
+    vec3 lower;           // bounds of the geometry, metres
+    float spare_lower;
+    vec3 upper;
+    float spare_upper;
+    uvec2 lists_address;  // device addresses of the pools, zero where descriptors are used
+    uvec2 depths_address;
+    uvec2 primitives_address;
+    uvec2 blocks_address;
+    uvec2 heads_address;
+    uvec2 fringe_address;
+    uvec2 sums_address;
+};
+
+// Depths of what a block of cells holds.
+struct LdcBlock {
+    bool empty;
+    float z_min;          // metres
+    float z_max;
+};
+
+#endif

@@ -1,0 +1,22 @@
+// What: the surface at a hit on the plane of a triangle, which may lie beside the triangle by up to a cell.
+// Reads: the scene. Writes: nothing.
+// Barycentrics are taken to the triangle's nearest edge for shading, while the position stays on the ray.
+#ifndef SCENE_PLANE_SURFACE_GLSL
+#define SCENE_PLANE_SURFACE_GLSL
+
+#include "scene/surface.glsl"
+
+Surface plane_surface(Ray ray, Hit hit) {
+    vec2 inside = max(vec2(hit.a, hit.b), vec2(0.0));
+    inside /= max(inside.x + inside.y, 1.0);
+    Surface surface = scene_surface(ray, hit.t, hit.primitive, inside);
+    vec3 on_ray = ray.origin + hit.t * ray.direction;
+    if (any(notEqual(inside, vec2(hit.a, hit.b)))) {
+        surface.position = on_ray;
+        vec3 size = abs(ray.origin) + abs(hit.t * ray.direction);
+        surface.position_error = max(surface.position_error, 4.8e-7 * max(size.x, max(size.y, size.z)));
+    }
+    return surface;
+}
+
+#endif

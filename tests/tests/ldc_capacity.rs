@@ -1,0 +1,205 @@
+//! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well formed;
+//! and the check of lists notices every fault.
+
+use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
+use rasray_gpu::Timing;
+use rasray_ldc::{
+    Addressing, Config, Contents, Coverage, Depth, Fault, LayeredDepthCube, formula_bytes, plan, well_formed,
+};
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tracer::build_until_complete;
+
+const EYE: [f32; 3] = [0.0; 3];
+
+/// Layers, and a room whose edges lie between views.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(closed_box([-10.0, -9.9, -9.7], [10.0, 9.8, 9.6]));
+    triangles
+}
+
+fn rays() -> Vec<Ray> {
+    let mut random = Random::new(3);
+    (0..500).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
+}
+
+/// Builds once, with the pools as they are.
+fn build(bench: &Bench, structure: &mut LayeredDepthCube) -> BuildStatus {
+    bench
+        .device()
+        .submit(|recorder| structure.record_build(recorder, EYE))
+        .expect("the device works")
+        .value
+        .expect("the header is written");
+    structure.status().expect("the header is readable")
+}
+
+fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> {
+    let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
+    assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
+    hits
+}
+
+fn demand(status: &BuildStatus, name: &str) -> u64 {
+    status.pools.iter().find(|pool| pool.name == name).expect("the pool is counted").demand
+}
+
+fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> LayeredDepthCube {
+    let geometry = bench.geometry(triangles);
+    LayeredDepthCube::new(bench.device(), config, &geometry, None).expect("the options are valid")
+}
+
+fn check_well_formed(bench: &Bench, structure: &LayeredDepthCube, triangles: &[Triangle]) {
+    let contents = structure.download(bench.device()).expect("the device works");
+    well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
+}
+
+fn every_edge_capacity(config: Config) {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let mut structure = made(&bench, config, &triangles);
+
+    // Ample room: what the demand and the hits are.
+    structure.resize(bench.device(), &plan(&config, 1 << 16, 1 << 14).expect("in range")).expect("it fits");
+    let status = build(&bench, &mut structure);
+    assert!(status.complete);
+    let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
+    let kept = config.coverage == Coverage::Conservative;
+    assert!(fragments > 1000 && (fringe > 100) == kept, "{status:?}");
+    check_well_formed(&bench, &structure, &triangles);
+    let expected = trace(&bench, &structure, &rays);
+
+    let rooms = [0, 1, fragments / 2, fragments - 1, fragments].map(|room| (room, fringe));
+    let fringe_rooms = [0, 1, fringe / 2, fringe.saturating_sub(1)].map(|room| (fragments, room));
+    for (room, fringe_room) in rooms.into_iter().chain(fringe_rooms).chain([(0, 0)]) {
+        let sizes = plan(&config, room, fringe_room).expect("in range");
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let mut status = build(&bench, &mut structure);
+        let fits = room >= fragments && fringe_room >= fringe;
+        assert_eq!(status.complete, fits, "room for {room} and {fringe_room}");
+        assert_eq!(demand(&status, "fragments"), fragments, "room for {room}");
+        // What stands for what is known only where all fragments fit.
+        let counted = if room >= fragments { fringe } else { 0 };
+        assert_eq!(demand(&status, "fringe"), counted, "room for {room} and {fringe_room}");
+        if !fits {
+            for mode in [TraceMode::Closest, TraceMode::Occluded] {
+                let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
+                assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {fringe_room}");
+                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+            }
+        }
+        let mut regrows = 0;
+        while let Check::Grow(sizes) = structure.check(&status) {
+            regrows += 1;
+            assert!(regrows <= 2, "fragments grow first, then the fringe");
+            structure.resize(bench.device(), &sizes).expect("it fits");
+            status = build(&bench, &mut structure);
+        }
+        assert_eq!(regrows > 0, !fits);
+        assert!(status.complete, "grown from {room} and {fringe_room}");
+        assert_eq!((demand(&status, "fragments"), demand(&status, "fringe")), (fragments, fringe));
+        check_well_formed(&bench, &structure, &triangles);
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {fringe_room}");
+    }
+}
+
+#[test]
+fn every_edge_capacity_of_robust_cubes() {
+    every_edge_capacity(Config::robust(32));
+}
+
+#[test]
+fn every_edge_capacity_of_published_cubes() {
+    every_edge_capacity(Config::published(32));
+}
+
+#[test]
+fn every_edge_capacity_by_address_with_short_depths() {
+    every_edge_capacity(Config {
+        addressing: Addressing::Address,
+        depth: Depth::Bits16,
+        block: 4,
+        ..Config::robust(31)
+    });
+}
+
+/// What is allocated after the exact demand has been met is what the formula says.
+#[test]
+fn bytes_are_those_of_the_formula() {
+    let bench = Bench::new();
+    let triangles = scene();
+    for (resolution, block, depth, coverage) in [
+        (16, 8, Depth::Bits32, Coverage::Conservative),
+        (50, 16, Depth::Bits16, Coverage::Exact),
+        (33, 1, Depth::Bits16, Coverage::Conservative),
+        (64, 64, Depth::Bits32, Coverage::Hardware),
+    ] {
+        let config = Config { block, depth, coverage, fragments: Some(0), ..Config::robust(resolution) };
+        let mut structure = made(&bench, config, &triangles);
+        structure.resize(bench.device(), &plan(&config, 0, 0).expect("in range")).expect("it fits");
+        build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
+        let status = structure.status().expect("the header is readable");
+        let report = structure.report().expect("the header is readable");
+        let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
+        let formula = formula_bytes(&config, fragments, fringe);
+        assert_eq!(report.bytes(), formula.total(), "{config:?}");
+        assert_eq!(report.formula_bytes, formula.total());
+        assert_eq!(structure.sizes().bytes(), formula.total());
+        assert_eq!(report.stored, Some(fragments + fringe));
+        assert_ne!(formula.total(), formula_bytes(&config, fragments + 1, fringe).total());
+    }
+}
+
+#[test]
+fn every_fault_of_a_list_is_noticed() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let count = triangles.len() as u32;
+    for depth in [Depth::Bits32, Depth::Bits16] {
+        let config = Config { depth, ..Config::robust(16) };
+        let mut structure = made(&bench, config, &triangles);
+        structure
+            .resize(bench.device(), &plan(&config, 1 << 16, 1 << 14).expect("in range"))
+            .expect("it fits");
+        assert!(build(&bench, &mut structure).complete);
+        let good = structure.download(bench.device()).expect("the device works");
+        well_formed(&good, count).expect("lists are well formed");
+        let broken = |change: &dyn Fn(&mut Contents)| {
+            let mut contents = good.clone();
+            change(&mut contents);
+            well_formed(&contents, count).expect_err("the fault is noticed")
+        };
+        // A list of two fragments of different depth.
+        let long = (0..good.lists.len())
+            .filter_map(|cell| good.list(cell).ok())
+            .find(|list| list.len() > 1 && good.depth_bits(list.start) != good.depth_bits(list.start + 1))
+            .expect("there are layers");
+        let place = long.start as usize;
+        let head = good.heads.iter().position(|&head| head != 0).expect("there is a fringe");
+        assert!(matches!(broken(&|c| c.lists[20] = u32::MAX), Fault::Range { .. }));
+        assert!(matches!(broken(&|c| c.primitives[place] = u32::MAX), Fault::Primitive { .. }));
+        assert!(matches!(broken(&|c| c.header.demand += 2), Fault::Count { .. }));
+        assert!(matches!(broken(&|c| c.header.fringe_demand += 1), Fault::Count { .. }));
+        assert!(matches!(broken(&|c| c.heads[head] = 0), Fault::Count { .. }));
+        assert!(matches!(broken(&|c| c.heads[head] = u32::MAX), Fault::Dangling { .. }));
+        let ring = broken(&|c| {
+            let node = c.heads[head] as usize - 1;
+            c.fringe[2 * node + 1] = c.heads[head];
+        });
+        assert!(matches!(ring, Fault::Dangling { .. }), "{ring:?}");
+        let exchanged = broken(&|c| match depth {
+            Depth::Bits32 => c.depths.swap(place, place + 1),
+            Depth::Bits16 => c.depths[place / 2] = c.depths[place / 2].rotate_left(16),
+        });
+        assert!(matches!(exchanged, Fault::Order { .. }), "{exchanged:?}");
+        let lost = broken(&|c| match depth {
+            Depth::Bits32 => c.depths[place] = f32::NAN.to_bits(),
+            Depth::Bits16 => c.depths[place / 2] = 0x7E00_7E00,
+        });
+        assert!(matches!(lost, Fault::Depth { .. }), "{lost:?}");
+    }
+}

@@ -1,0 +1,282 @@
+//! What the layered depth cube answers: rooms, layers, edges between views, long walks, pauses, limits, bad rays.
+
+use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
+use rasray_gpu::Timing;
+use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube};
+use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
+use rasray_shaders_glsl::constants::ldc::LDC_SORT_LIMIT;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> LayeredDepthCube {
+    let geometry = bench.geometry(triangles);
+    let mut structure =
+        LayeredDepthCube::new(bench.device(), config, &geometry, None).expect("valid options");
+    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+        .expect("the build completes");
+    structure
+}
+
+fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> {
+    let geometry = bench.geometry(triangles);
+    let structure = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    bench.trace(&structure, rays).hits
+}
+
+fn random_rays(seed: u64, count: usize, lower: f32, upper: f32) -> Vec<Ray> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| Ray::new(random.point(lower, upper), random.direction())).collect()
+}
+
+fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
+    let corner = |i: usize, j: usize| [x[i], y[j], z];
+    [[corner(0, 0), corner(1, 0), corner(1, 1)], [corner(0, 0), corner(1, 1), corner(0, 1)]]
+}
+
+/// A tilted box, so that walls cross cells: from inside there is a wall in every direction.
+fn tilted_box() -> Vec<Triangle> {
+    let (sine, cosine) = (0.28_f32, 0.96_f32);
+    let turn = |[x, y, z]: [f32; 3]| {
+        let [x, y] = [cosine * x - sine * y, sine * x + cosine * y];
+        [x, cosine * y - sine * z, sine * y + cosine * z]
+    };
+    closed_box([-2.0, -1.9, -1.7], [2.0, 1.8, 1.6]).into_iter().map(|triangle| triangle.map(turn)).collect()
+}
+
+/// Walls of a room meet at edges between views. Robust cubes lose no ray at any resolution; without what is kept
+/// beside the centres rays leave through the edges, fewer the smaller cells are. Rays start farther from the walls than
+/// two cells: closer to its origin a plane may be the one that a ray leaves.
+#[test]
+fn no_ray_leaves_a_closed_room_through_its_edges() {
+    let bench = Bench::new();
+    let triangles = tilted_box();
+    let rays = random_rays(4, 2000, -0.5, 0.5);
+    let expected = brute_force(&bench, &triangles, &rays);
+    assert!(expected.iter().all(Hit::is_hit));
+    let escaped = |config: Config| {
+        let structure = made(&bench, config, &triangles);
+        let hits = bench.trace(&structure, &rays).hits;
+        let occluded = bench.occluded(&structure, &rays);
+        assert!(hits.iter().zip(&occluded).all(|(hit, occluded)| hit.is_hit() == *occluded));
+        hits.iter().filter(|hit| !hit.is_hit()).count()
+    };
+    for resolution in [16, 33, 100] {
+        assert_eq!(escaped(Config::robust(resolution)), 0, "resolution {resolution}");
+    }
+    let open = |resolution| escaped(Config { coverage: Coverage::Exact, ..Config::robust(resolution) });
+    let (coarse, fine) = (open(16), open(128));
+    assert!(coarse > 2 * fine && fine > 0, "{coarse} of 2000 rays leave at 16 cells a side, {fine} at 128");
+}
+
+/// On planes depth is at the level of rounding, whatever the size of a cell; with 16-bit depths too, since t is the
+/// triangle's.
+#[test]
+fn depth_on_walls_is_that_of_the_triangles() {
+    let bench = Bench::new();
+    let triangles = closed_box([-2.0, -1.0, -1.5], [2.0, 1.0, 1.5]);
+    let rays = random_rays(5, 2000, -0.4, 0.4);
+    let expected = brute_force(&bench, &triangles, &rays);
+    for (resolution, depth) in [(16, Depth::Bits32), (64, Depth::Bits32), (64, Depth::Bits16)] {
+        let structure = made(&bench, Config { depth, ..Config::robust(resolution) }, &triangles);
+        for (ray, (hit, expected)) in bench.trace(&structure, &rays).hits.iter().zip(&expected).enumerate() {
+            let difference = (hit.t - expected.t).abs();
+            assert!(difference <= 4.0e-6 * expected.t.max(1.0e-2), "ray {ray}: {hit:?} for {expected:?}");
+        }
+    }
+}
+
+/// The share of wrong answers on a closed mesh falls as the size of a cell, and depth is right where the triangle is.
+#[test]
+fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
+    let bench = Bench::new();
+    let triangles = sphere([0.1, -0.2, 0.3], 2.0, 10);
+    let rays = random_rays(21, 6000, -0.8, 0.8);
+    let oracle = oracle_of(&triangles);
+    let truths = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
+    let mut shares = Vec::new();
+    for resolution in [32, 64, 128] {
+        let structure = made(&bench, Config::robust(resolution), &triangles);
+        let (mut wrong, mut missed, mut total) = (0_u32, 0_u32, 0_u32);
+        for (hit, truth) in bench.trace(&structure, &rays).hits.iter().zip(&truths) {
+            let Some((primitive, t)) = truth.outcome.hit().filter(|_| !truth.ambiguous) else { continue };
+            total += 1;
+            wrong += u32::from(hit.primitive != primitive);
+            missed += u32::from(!hit.is_hit());
+            let right = (f64::from(hit.t) - t).abs() <= 1.0e-6 * t;
+            assert!(right || hit.primitive != primitive, "{hit:?} at {t}");
+        }
+        // A plane stands for both sides of an edge, and counts a little beyond its cell.
+        assert_eq!(missed, 0, "at {resolution}: {wrong} wrong of {total}");
+        shares.push(f64::from(wrong) / f64::from(total));
+    }
+    // Four sigma of the smallest count, about 200 of 6000, are a third; the law itself is of first order.
+    for pair in shares.windows(2) {
+        assert!((pair[0] / pair[1] - 2.0).abs() < 0.7, "{shares:?}");
+    }
+}
+
+/// Hundreds of quads in one cell, in a list that is sorted and in one that is too long for it: each is found from
+/// both sides.
+#[test]
+fn a_deep_cell_finds_every_layer_sorted_or_not() {
+    let bench = Bench::new();
+    for (layers, is_sorted) in [(500, true), (2000, false)] {
+        assert_eq!(layers <= LDC_SORT_LIMIT as usize, is_sorted);
+        let depth = |layer: usize| 1.0 + layer as f32 * 1.0e-3;
+        // The cube is 2.1 m wide: of 8 cells a side the first is 0.26 m wide.
+        let mut triangles: Vec<Triangle> =
+            (0..layers).flat_map(|layer| quad([0.0, 0.25], [0.0, 0.25], depth(layer))).collect();
+        triangles.extend(quad([2.0, 2.1], [2.0, 2.1], 1.0));
+        let mut random = Random::new(2);
+        let rays: Vec<Ray> = (0..600)
+            .map(|index| {
+                let z = depth(index * 617 % (layers - 1)) + 5.0e-4;
+                let direction = if index % 2 == 0 { 1.0 } else { -1.0 };
+                let origin = [random.between(0.01, 0.24), random.between(0.01, 0.24), z];
+                Ray::new(origin, [random.between(-1e-3, 1e-3), 0.0, direction])
+            })
+            .collect();
+        let expected = brute_force(&bench, &triangles, &rays);
+        let structure = made(&bench, Config { coverage: Coverage::Exact, ..Config::robust(8) }, &triangles);
+        let status = structure.status().expect("the header is readable");
+        assert_eq!((status.unsorted == 0, status.corrupted), (is_sorted, 0), "{status:?}");
+        let hits = bench.trace(&structure, &rays).hits;
+        for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
+            // Two triangles of a quad meet in its diagonal: the layer is what counts.
+            assert_eq!(hit.primitive / 2, expected.primitive / 2, "{:?}", rays[ray]);
+            assert!((hit.t - expected.t).abs() <= 1.0e-6, "ray {ray}: {} for {}", hit.t, expected.t);
+        }
+    }
+}
+
+/// A ray across a fine view steps more cells than a dispatch may: no software driver ends its loops early.
+#[test]
+fn walks_longer_than_a_dispatch_arrive() {
+    const RESOLUTION: u32 = 1200;
+    let bench = Bench::new();
+    let triangles = [quad([0.0, 1.0], [0.0, 1.0], 0.0), quad([0.0, 1.0], [0.0, 1.0], 1.0)].concat();
+    let mut random = Random::new(7);
+    let rays: Vec<Ray> = (0..64)
+        .map(|_| {
+            // Nearly along the views' diagonal, just below the upper plate.
+            let origin = [random.between(0.0, 0.01), random.between(0.0, 0.01), 0.5];
+            Ray::new(origin, [0.98 - origin[0], 0.97 - origin[1], 0.5])
+        })
+        .collect();
+    let expected = brute_force(&bench, &triangles, &rays);
+    assert!(expected.iter().all(Hit::is_hit));
+    let config = Config {
+        skip: false,
+        coverage: Coverage::Exact,
+        counters: Counters::Sums,
+        fragments: Some(1 << 22),
+        ..Config::robust(RESOLUTION)
+    };
+    let structure = made(&bench, config, &triangles);
+    let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 8);
+    assert_eq!(counters.unfinished, 0);
+    assert!(counters.cells / rays.len() as u64 > u64::from(TRACE_WORK_BUDGET), "{counters:?}");
+    for (hit, expected) in hits.iter().zip(&expected) {
+        assert!((hit.t - expected.t).abs() <= 1.0e-6, "{hit:?} for {expected:?}");
+    }
+}
+
+/// Hits do not depend on where a ray pauses.
+#[test]
+fn pauses_change_no_hit() {
+    let bench = Bench::new();
+    let mut triangles = tilted_box();
+    triangles.extend(sphere([0.3, 0.2, -0.1], 0.6, 8));
+    let rays = random_rays(9, 200, -1.5, 1.5);
+    for config in [Config::robust(24), Config::published(24), Config { skip: false, ..Config::robust(24) }] {
+        let answers = |budget, rounds| {
+            let config = Config { work_budget: budget, ..config };
+            let structure = made(&bench, config, &triangles);
+            [TraceMode::Closest, TraceMode::Occluded].map(|mode| {
+                let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, rounds);
+                assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
+                let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
+                match mode {
+                    TraceMode::Closest => hits.iter().map(key).collect::<Vec<_>>(),
+                    TraceMode::Occluded => hits.iter().map(|hit| (0, u32::from(hit.is_hit()))).collect(),
+                }
+            })
+        };
+        let expected = answers(None, 2);
+        for (budget, rounds) in [(2, 400), (13, 60)] {
+            assert_eq!(answers(Some(budget), rounds), expected, "{budget} units a dispatch, {config:?}");
+        }
+    }
+}
+
+#[test]
+fn invalid_rays_miss_and_finish() {
+    let bench = Bench::new();
+    let structure = made(&bench, Config::robust(32), &closed_box([-2.0; 3], [2.0; 3]));
+    let good = Ray::new([0.1, 0.2, 0.3], [0.3, -0.5, 0.8]);
+    let mut rays = vec![good];
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for axis in 0..3 {
+            let mut ray = good;
+            ray.origin[axis] = bad;
+            rays.push(ray);
+            let mut ray = good;
+            ray.direction[axis] = bad;
+            rays.push(ray);
+        }
+    }
+    rays.push(Ray { direction: [0.0, -0.0, 0.0], ..good });
+    rays.push(Ray { t_min: f32::NAN, ..good });
+    rays.push(Ray { t_max: f32::NAN, ..good });
+    rays.push(Ray { t_min: f32::INFINITY, ..good });
+    rays.push(Ray { t_min: 5.0, t_max: 1.0, ..good });
+    rays.push(Ray { t_max: 0.0, ..good });
+    rays.push(Ray { t_max: -1.0, ..good });
+    rays.push(good);
+    let hits = bench.trace(&structure, &rays).hits;
+    let occluded = bench.occluded(&structure, &rays);
+    let last = rays.len() - 1;
+    for (index, hit) in hits.iter().enumerate() {
+        let expected = index == 0 || index == last;
+        assert_eq!(hit.is_hit(), expected, "{:?}: {hit:?}", rays[index]);
+        assert_eq!(occluded[index], expected, "{:?}", rays[index]);
+    }
+    assert_eq!(hits[0], hits[last]);
+}
+
+#[test]
+fn limits_and_exclusion_are_kept() {
+    let bench = Bench::new();
+    let plates: Vec<Triangle> =
+        [2.0, 3.0, 4.0].map(|depth| [[-9.0, -9.0, depth], [9.0, -9.0, depth], [0.0, 18.0, depth]]).to_vec();
+    for accept in [Accept::Plane, Accept::Slope, Accept::Tolerance] {
+        let structure = made(&bench, Config { accept, ..Config::robust(32) }, &plates);
+        let mut random = Random::new(9);
+        for _ in 0..10 {
+            let direction = [random.between(-0.3, 0.3), random.between(-0.3, 0.3), 1.0];
+            let ray = Ray::new([random.between(-0.2, 0.2), random.between(-0.2, 0.2), 0.0], direction);
+            let rays = [
+                ray,
+                Ray { t_max: 1.99, ..ray },
+                Ray { t_max: 2.5, ..ray },
+                Ray { t_min: 2.5, ..ray },
+                Ray { t_min: 2.5, t_max: 2.9, ..ray },
+                Ray { exclude_primitive: 0, ..ray },
+                Ray { exclude_primitive: 0, t_max: 2.5, ..ray },
+                Ray { exclude_primitive: 1, t_min: 2.5, ..ray },
+                Ray { t_min: 4.5, ..ray },
+            ];
+            let expected = [Some(0), None, Some(0), Some(1), None, Some(1), None, Some(2), None];
+            let hits = bench.trace(&structure, &rays).hits;
+            let occluded = bench.occluded(&structure, &rays);
+            for (index, hit) in hits.iter().enumerate() {
+                let found = hit.is_hit().then_some(hit.primitive);
+                assert_eq!(found, expected[index], "{accept:?}, {:?}", rays[index]);
+                assert_eq!(occluded[index], expected[index].is_some(), "{accept:?}, {:?}", rays[index]);
+            }
+        }
+    }
+}
