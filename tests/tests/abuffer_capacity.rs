@@ -57,7 +57,7 @@ fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {
-    status.pools.iter().find(|pool| pool.name == name).expect("the pool is counted").demand
+    status.demand(name).expect("the pool is counted")
 }
 
 fn check_well_formed(bench: &Bench, structure: &ABuffer) -> Contents {

@@ -56,7 +56,7 @@ fn trace(bench: &Bench, structure: &PrimitiveLists, rays: &[Ray]) -> Vec<Hit> {
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {
-    status.pools.iter().find(|pool| pool.name == name).expect("the pool is counted").demand
+    status.demand(name).expect("the pool is counted")
 }
 
 fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> PrimitiveLists {

@@ -235,7 +235,7 @@ impl Structure for PrimitiveLists {
     }
 
     fn check(&self, status: &BuildStatus) -> Check {
-        let demand = |name| status.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.demand);
+        let demand = |name| status.demand(name).unwrap_or(0);
         if status.complete {
             return Check::Complete;
         }

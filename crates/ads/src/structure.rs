@@ -76,6 +76,13 @@ pub struct BuildStatus {
     pub corrupted: u64,
 }
 
+impl BuildStatus {
+    /// What the build asked of a pool; absent where there is none of that name.
+    pub fn demand(&self, name: &str) -> Option<u64> {
+        self.pools.iter().find(|pool| pool.name == name).map(|pool| pool.demand)
+    }
+}
+
 /// What to do after a build.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Check {
