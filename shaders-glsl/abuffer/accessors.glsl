@@ -5,9 +5,8 @@
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
 
-#include "abuffer/header.glsl"
+#include "abuffer/views.glsl"
 #include "ads/bucket.glsl"
-#include "ads/views.glsl"
 
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordAddress { uint words[]; };
@@ -96,10 +95,6 @@ uint abuffer_node_stride() {
 // Words of a page: the word that leads to the next one, and nodes.
 uint abuffer_page_stride() {
     return 1u + ABUFFER_PAGE * abuffer_node_stride();
-}
-
-uint abuffer_cell_count(AbufferRef s) {
-    return VIEW_FACES * face_cells(ABUFFER_HEADER(s).resolution);
 }
 
 // Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a

@@ -7,13 +7,13 @@
 #include "abuffer/raster.glsl"
 #include "contract/alpha.glsl"
 
-layout(location = 0) flat in uvec2 primitive_and_face;
+layout(location = 0) flat in uvec2 primitive_and_view;
 
 void main() {
     uint cell;
     CellCoverage coverage;
-    if (abuffer_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, coverage)
-        && alpha_accepts(primitive_and_face.x, coverage.barycentrics)) {
+    if (abuffer_fragment(primitive_and_view.x, primitive_and_view.y, gl_FragCoord, cell, coverage)
+        && alpha_accepts(primitive_and_view.x, coverage.barycentrics)) {
         abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
     }
 }

@@ -11,13 +11,13 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-layout(location = 0) flat in uvec2 primitive_and_face;
+layout(location = 0) flat in uvec2 primitive_and_view;
 
 void main() {
     uint cell;
     CellCoverage coverage;
-    uint primitive = primitive_and_face.x;
-    if (!abuffer_fragment(primitive, primitive_and_face.y, gl_FragCoord, cell, coverage)
+    uint primitive = primitive_and_view.x;
+    if (!abuffer_fragment(primitive, primitive_and_view.y, gl_FragCoord, cell, coverage)
         || !alpha_accepts(primitive, coverage.barycentrics)) {
         return;
     }

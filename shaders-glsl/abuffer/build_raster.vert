@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and face, the cells whose centres the triangle may cover.
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover.
 // Reads: geometry, header. Writes: nothing.
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
 #version 460
@@ -6,18 +6,18 @@
 #define ABUFFER_READ_ONLY
 #include "abuffer/raster.glsl"
 
-layout(location = 0) flat out uvec2 primitive_and_face;
+layout(location = 0) flat out uvec2 primitive_and_view;
 
 void main() {
     uint primitive = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
-    uint face = uint(gl_InstanceIndex);
-    uint resolution = ABUFFER_HEADER(abuffer_built).resolution;
-    primitive_and_face = uvec2(primitive, face);
+    uint view = abuffer_first_view + uint(gl_InstanceIndex);
+    uint resolution = abuffer_resolution(abuffer_built, view);
+    primitive_and_view = uvec2(primitive, view);
     vec3 a;
     vec3 b;
     vec3 c;
-    abuffer_face_vertices(primitive, face, a, b, c);
+    abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
     if (ABUFFER_COVERAGE == ABUFFER_COVERAGE_EXACT) {
         gl_Position = coverage_proposal(a, b, c, corner, resolution);
     } else {

@@ -7,6 +7,13 @@
 #define ABUFFER_MARCH_EXACT 1u
 #define ABUFFER_MARCH_DDA 2u
 
+// Which views are drawn: bits.
+#define ABUFFER_VIEWS_CUBE 1u
+#define ABUFFER_VIEWS_CAMERA 2u
+
+// The number of the camera's view, behind the faces and SEGMENT_NEAR.
+#define ABUFFER_CAMERA 7u
+
 // When a fragment counts as hit.
 #define ABUFFER_ACCEPT_INTERVAL 0u
 #define ABUFFER_ACCEPT_THICKNESS 1u

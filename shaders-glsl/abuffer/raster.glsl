@@ -1,35 +1,26 @@
-// What: the draw of the build: one instance a face, triangles pulled from the geometry.
+// What: the draw of the build: one instance a view, triangles pulled from the geometry.
 // Reads: geometry, header. Writes: nothing.
-// Without attachments no layers are needed: the face travels as a varying.
+// Without attachments no layers are needed: the view travels as a varying.
 #ifndef ABUFFER_RASTER_GLSL
 #define ABUFFER_RASTER_GLSL
 
-#include "ads/geometry.glsl"
 #include "ads/coverage.glsl"
-#include "abuffer/header.glsl"
+#include "abuffer/vertices.glsl"
 
 layout(push_constant, scalar) uniform AbufferBuildConstants {
     AbufferRef abuffer_built;
+    uint abuffer_first_view;
 };
 
-// The corners of a triangle as a face sees them.
-void abuffer_face_vertices(uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
-    geometry_vertices(primitive, a, b, c);
-    precise vec3 eye = ABUFFER_HEADER(abuffer_built).eye;
-    a = face_from_world(a - eye, face);
-    b = face_from_world(b - eye, face);
-    c = face_from_world(c - eye, face);
-}
-
 // What a fragment invocation finds in its cell; false where the triangle does not cover it.
-bool abuffer_fragment(uint primitive, uint face, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
-    uint resolution = ABUFFER_HEADER(abuffer_built).resolution;
+bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
+    uint resolution = abuffer_resolution(abuffer_built, view);
     ivec2 place = ivec2(frag_coord.xy) - 1;
-    cell = cell_index(face, place, resolution);
+    cell = abuffer_cell(abuffer_built, view, place);
     vec3 a;
     vec3 b;
     vec3 c;
-    abuffer_face_vertices(primitive, face, a, b, c);
+    abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
     if (ABUFFER_COVERAGE == ABUFFER_COVERAGE_EXACT) {
         return coverage_at_center(a, b, c, place, resolution, coverage);
     }

@@ -15,7 +15,9 @@
 
 // One search, able to stop between two nodes.
 struct AbufferSearch {
-    uint cell;
+    uint view;
+    ivec2 place;          // column and row in the view
+    uint cell;            // running index over all views
     float t_low;          // the ray's interval in the cell, widened by the errors of its ends
     float t_high;
     uint bucket;
@@ -33,14 +35,14 @@ void abuffer_log_outside(AbufferRef s, uint link, float z) {
 }
 
 // Whether a fragment's depths meet those of the ray: [low, high) holds the depths looked for, `ray_z` the ray's own.
-bool abuffer_meets(AbufferRef s, uint cell, uint link, float z, float low, float high, vec2 ray_z) {
+bool abuffer_meets(AbufferRef s, AbufferSearch search, uint link, float z, float low, float high, vec2 ray_z) {
     if (ABUFFER_ACCEPT != ABUFFER_ACCEPT_SLOPE) {
         return z >= low && z < high;
     }
     if (z < low || z > high) {
         return false;
     }
-    vec2 depths = abuffer_slope_depths(s, cell, abuffer_data(s, link, 0u), z);
+    vec2 depths = abuffer_slope_depths(s, search.view, search.place, abuffer_data(s, link, 0u), z);
     return depths.x <= ray_z.y && depths.y >= ray_z.x;
 }
 
@@ -52,7 +54,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         return false;
     }
-    PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, 2.0 / float(ABUFFER_HEADER(s).resolution), 0.0, ABUFFER_PLANE_REACH,
+    PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, abuffer_cell_slope(s, search.view), 0.0, ABUFFER_PLANE_REACH,
         false);
     float z_in = origin_z + search.t_low * direction_z;
     float z_out = origin_z + search.t_high * direction_z;
@@ -136,7 +138,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 uint primitive = abuffer_data(s, current, 0u);
                 state.tests++;
                 test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
-            } else if (abuffer_meets(s, search.cell, current, z, low, high, vec2(near_z, far_z))) {
+            } else if (abuffer_meets(s, search, current, z, low, high, vec2(near_z, far_z))) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
                 float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);
                 t = direction_z == 0.0 ? search.t_low : t;

@@ -7,22 +7,15 @@
 #define ABUFFER_SLOPE_GLSL
 
 #include "ads/coverage.glsl"
-#include "ads/geometry.glsl"
-#include "abuffer/accessors.glsl"
+#include "abuffer/vertices.glsl"
 
-vec2 abuffer_slope_depths(AbufferRef s, uint cell, uint primitive, float z) {
-    uint resolution = ABUFFER_HEADER(s).resolution;
-    uint face = cell / face_cells(resolution);
-    uint place = cell % face_cells(resolution);
-    vec3 direction = coverage_center(ivec2(place % (resolution + 2u), place / (resolution + 2u)) - 1, resolution);
+vec2 abuffer_slope_depths(AbufferRef s, uint view, ivec2 cell, uint primitive, float z) {
+    uint resolution = abuffer_resolution(s, view);
+    vec3 direction = coverage_center(cell, resolution);
     vec3 a;
     vec3 b;
     vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    vec3 eye = ABUFFER_HEADER(s).eye;
-    a = face_from_world(a - eye, face);
-    b = face_from_world(b - eye, face);
-    c = face_from_world(c - eye, face);
+    abuffer_view_vertices(s, primitive, view, a, b, c);
     vec3 normal = cross(b - a, c - a);
     float facing = abs(dot(normal, direction));
     float swing = (abs(normal.x) + abs(normal.y)) / float(resolution);

@@ -11,7 +11,9 @@
 // The size of a cell at a point: what the A-buffer cannot tell apart, metres.
 float abuffer_footprint(AbufferRef s, vec3 position) {
     vec3 p = abs(position - ABUFFER_HEADER(s).eye);
-    return 2.0 * max(p.x, max(p.y, p.z)) / float(ABUFFER_HEADER(s).resolution);
+    float cube = abuffer_has_cube() ? abuffer_cell_slope(s, 0u) : 0.0;
+    float camera = abuffer_has_camera() ? abuffer_cell_slope(s, ABUFFER_CAMERA) : 0.0;
+    return max(cube, camera) * max(p.x, max(p.y, p.z));
 }
 
 Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {

@@ -1,4 +1,4 @@
-// What: follows a ray through the faces' cells and searches each cell's lists.
+// What: follows a ray through the views' cells and searches each cell's lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: MMRT section 3.4; the exact march replaces its fixed steps unless asked for.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 link, 7 position
@@ -10,17 +10,18 @@
 #include "contract/trace_log.glsl"
 #include "ads/judge.glsl"
 #include "ads/march_cells.glsl"
-#include "ads/march_cube.glsl"
 #include "ads/march_samples.glsl"
 #include "abuffer/search.glsl"
+#include "abuffer/segments.glsl"
 
 #define ABUFFER_CURSOR_STARTED 1u
 #define ABUFFER_CURSOR_SEARCHING 2u
 
-// A ray within one face or the near box.
+// A ray within one view or the near box.
 struct AbufferWalk {
     Segment segment;
-    vec3 origin;          // face space
+    AbufferStretch stretch;
+    vec3 origin;          // in the view
     vec3 direction;
     CellMarch cells;
     SampleMarch samples;
@@ -29,9 +30,9 @@ struct AbufferWalk {
 };
 
 void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout AbufferWalk walk) {
-    uint resolution = ABUFFER_HEADER(s).resolution;
-    walk.origin = face_from_world(origin, walk.segment.face);
-    walk.direction = face_from_world(direction, walk.segment.face);
+    uint resolution = abuffer_resolution(s, walk.segment.face);
+    walk.origin = abuffer_view_from_world(s, origin, walk.segment.face);
+    walk.direction = abuffer_view_from_world(s, direction, walk.segment.face);
     walk.place = 0u;
     if (walk.segment.face == SEGMENT_NEAR) {
         return;
@@ -47,7 +48,8 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
 
 void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout TraceState state) {
     state.cursor[0] = ABUFFER_CURSOR_STARTED | (searching ? ABUFFER_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (search.in_bucket ? 32u : 0u) | walk.cells.neighbours << 6 | search.bucket << 16;
+        | (search.in_bucket ? 32u : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
+        | walk.stretch.stage << 21;
     state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
     state.cursor[2] = floatBitsToUint(walk.segment.t_end);
     state.cursor[3] = uint(walk.cells.cell.x + 1) | uint(walk.cells.cell.y + 1) << 16;
@@ -58,12 +60,14 @@ void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout 
         ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
 }
 
-void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, TraceState state, out AbufferWalk walk,
+void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, TraceState state, out AbufferWalk walk,
     out AbufferSearch search) {
     uint flags = state.cursor[0];
-    walk.segment = segment_at(origin, direction, uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]), near);
-    walk.segment.face = (flags >> 2) & 7u;
-    walk.segment.t_end = uintBitsToFloat(state.cursor[2]);
+    walk.segment = abuffer_segment(origin, direction, near, (flags >> 2) & 7u, uintBitsToFloat(state.cursor[1]),
+        uintBitsToFloat(state.cursor[2]));
+    // Before the faces none of them has been followed.
+    bool in_faces = walk.segment.face != ABUFFER_CAMERA && abuffer_has_cube();
+    walk.stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? walk.segment.t_end : clip.x);
     abuffer_begin_walk(s, origin, direction, walk);
     walk.place = state.cursor[7];
     if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT && walk.segment.face != SEGMENT_NEAR) {
@@ -75,7 +79,7 @@ void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, Trace
         walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
     }
     search.in_bucket = (flags & 32u) != 0u;
-    search.bucket = flags >> 16;
+    search.bucket = (flags >> 16) & 31u;
     search.link = state.cursor[6];
 }
 
@@ -95,7 +99,7 @@ bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout Tra
 }
 
 // Prepares the search of the cell the walk is at.
-void abuffer_begin_search(inout AbufferWalk walk, uint resolution, inout AbufferSearch search) {
+void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSearch search) {
     search.in_bucket = false;
     search.bucket = 0u;
     search.link = 0u;
@@ -105,7 +109,9 @@ void abuffer_begin_search(inout AbufferWalk walk, uint resolution, inout Abuffer
     } else {
         samples_cell(walk.samples, walk.place, walk.searched, search.t_low, search.t_high);
     }
-    search.cell = cell_index(walk.segment.face, walk.searched, resolution);
+    search.view = walk.segment.face;
+    search.place = walk.searched;
+    search.cell = abuffer_cell(s, search.view, search.place);
 }
 
 // Goes to the next cell; false at the end of the segment.
@@ -155,7 +161,6 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     if (!abuffer_finite(ray.origin) || !abuffer_finite(ray.direction) || all(equal(ray.direction, vec3(0.0)))) {
         return TRACE_MISS;
     }
-    uint resolution = ABUFFER_HEADER(s).resolution;
     bool ordered = ABUFFER_SORT != 0u && ABUFFER_HEADER(s).unsorted == 0u;
     precise vec3 origin = ray.origin - ABUFFER_HEADER(s).eye;
     vec3 direction = ray.direction;
@@ -164,26 +169,23 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     AbufferWalk walk;
     AbufferSearch search;
     uint work = 0u;
-    float t = clip.x;
+    walk.stretch = abuffer_stretch_begin(clip);
     bool restored = (state.cursor[0] & ABUFFER_CURSOR_STARTED) != 0u;
     bool searching = (state.cursor[0] & ABUFFER_CURSOR_SEARCHING) != 0u;
     if (restored) {
-        abuffer_restore(s, origin, direction, near, state, walk, search);
+        abuffer_restore(s, origin, direction, near, clip, state, walk, search);
     }
-    for (uint segments = 0u; segments < SEGMENT_LIMIT; segments++) {
+    for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
         if (!restored) {
             // Nothing behind the best hit can be nearer.
-            if (!(t < clip.y) || t > state.best.t) {
-                trace_log(STEP_SKIP, t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
+            if (!abuffer_next_segment(s, origin, direction, near, clip, state.best.t, walk.stretch, walk.segment)) {
                 break;
             }
-            walk.segment = segment_at(origin, direction, t, clip.y, near);
             abuffer_begin_walk(s, origin, direction, walk);
             trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
             searching = false;
         }
         restored = false;
-        t = walk.segment.t_end;
         if (walk.segment.face == SEGMENT_NEAR) {
             if (abuffer_trace_near(s, ray, walk, state, work)) {
                 abuffer_save(walk, search, false, state);
@@ -199,14 +201,13 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 uint saved_bucket = search.bucket;
                 uint saved_link = search.link;
                 bool saved_in_bucket = searching && search.in_bucket;
-                abuffer_begin_search(walk, resolution, search);
+                abuffer_begin_search(s, walk, search);
                 search.bucket = saved_in_bucket ? saved_bucket : 0u;
                 search.link = saved_in_bucket ? saved_link : 0u;
                 search.in_bucket = saved_in_bucket;
                 searching = false;
                 if (search.t_low > state.best.t) {
                     trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
-                    t = clip.y;
                     break;
                 }
                 work++;

@@ -18,8 +18,9 @@ layout(constant_id = 16) const uint ABUFFER_COVERAGE = ABUFFER_COVERAGE_EXACT;
 layout(constant_id = 17) const uint ABUFFER_STORAGE = ABUFFER_STORAGE_DLLB;
 layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
+layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 
-// State and sizes of one A-buffer. 152 bytes.
+// State and sizes of one A-buffer. 188 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -38,7 +39,10 @@ struct AbufferHeader {
     vec3 lower;           // bounds of the geometry relative to the eye, metres
     uint fragments;       // met by the build, ABUFFER_STORAGE_PAGED only
     vec3 upper;
-    float spare_upper;
+    uint camera_resolution; // cells a side of the camera's view, border not counted
+    vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into |x| <= z, |y| <= z
+    vec3 camera_y;
+    vec3 camera_z;
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
     uvec2 lists_address;
     uvec2 nodes_address;

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode};
+use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode, Viewpoint};
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
@@ -81,8 +81,13 @@ impl Bench {
     ///
     /// # Panics
     /// If the device fails or rays do not finish.
-    pub fn build_and_trace(&self, structure: &mut dyn Structure, eye: [f32; 3], rays: &[Ray]) -> Vec<Hit> {
-        build_until_complete(&self.device, structure, eye, Timing::None).expect("the build completes");
+    pub fn build_and_trace(
+        &self,
+        structure: &mut dyn Structure,
+        viewpoint: impl Into<Viewpoint>,
+        rays: &[Ray],
+    ) -> Vec<Hit> {
+        build_until_complete(&self.device, structure, viewpoint, Timing::None).expect("the build completes");
         self.trace(structure, rays).hits
     }
 

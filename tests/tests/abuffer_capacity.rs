@@ -43,7 +43,7 @@ fn room(fragments: u64, near_triangles: u64) -> Demand {
 fn build(bench: &Bench, structure: &mut ABuffer) -> BuildStatus {
     bench
         .device()
-        .submit(|recorder| structure.record_build(recorder, EYE))
+        .submit(|recorder| structure.record_build(recorder, EYE.into()))
         .expect("the device works")
         .value
         .expect("the header is written");

@@ -31,7 +31,7 @@ fn rays() -> Vec<Ray> {
 fn build(bench: &Bench, structure: &mut LayeredDepthCube) -> BuildStatus {
     bench
         .device()
-        .submit(|recorder| structure.record_build(recorder, EYE))
+        .submit(|recorder| structure.record_build(recorder, EYE.into()))
         .expect("the device works")
         .value
         .expect("the header is written");

@@ -25,7 +25,7 @@ fn rays() -> Vec<Ray> {
 fn build(bench: &Bench, structure: &mut Voxels) -> BuildStatus {
     bench
         .device()
-        .submit(|recorder| structure.record_build(recorder, [0.0; 3]))
+        .submit(|recorder| structure.record_build(recorder, [0.0; 3].into()))
         .expect("the device works")
         .value
         .expect("the header is written");

@@ -4,11 +4,8 @@ use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
-use crate::layout::cell_count;
+use crate::layout::{cell_count, draws};
 use crate::{Config, Payload, Storage};
-
-/// Faces of the cube.
-const VIEWS: u32 = 6;
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -85,11 +82,11 @@ impl Build {
 
     /// Records all passes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
-        let cells = cell_count(config.resolution);
+        let cells = cell_count(config);
         let lists = cells * u64::from(config.lists());
         let groups = |items: u64| items.div_ceil(u64::from(ABUFFER_GROUP_SIZE));
         let triangles = u64::from(target.geometry.triangle_count());
-        let side = config.resolution + 2;
+        let draws = draws(config);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
         // Backward links of new nodes and depths of unused slots are zero; everything else of a node is written.
@@ -104,16 +101,16 @@ impl Build {
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
         if let Some(bounds) = &self.bounds {
-            target.raster_pass(recorder, "abuffer/build_2_bounds", bounds, side, VIEWS);
+            target.raster_views(recorder, "abuffer/build_2_bounds", bounds, &draws);
         }
         if let Some(scale) = &self.scale {
             target.compute_pass(recorder, "abuffer/build_3_scale", scale, groups(cells), 0, shaders);
         }
         if let Some(lengths) = &self.lengths {
-            target.raster_pass(recorder, "abuffer/build_4_count", &lengths.count, side, VIEWS);
+            target.raster_views(recorder, "abuffer/build_4_count", &lengths.count, &draws);
             lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
-        target.raster_pass(recorder, "abuffer/build_6_store", &self.store, side, VIEWS);
+        target.raster_views(recorder, "abuffer/build_6_store", &self.store, &draws);
         if let Some(reorder) = &self.reorder {
             let readers = Access::COMPUTE;
             let sorted = if paged { target.pools.sizes().elements("nodes") } else { lists };

@@ -53,6 +53,46 @@ pub enum Coverage {
     Exact,
 }
 
+/// Which views are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Views {
+    /// Six faces of a cube around the eye: all that is around it.
+    Cube,
+    /// The same, and what the camera sees, with [`Config::camera_resolution`] cells a side.
+    CubeCamera,
+    /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
+    Camera,
+}
+
+impl Views {
+    /// Every choice.
+    pub const ALL: [Self; 3] = [Self::Cube, Self::CubeCamera, Self::Camera];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cube => "cube",
+            Self::CubeCamera => "cube+camera",
+            Self::Camera => "camera",
+        }
+    }
+
+    /// Whether the faces of the cube are among them.
+    pub fn has_cube(self) -> bool {
+        self != Self::Camera
+    }
+
+    /// Whether the camera's view is among them.
+    pub fn has_camera(self) -> bool {
+        self != Self::Cube
+    }
+
+    fn number(self) -> u32 {
+        let cube = if self.has_cube() { numbers::ABUFFER_VIEWS_CUBE } else { 0 };
+        cube | if self.has_camera() { numbers::ABUFFER_VIEWS_CAMERA } else { 0 }
+    }
+}
+
 /// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -113,6 +153,10 @@ impl Storage {
 pub struct Config {
     /// Cells a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
+    /// Which views are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
+    pub views: Views,
+    /// Cells a side of the camera's view, 1 to 8192, whatever its aspect; only for views with a camera.
+    pub camera_resolution: u32,
     /// How a cell's fragments are kept. Changes no hit.
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
@@ -153,6 +197,8 @@ impl Config {
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
+            views: Views::Cube,
+            camera_resolution: resolution,
             storage: Storage::Dllb,
             inline: false,
             page: 4,
@@ -197,6 +243,7 @@ impl Config {
             }
         };
         range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
+        range("camera-resolution", self.camera_resolution, 1, 8192, "1 to 8192 cells a side")?;
         range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
         range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
@@ -271,6 +318,7 @@ impl Config {
             (17, self.storage.number()),
             (18, u32::from(self.inline)),
             (19, self.page),
+            (20, self.views.number()),
         ]
     }
 
@@ -285,10 +333,13 @@ impl Config {
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
             ("payload", lower(&self.payload)),
-            ("views", "cube".to_owned()),
+            ("views", self.views.name().to_owned()),
             ("sort", switch(self.sort)),
             ("skip", switch(self.skip)),
         ];
+        if self.views.has_camera() {
+            options.push(("camera-resolution", self.camera_resolution.to_string()));
+        }
         if self.storage.is_bucketed() {
             options.push(("buckets", self.buckets.to_string()));
         }

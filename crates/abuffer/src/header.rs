@@ -40,8 +40,14 @@ pub struct Header {
     pub fragments: u32,
     /// Upper corner of the geometry relative to the eye, metres.
     pub upper: [f32; 3],
-    /// Zero.
-    pub spare_upper: f32,
+    /// Cells a side of the camera's view, border not counted.
+    pub camera_resolution: u32,
+    /// First row of the matrix that turns what the camera sees into `|x| <= z`, `|y| <= z`; zeros without a camera.
+    pub camera_x: [f32; 3],
+    /// Second row.
+    pub camera_y: [f32; 3],
+    /// Third row: depth.
+    pub camera_z: [f32; 3],
     /// Device address of the bounds; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the list heads and tails.

@@ -1,8 +1,9 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, PoolSize, Scan, Sizes, ViewDraw};
+use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 
-use crate::{Accept, Config, Header, Payload, Storage};
+use crate::{Accept, Config, Header, Payload, Storage, Views};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data", "near", "sums", "long"];
@@ -10,10 +11,23 @@ pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data
 /// Pages that a word of a list can name beside how many of its slots are used (`PAGE_LIMIT` of the shaders).
 const MOST_PAGES: u64 = 0x0FFF_FFFE;
 
-/// Cells of all six faces, each with a border of one cell.
-pub fn cell_count(resolution: u32) -> u64 {
-    let side = u64::from(resolution) + 2;
-    6 * side * side
+/// Cells of all views, each with a border of one cell.
+pub fn cell_count(config: &Config) -> u64 {
+    let cells = |resolution: u32| (u64::from(resolution) + 2).pow(2);
+    let cube = if config.views.has_cube() { 6 * cells(config.resolution) } else { 0 };
+    cube + if config.views.has_camera() { cells(config.camera_resolution) } else { 0 }
+}
+
+/// Draws of all views: the faces of the cube, and the camera.
+pub(crate) fn draws(config: &Config) -> Vec<ViewDraw> {
+    let mut draws = Vec::new();
+    if config.views.has_cube() {
+        draws.push(ViewDraw { side: config.resolution + 2, views: 6, first: 0 });
+    }
+    if config.views.has_camera() {
+        draws.push(ViewDraw { side: config.camera_resolution + 2, views: 1, first: ABUFFER_CAMERA });
+    }
+    draws
 }
 
 /// What a build found: how much of each pool it asked for.
@@ -85,7 +99,7 @@ pub(crate) fn bounds_words(config: &Config) -> u64 {
 /// An option is out of range, or a pool has more elements than 32-bit links can name.
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    let cells = cell_count(config.resolution);
+    let cells = cell_count(config);
     let lists = cells * u64::from(config.lists());
     let sizes = [
         (1, size_of::<Header>() as u64),
@@ -116,7 +130,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 
 /// The first guess where nothing has been counted: a fragment a cell.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
-    let fragments = config.fragments.unwrap_or_else(|| cell_count(config.resolution));
+    let fragments = config.fragments.unwrap_or_else(|| cell_count(config));
     plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists: 0 })
 }
 
@@ -144,8 +158,12 @@ impl FormulaBytes {
 /// The page's formula. It follows the paper's table and does not look at [`plan`], so that the two
 /// check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
-    let side = u64::from(config.resolution + 2);
-    let cells = side * side * 6;
+    let (side, camera_side) = (u64::from(config.resolution + 2), u64::from(config.camera_resolution + 2));
+    let cells = match config.views {
+        Views::Cube => 6 * side * side,
+        Views::CubeCamera => 6 * side * side + camera_side * camera_side,
+        Views::Camera => camera_side * camera_side,
+    };
     let buckets = u64::from(config.buckets);
     // Columns of table 2: bytes a cell, bytes a fragment, and bytes for the scale of buckets.
     let (per_cell, per_fragment, scale) = match config.storage {
@@ -166,7 +184,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         cells: cells * per_cell,
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        rest: 152 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
+        rest: 188 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
     }
 }
 
@@ -188,7 +206,18 @@ mod tests {
                 (false, 32, Accept::Thickness, Payload::Index),
             ] {
                 let page = if inline { 8 } else { 2 };
-                let config = Config { storage, inline, page, buckets, accept, payload, ..Config::robust(64) };
+                let views = Views::ALL[buckets as usize % 3];
+                let config = Config {
+                    storage,
+                    inline,
+                    page,
+                    buckets,
+                    accept,
+                    payload,
+                    views,
+                    camera_resolution: 24,
+                    ..Config::robust(64)
+                };
                 let bytes = plan(&config, DEMAND).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
                 let more = Demand { nodes: DEMAND.nodes + 1, ..DEMAND };
@@ -214,7 +243,7 @@ mod tests {
                 let named = sizes.pools.iter().filter(|pool| names.contains(&pool.name));
                 named.map(|pool| pool.elements * pool.element_bytes).sum::<u64>()
             };
-            assert_eq!(bytes(["bounds", "lists"]), cell_count(64) * per_cell, "{storage:?}");
+            assert_eq!(bytes(["bounds", "lists"]), cell_count(&config) * per_cell, "{storage:?}");
             assert_eq!(bytes(["nodes", "data"]), DEMAND.nodes * (per_fragment + 16), "{storage:?}");
         }
     }
@@ -225,7 +254,7 @@ mod tests {
     fn formula_agrees_with_the_papers_table() {
         let config = Config { payload: Payload::Attributes, accept: Accept::Interval, ..Config::robust(480) };
         let formula = formula_bytes(&config, Demand { nodes: 2_400_000, ..Demand::default() });
-        let per_cell = formula.cells / cell_count(480);
+        let per_cell = formula.cells / cell_count(&config);
         let total = (720 * 480 + 6 * 480 * 480) * per_cell + formula.fragments;
         let mebibytes = total as f64 / f64::from(1 << 20);
         assert!((mebibytes - 130.0).abs() < 0.5, "{mebibytes} MiB");

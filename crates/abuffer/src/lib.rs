@@ -1,5 +1,5 @@
 //! Multiview, multilayer A-buffers: the rasterizer stores every fragment of the six faces of a cube
-//! around the eye in per-cell, per-bucket lists, and rays are traced through the cells.
+//! around the eye, or of what a camera there sees, in per-cell, per-bucket lists, and rays are traced through the cells.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "A multiview and multilayer approach for interactive ray
 //! tracing", I3D 2016 (MMRT). Lists are kept in one of the storages the paper compares ([`Storage`]), with payload
@@ -15,7 +15,7 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Config, Coverage, March, Payload, Storage};
+pub use config::{Accept, Config, Coverage, March, Payload, Storage, Views};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;

@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
@@ -74,19 +74,42 @@ impl ABuffer {
     }
 
     /// The header that the next build starts from.
-    fn first_header(&self, eye: [f32; 3]) -> Header {
+    ///
+    /// # Errors
+    /// A camera's view is asked for and there is no camera.
+    fn first_header(&self, viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        let eye = viewpoint.eye;
+        let config = &self.config;
+        let camera = viewpoint.camera.filter(|camera| config.views.has_camera() && camera.is_valid());
+        if config.views.has_camera() && camera.is_none() {
+            return Err(AdsError::Option {
+                option: "views",
+                value: config.views.name().to_owned(),
+                expected: "the build was given no perspective camera; without one use `cube`",
+            });
+        }
         let [lower, upper] = self.geometry.bounds();
         let relative = |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - eye[axis]);
         let (lower, upper) = (relative(lower), relative(upper));
         let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
         // The subtraction above rounds, and so does the one in the shaders.
         let rounding = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
+        let faces = if config.views.has_cube() { config.resolution } else { 0 };
+        let (camera_rows, camera_cells, camera_width) = camera.map_or_else(Default::default, |camera| {
+            let resolution = config.camera_resolution as f32;
+            let half = camera.half_width.max(camera.half_height);
+            // A point's place in the camera's view is also turned and stretched: twice the rounding, and narrow views more.
+            let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
+            (camera.rows(), stretch * resolution, 2.0 * half / resolution)
+        });
+        let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
         // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
         let margin = match self.config.accept {
-            Accept::Slope | Accept::Plane => rounding + 2.0 / self.config.resolution as f32 * farthest,
+            Accept::Slope | Accept::Plane => rounding + widest * farthest,
             Accept::Interval | Accept::Thickness => rounding,
         };
-        Header {
+        let [camera_x, camera_y, camera_z] = camera_rows;
+        Ok(Header {
             capacity: self.pools.sizes().elements("nodes") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
             long_capacity: self.pools.sizes().elements("long") as u32,
@@ -94,10 +117,14 @@ impl ABuffer {
             samples: self.config.samples,
             thickness: self.config.thickness,
             // Closer to the eye than this a point's cell is lost in rounding (docs/core.md).
-            near_size: 4.8e-7 * self.config.resolution as f32 * farthest,
+            near_size: 4.8e-7 * (faces as f32).max(camera_cells) * farthest,
             eye,
             lower: lower.map(|x| x - margin),
             upper: upper.map(|x| x + margin),
+            camera_resolution: if camera.is_some() { config.camera_resolution } else { 0 },
+            camera_x,
+            camera_y,
+            camera_z,
             bounds_address: self.pools.address_of("bounds"),
             lists_address: self.pools.address_of("lists"),
             nodes_address: self.pools.address_of("nodes"),
@@ -106,7 +133,7 @@ impl ABuffer {
             sums_address: self.pools.address_of("sums"),
             long_address: self.pools.address_of("long"),
             ..Header::default()
-        }
+        })
     }
 
     /// The header as the last build left it. The caller has waited for the submission.
@@ -183,8 +210,8 @@ impl Structure for ABuffer {
         Ok(())
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header(eye))?;
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        self.pools.begin_build(&self.first_header(viewpoint)?)?;
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
         self.build.record(recorder, &self.config, target);
         Ok(())

@@ -209,7 +209,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let mut pages = vec![false; stored / contents.slots()];
     let mut linked = 0;
     let mut place = 0;
-    for cell in 0..cell_count(config.resolution) as usize {
+    for cell in 0..cell_count(config) as usize {
         for bucket in 0..buckets {
             let links = match config.storage {
                 Storage::Sb => contiguous(contents, cell, &mut place)?,

@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
@@ -198,8 +198,8 @@ impl Structure for PrimitiveLists {
         Ok(())
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header(eye))?;
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        self.pools.begin_build(&self.first_header(viewpoint.eye))?;
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None };
         match &self.build {
             Passes::Lists(build) => build.record(recorder, &self.config, target),

@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
     Addressing, AdsError, BuildStatus, Check, Counters, Geometry, Modules, RayQueue, SceneBinding, Sizes,
-    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode,
+    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -80,7 +80,7 @@ impl Structure for BruteForce {
         Ok(())
     }
 
-    fn record_build(&mut self, _recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+    fn record_build(&mut self, _recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
         Ok(())
     }
 

@@ -32,6 +32,7 @@ mod scan;
 mod steps;
 mod structure;
 mod types;
+mod viewpoint;
 
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use brute_force::BruteForce;
@@ -39,7 +40,7 @@ pub use counters::Counters;
 pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
-pub use passes::{BuildPipelines, BuildTarget};
+pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
 pub use pools::Pools;
 pub use queue::{QueueCounters, QueueParts, RayQueue};
 pub use scan::Scan;
@@ -49,6 +50,7 @@ pub use structure::{
     TraceMode,
 };
 pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
+pub use viewpoint::{CameraView, Viewpoint};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

@@ -76,6 +76,17 @@ impl<'a> BuildPipelines<'a> {
     }
 }
 
+/// Views of one size that are drawn at once, one instance each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ViewDraw {
+    /// Cells a side, border counted.
+    pub side: u32,
+    /// How many.
+    pub views: u32,
+    /// Number of the first: instance 0.
+    pub first: u32,
+}
+
 /// What the passes of one recording work on.
 #[derive(Clone, Copy, Debug)]
 pub struct BuildTarget<'a> {
@@ -156,13 +167,24 @@ impl BuildTarget<'_> {
         side: u32,
         views: u32,
     ) {
+        self.raster_views(recorder, label, pipeline, &[ViewDraw { side, views, first: 0 }]);
+    }
+
+    /// The same for views of several sizes. Passes learn the number of a draw's first view where others learn their step.
+    pub fn raster_views(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &RasterPipeline,
+        draws: &[ViewDraw],
+    ) {
         recorder.begin_pass(label);
         let triangles = self.geometry.triangle_count();
-        if triangles > 0 {
-            recorder.begin_rendering(side, side);
+        for draw in draws.iter().filter(|_| triangles > 0) {
+            recorder.begin_rendering(draw.side, draw.side);
             recorder.bind_raster(pipeline);
-            self.bind(recorder, 0);
-            recorder.draw(3 * triangles, views, 0);
+            self.bind(recorder, draw.first);
+            recorder.draw(3 * triangles, draw.views, 0);
             recorder.end_rendering();
         }
         recorder.barrier(Access::FRAGMENT, Access::COMPUTE | Access::FRAGMENT);

@@ -9,6 +9,9 @@ use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, TraceStep};
 /// The number that stands for the near box among the views of a cube.
 const VIEW_NEAR: u32 = 6;
 
+/// The number that stands for the view of a camera.
+const VIEW_CAMERA: u32 = 7;
+
 /// What a traversal did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -178,6 +181,7 @@ impl fmt::Display for TraceStep {
         match self.kind() {
             StepKind::Round => write!(f, "round {a}"),
             StepKind::View if a == VIEW_NEAR => write!(f, "near box, t {t_low} to {t_high}"),
+            StepKind::View if a == VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
             StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
             StepKind::Cell => {
                 let (view, x, y) = (a, b.cast_signed(), self.c.cast_signed());

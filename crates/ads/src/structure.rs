@@ -2,7 +2,7 @@
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
-use crate::{AdsError, Counters, Geometry, RayQueue};
+use crate::{AdsError, Counters, Geometry, RayQueue, Viewpoint};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,12 +170,11 @@ pub trait Structure {
         Ok(())
     }
 
-    /// Records a build as seen from `eye` (metres relative to the frame origin). Structures without
-    /// views ignore the eye.
+    /// Records a build as seen from there. Structures without views ignore it.
     ///
     /// # Errors
-    /// Host-visible memory could not be written.
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, eye: [f32; 3]) -> Result<(), AdsError>;
+    /// Host-visible memory could not be written, or the structure has a view of the camera and there is none.
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError>;
 
     /// Reads what the last build left behind. The caller has waited for the submission.
     ///

@@ -125,6 +125,12 @@ pub enum Axes {
 pub enum Views {
     /// Six faces around the centre
     Cube,
+    /// The same, and what the camera sees, with cells of its own
+    #[value(name = "cube+camera")]
+    #[serde(rename = "cube+camera")]
+    CubeCamera,
+    /// What the camera sees and nothing else
+    Camera,
     /// Three along the axes, which do not depend on the eye
     Axes,
 }
@@ -181,6 +187,10 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
+    /// With a camera among --views: cells along each side of its view; as --resolution if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
+    #[serde(rename = "camera-resolution", skip_serializing_if = "Option::is_none")]
+    pub camera_resolution: Option<u32>,
     /// Pixels along each side of a tile: lists are kept per tile
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -135,7 +135,7 @@ unsafe fn hits(
         device.begin_command_buffer(commands[0], &vk::CommandBufferBeginInfo::default())?;
         let mut recorder = Recorder::from_raw(adopted, commands[0]);
         queued.record_reset(&mut recorder);
-        structure.record_build(&mut recorder, [0.0; 3])?;
+        structure.record_build(&mut recorder, [0.0; 3].into())?;
         let (count, rounds) = (rays.len() as u32, structure.rounds());
         structure.record_trace(&mut recorder, &queued, count, TraceMode::Closest, rounds);
         recorder.finish()?;

@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
@@ -214,7 +214,7 @@ impl Structure for Bvh {
         Ok(())
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
         let prepared = match self.config.builder {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,

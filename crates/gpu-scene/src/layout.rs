@@ -3,6 +3,8 @@
 //! All fields are words of four bytes, so scalar block layout and `repr(C)` agree.
 
 use bytemuck::{Pod, Zeroable};
+use rasray_ads::{CameraView, Viewpoint};
+use rasray_shaders_glsl::constants::scene::PROJECTION_PERSPECTIVE;
 
 pub use rasray_ads::Draw;
 
@@ -51,6 +53,21 @@ pub struct Frame {
     pub environment_sampled: u32,
     /// W/(sr m^2), the constant environment.
     pub environment_radiance: [f32; 3],
+}
+
+impl Frame {
+    /// The eye and what the camera sees there; without the latter where it has no perspective.
+    pub fn viewpoint(&self) -> Viewpoint {
+        let camera = CameraView {
+            right: self.camera_right,
+            up: self.camera_up,
+            forward: self.camera_forward,
+            half_width: self.half_width,
+            half_height: self.half_height,
+        };
+        let perspective = self.projection == PROJECTION_PERSPECTIVE && camera.is_valid();
+        Viewpoint { eye: self.camera_position, camera: perspective.then_some(camera) }
+    }
 }
 
 /// How a draw is shaded; same order as the draws. Offsets count words from the start of their

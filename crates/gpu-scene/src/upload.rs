@@ -1,7 +1,7 @@
 //! Tables on the device.
 
 use bytemuck::NoUninit;
-use rasray_ads::{Geometry, GeometryDesc, SceneBinding};
+use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation};
 use rasray_shaders_glsl::constants::{
     contract::DRAW_ALPHA_MASKED,
@@ -131,6 +131,11 @@ impl GpuScene {
     /// Where the camera stands, metres relative to the frame origin, as shaders see it.
     pub fn eye(&self) -> [f32; 3] {
         self.frame.camera_position
+    }
+
+    /// The eye and what the camera sees there.
+    pub fn viewpoint(&self) -> Viewpoint {
+        self.frame.viewpoint()
     }
 
     /// World, metres.

@@ -134,7 +134,7 @@ unsafe fn hits(
             device.begin_command_buffer(commands[0], &vk::CommandBufferBeginInfo::default())?;
             let mut recorder = Recorder::from_raw(adopted, commands[0]);
             queued.record_reset(&mut recorder);
-            structure.record_build(&mut recorder, [0.5, 0.5, -0.5])?;
+            structure.record_build(&mut recorder, [0.5, 0.5, -0.5].into())?;
             structure.record_trace(&mut recorder, &queued, 1000, TraceMode::Closest, structure.rounds());
             recorder.finish()?;
             device.end_command_buffer(commands[0])?;

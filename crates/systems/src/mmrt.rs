@@ -1,6 +1,6 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload, Storage};
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload, Storage, Views};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,7 +18,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 16] = [
+const OPTIONS: [&str; 17] = [
     "resolution",
     "buckets",
     "storage",
@@ -33,6 +33,7 @@ const OPTIONS: [&str; 16] = [
     "sort",
     "skip",
     "views",
+    "camera-resolution",
     "addressing",
     "capacity",
 ];
@@ -61,8 +62,8 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             }
             "inline" => config.inline = given.switch()?,
             "page" => config.page = given.number()?,
-            // One word so far: a value is checked, and nothing else is chosen.
-            "views" => given.choice(&[("cube", ())])?,
+            "views" => config.views = given.choice(&Views::ALL.map(|views| (views.name(), views)))?,
+            "camera-resolution" => config.camera_resolution = given.number()?,
             "payload" => {
                 config.payload =
                     given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
@@ -92,6 +93,9 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             }
             _ => return Err(given.unknown()),
         }
+    }
+    if !spec.options().contains_key("camera-resolution") {
+        config.camera_resolution = config.resolution;
     }
     config.validate()?;
     Ok(config)

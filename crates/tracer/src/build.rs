@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use rasray_ads::{BuildStatus, Check, Structure};
+use rasray_ads::{BuildStatus, Check, Structure, Viewpoint};
 use rasray_gpu::{Device, PassTiming, Timing};
 
 use crate::TracerError;
@@ -26,22 +26,24 @@ pub struct BuildOutcome {
     pub status: BuildStatus,
 }
 
-/// Builds as seen from `eye` (metres relative to the frame origin) and grows until complete.
+/// Builds as seen from there (an eye alone will do: metres relative to the frame origin) and grows until complete.
 ///
 /// # Errors
 /// The device fails, memory does not suffice, or the demand does not settle.
 pub fn build_until_complete(
     device: &Device,
     structure: &mut dyn Structure,
-    eye: [f32; 3],
+    viewpoint: impl Into<Viewpoint>,
     timing: Timing,
 ) -> Result<BuildOutcome, TracerError> {
+    let viewpoint = viewpoint.into();
     let mut outcome = BuildOutcome::default();
     loop {
         let started = Instant::now();
         structure.prepare_build(device)?;
         outcome.prepare_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
-        let submitted = device.submit_passes(timing, |recorder| structure.record_build(recorder, eye))?;
+        let submitted =
+            device.submit_passes(timing, |recorder| structure.record_build(recorder, viewpoint))?;
         submitted.value?;
         outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         outcome.passes = submitted.passes;

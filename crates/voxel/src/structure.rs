@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
@@ -149,7 +149,7 @@ impl Structure for Voxels {
         Ok(())
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, _eye: [f32; 3]) -> Result<(), AdsError> {
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
         self.pools.begin_build(&self.first_header())?;
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
         self.build.record(recorder, &self.config, target);

@@ -50,6 +50,9 @@ pub struct HardCase {
     pub grid: Option<Grid>,
 }
 
+/// Where a camera at the eye of a case looks, relative to the eye. Its angle of view is a right one, both ways.
+pub const CAMERA_TOWARDS: [f64; 3] = [0.25, 0.125, 1.0];
+
 /// What is known by construction about the answers to all rays of a case.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expectation {

@@ -37,7 +37,7 @@ mod single_precision;
 mod tests;
 
 pub use capacity::POISONED_DROPPED;
-pub use case::{Answer, Expectation, HardCase, Scale, Triangle};
+pub use case::{Answer, CAMERA_TOWARDS, Expectation, HardCase, Scale, Triangle};
 pub use catalogue::{CATALOGUE, CatalogueRow, Target, Targets, catalogue_row};
 pub use files::{HardFile, Loading, Refusal, file_ids, files};
 pub use grid::Grid;

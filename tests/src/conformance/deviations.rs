@@ -8,6 +8,8 @@ const SHELL: &str = "both sides of the shell lie within one step";
 const LEAVING: &str = "a ray that leaves a surface meets the samples beside its own";
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
 
+const FEW_CELLS: &str = "triangles of two or three cells, of which the turned view covers other centres";
+
 const FAR_PLATES: &str =
     "plates so far off that they fill a few cells only, all of whose centres are near an edge";
 const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
@@ -61,6 +63,43 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("V2-6", EDGE_ON, 0.99, 1.0),
     deviation("V16", THIN, 0.99, 1.0),
     deviation("T2", NEEDLE, 0.524, 0.826),
+];
+
+/// Planes in 64 x 64 cells of what a camera sees that looks away from the axes.
+pub(super) const CAMERA_64: &[Deviation] = &[
+    deviation("G1", THIN, 0.69, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.435, 0.68),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-1", EDGE_ON, 0.107, 0.168),
+    deviation("V2-2", EDGE_ON, 0.597, 0.934),
+    deviation("V2-3", EDGE_ON, 0.77, 1.0),
+    deviation("V2-4", EDGE_ON, 0.78, 1.0),
+    deviation("V2-5", EDGE_ON, 0.78, 1.0),
+    deviation("V2-6", EDGE_ON, 0.78, 1.0),
+    deviation("V7", FEW_CELLS, 0.049, 0.079),
+    deviation("V16", THIN, 0.74, 1.0),
+    deviation("X1", FEW_CELLS, 0.355, 0.556),
+    deviation("X10", FEW_CELLS, 0.085, 0.135),
+    deviation("T2", NEEDLE, 0.69, 1.0),
+];
+
+/// The same cells of a cube's faces, and twice as many a side of what that camera sees.
+pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
+    deviation("G1", THIN, 0.69, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.41, 0.77),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-1", EDGE_ON, 0.03, 0.048),
+    deviation("V2-2", EDGE_ON, 0.241, 0.378),
+    deviation("V2-3", EDGE_ON, 0.629, 0.984),
+    deviation("V2-4", EDGE_ON, 0.668, 1.0),
+    deviation("V2-5", EDGE_ON, 0.678, 1.0),
+    deviation("V2-6", EDGE_ON, 0.688, 1.0),
+    deviation("V16", THIN, 0.721, 1.0),
+    deviation("T2", NEEDLE, 0.5, 0.85),
 ];
 
 /// Planes in 128 x 128 cells a face.

@@ -21,6 +21,8 @@ pub struct Measured {
     pub rejected: Vec<usize>,
     /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
     pub lost: usize,
+    /// Unambiguous and ambiguous rays that are not judged: what they meet lies outside of what the camera sees.
+    pub unseen: usize,
     /// |dt| / t of the hits on the right triangle.
     pub dt_right: Option<Percentiles>,
 }
@@ -47,7 +49,7 @@ pub fn measure(
     rounding: f64,
 ) -> Measured {
     structure.set_geometry(bench.device(), &prepared.geometry).expect("geometry is taken");
-    let hits = bench.build_and_trace(structure, prepared.case.eye, &prepared.rays);
+    let hits = bench.build_and_trace(structure, prepared.viewpoint, &prepared.rays);
     let hits: Vec<_> = hits.iter().map(|hit| device_hit(prepared, hit)).collect();
     compare(prepared, &hits, depth_tolerance, rounding)
 }
@@ -71,6 +73,7 @@ pub fn compare(
         wrong: Vec::new(),
         rejected: Vec::new(),
         lost: 0,
+        unseen: 0,
         dt_right: None,
     };
     let (mut dt_right, mut inadmissible) = (Vec::new(), Vec::new());
@@ -82,6 +85,10 @@ pub fn compare(
         let must_hit = matches!(answer, Answer::Hit | Answer::HitAt { .. } | Answer::HitOn { .. });
         measured.lost += usize::from(must_hit && hit.is_none());
         if matches!(answer, Answer::Anything { .. }) {
+            continue;
+        }
+        if prepared.is_unseen(index) {
+            measured.unseen += 1;
             continue;
         }
         if verdict.is_ambiguous() {

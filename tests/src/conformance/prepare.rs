@@ -1,7 +1,12 @@
-use rasray_ads::{Geometry, PRIMITIVE_NONE, Ray};
+use bytemuck::Zeroable;
+use glam::DVec3;
+use rasray_ads::{Geometry, PRIMITIVE_NONE, Ray, Viewpoint};
+use rasray_gpu_scene::{View, layout::Frame};
 use rasray_reference::oracle::{self, COORDINATE_LIMIT, Oracle, Verdict};
 
-use crate::hard_cases::{HardCase, Triangle};
+use rasray_scene::default_view::camera_looking_at;
+
+use crate::hard_cases::{CAMERA_TOWARDS, HardCase, Triangle};
 use crate::harness::Bench;
 
 /// A hard case with its truth and its triangles on the device, for all rows.
@@ -15,6 +20,10 @@ pub struct Prepared {
     pub geometry: Geometry,
     /// The rays with ids as the device counts them.
     pub rays: Vec<Ray>,
+    /// The case's eye, and a camera there.
+    pub viewpoint: Viewpoint,
+    /// Only what the camera sees is judged.
+    pub only_camera: bool,
     /// The case's id of each triangle on the device.
     kept: Vec<u32>,
 }
@@ -37,7 +46,9 @@ impl Prepared {
         let kept = loadable(&case.triangles);
         let triangles: Vec<Triangle> = kept.iter().map(|&index| case.triangles[index as usize]).collect();
         let rays = case.rays.iter().map(|ray| device_ray(ray, &kept)).collect();
-        Self { geometry: bench.geometry(&triangles), verdicts, rays, kept, case }
+        let viewpoint = viewpoint(case.eye);
+        let geometry = bench.geometry(&triangles);
+        Self { geometry, verdicts, rays, viewpoint, only_camera: false, kept, case }
     }
 
     /// Keeps only the first rays, for structures whose work grows with all triangles.
@@ -47,10 +58,34 @@ impl Prepared {
         self.rays.truncate(rays);
     }
 
+    /// Whether a ray is not judged: only what the camera sees is, and of all that it may meet something lies outside.
+    pub fn is_unseen(&self, index: usize) -> bool {
+        let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
+        let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);
+        let is_outside = |t: f64| {
+            let eye = self.viewpoint.eye;
+            !camera.sees(std::array::from_fn(|axis| {
+                f64::from(ray.origin[axis]) + t * f64::from(ray.direction[axis]) - f64::from(eye[axis])
+            }))
+        };
+        let candidates = verdict.candidates.iter().flat_map(|one| [one.t_low, one.t_high]);
+        verdict.outcome.hit().map(|(_, t)| t).into_iter().chain(candidates).any(is_outside)
+    }
+
     /// The case's id of a triangle on the device; absent if there is no such triangle.
     pub fn primitive(&self, on_device: u32) -> Option<u32> {
         self.kept.get(on_device as usize).copied()
     }
+}
+
+/// An eye with the camera that all hard cases have.
+fn viewpoint(eye: [f32; 3]) -> Viewpoint {
+    let at = DVec3::from_array(eye.map(f64::from));
+    let target = at + DVec3::from_array(CAMERA_TOWARDS);
+    let camera = camera_looking_at("hard case", at, target, std::f32::consts::FRAC_PI_2);
+    let mut frame = Frame::zeroed();
+    View { camera, width: 1, height: 1, seed: 0 }.write(&mut frame, DVec3::ZERO);
+    frame.viewpoint().at(eye)
 }
 
 fn device_ray(ray: &oracle::Ray, kept: &[u32]) -> Ray {

@@ -151,6 +151,11 @@ impl Row {
         }
     }
 
+    /// Whether it has no views but the camera's, so that only what that sees is judged.
+    pub fn only_camera(&self) -> bool {
+        self.options.contains(&("views", "camera"))
+    }
+
     /// Whether every answer must be right.
     pub fn is_exact(&self) -> bool {
         matches!(self.demand, Demand::Exact { .. })
@@ -329,6 +334,26 @@ pub const ROWS: &[Row] = &[
             deviations::ROBUST_256,
         )
     },
+    // The cube's cells and finer ones of the camera, which looks away from the axes; then the camera alone.
+    Row {
+        tier: Tier::Full,
+        ..mmrt(
+            "mmrt-cube-camera-64",
+            Preset::Robust,
+            &[("resolution", "64"), ("views", "cube+camera"), ("camera-resolution", "128")],
+            Cases::Shallow,
+            robust_law(64),
+            deviations::CUBE_CAMERA_64,
+        )
+    },
+    mmrt(
+        "mmrt-camera-64",
+        Preset::Robust,
+        &[("resolution", "64"), ("views", "camera")],
+        Cases::Shallow,
+        robust_law(64),
+        deviations::CAMERA_64,
+    ),
     // Triangle ids instead of attributes, which need a scene.
     mmrt(
         "mmrt-published-16",

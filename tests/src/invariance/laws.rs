@@ -47,6 +47,7 @@ pub const LAWS: &[Law] = &[
     same("storage", &["ll", "dll", "llb", "dllb", "sb", "paged", "lists", "bricks"]),
     same_for_primitives("coverage", &["exact", "hardware", "conservative"]),
     same_for_primitives("grid", &["8", "24"]),
+    same_for_primitives("camera-resolution", &["12", "37"]),
     same_for_primitives("resolution", &["12", "37"]),
     same_for_primitives("slices", &["8", "64"]),
     same_for_primitives("tile", &["1", "2", "4", "8"]),

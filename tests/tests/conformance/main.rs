@@ -66,6 +66,7 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             if row.is_exact() {
                 prepared.truncate(most);
             }
+            prepared.only_camera = row.only_camera();
             let (depth_tolerance, rounding) = row.tolerances();
             let measured = measure(bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec3, Vec3};
 use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, StructureKind};
 use rasray_gpu::Device;
-use rasray_hard_cases::{Answer, HardCase, Triangle};
+use rasray_hard_cases::{Answer, CAMERA_TOWARDS, HardCase, Triangle};
 use rasray_reference::oracle::{self, COORDINATE_LIMIT, Oracle, Verdict};
 use rasray_scene::default_view::camera_looking_at;
 use rasray_scene::needs::Needs;
@@ -90,7 +90,8 @@ pub(super) fn hard(
     let case = job.case;
     let placed = Placed::new(case);
     let eye = DVec3::from(Vec3::from(case.eye));
-    let camera = camera_looking_at("hard case", eye, eye + DVec3::Z, std::f32::consts::FRAC_PI_4);
+    let camera =
+        camera_looking_at("hard case", eye, eye + DVec3::from(CAMERA_TOWARDS), std::f32::consts::FRAC_PI_2);
     // Relative to the world's own origin, so that positions are those of the case bit for bit.
     let stage = Stage::around(device, &placed.scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
     check_positions(device, &stage, case, &placed.kept)?;

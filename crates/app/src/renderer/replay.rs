@@ -119,7 +119,7 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
 fn cube_resolution(built: &Built) -> Result<Option<u32>, AppError> {
     let report = built.structure.report().map_err(device_error)?;
     let value = |name: &str| report.options.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
-    let cube = value("views").is_some_and(|views| views == "cube");
+    let cube = value("views").is_some_and(|views| views.starts_with("cube"));
     Ok(value("resolution").filter(|_| cube).and_then(|resolution| resolution.parse().ok()))
 }
 

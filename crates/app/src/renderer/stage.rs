@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use rasray_ads::{AdsError, Structure};
+use rasray_ads::{AdsError, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::needs::Needs;
@@ -108,7 +108,7 @@ fn first_build(
     device: &Device,
     spec: &Spec,
     scene: &GpuScene,
-    eye: [f32; 3],
+    viewpoint: Viewpoint,
     timing: Timing,
 ) -> Result<(Box<dyn Structure>, BuildOutcome), FirstBuild> {
     let refuse = |error: AppError| FirstBuild::Other(error);
@@ -129,7 +129,7 @@ fn first_build(
             other => refuse(AppError::usage(other.to_string(), "see `rasray render --help`")),
         })?;
     let outcome =
-        build_until_complete(device, structure.as_mut(), eye, timing).map_err(|error| match error {
+        build_until_complete(device, structure.as_mut(), viewpoint, timing).map_err(|error| match error {
             TracerError::Ads(error) => ads_error(error),
             other => refuse(tracer_error(&other)),
         })?;
@@ -154,7 +154,7 @@ pub(super) struct Built {
     pub(super) structure: Box<dyn Structure>,
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
-    eye: [f32; 3],
+    viewpoint: Viewpoint,
     /// Of each repeated build, as the host saw it, milliseconds.
     whole: Vec<f64>,
     /// The host's own part of each, milliseconds.
@@ -162,7 +162,7 @@ pub(super) struct Built {
 }
 
 impl Built {
-    /// Makes the structure of a spec and builds it as seen from `eye` until complete. Where a pool
+    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until complete. Where a pool
     /// exceeds what one binding can hold and nothing was said of addressing, the pools are reached by
     /// device address instead.
     pub(super) fn new(
@@ -172,7 +172,8 @@ impl Built {
         eye: [f32; 3],
     ) -> Result<Self, AppError> {
         let timing = device.best_timing();
-        let (structure, outcome) = match first_build(device, spec, scene, eye, timing) {
+        let viewpoint = scene.viewpoint().at(eye);
+        let (structure, outcome) = match first_build(device, spec, scene, viewpoint, timing) {
             Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
                 tracing::info!(
                     system = spec.system().name,
@@ -181,7 +182,7 @@ impl Built {
                 let spec = spec
                     .with_option("addressing", "address")
                     .map_err(|error| AppError::usage(error.to_string(), ""))?;
-                first_build(device, &spec, scene, eye, timing).map_err(AppError::from)?
+                first_build(device, &spec, scene, viewpoint, timing).map_err(AppError::from)?
             }
             other => other.map_err(AppError::from)?,
         };
@@ -189,7 +190,7 @@ impl Built {
             structure,
             outcome,
             passes: Passes::default(),
-            eye,
+            viewpoint,
             whole: Vec::new(),
             prepare: Vec::new(),
         })
@@ -213,7 +214,7 @@ impl Built {
     pub(super) fn build_again(&mut self, device: &Device) -> Result<(), AppError> {
         let regrows = self.outcome.regrows;
         let timing = device.best_timing();
-        self.outcome = build_until_complete(device, self.structure.as_mut(), self.eye, timing)
+        self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
             .map_err(|e| tracer_error(&e))?;
         self.outcome.regrows += regrows;
         self.passes.add(&self.outcome.passes);

@@ -1,0 +1,91 @@
+//! Where a build is seen from, and what a camera sees there.
+
+/// What a camera sees: a pyramid whose apex is the eye. Axes are unit and at right angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraView {
+    /// Towards the right of the image.
+    pub right: [f32; 3],
+    /// Towards the top of the image.
+    pub up: [f32; 3],
+    /// Into the image.
+    pub forward: [f32; 3],
+    /// Half the image's width at a distance of one along `forward`; positive.
+    pub half_width: f32,
+    /// Half its height there; positive.
+    pub half_height: f32,
+}
+
+impl CameraView {
+    /// Rows of the matrix under which the pyramid is `|x| <= z`, `|y| <= z`: depth is z.
+    pub fn rows(&self) -> [[f32; 3]; 3] {
+        [self.right.map(|x| x / self.half_width), self.up.map(|x| x / self.half_height), self.forward]
+    }
+
+    /// Whether a point, relative to the eye, lies within the pyramid.
+    pub fn sees(&self, point: [f64; 3]) -> bool {
+        let along = |axis: [f32; 3]| (0..3).map(|i| f64::from(axis[i]) * point[i]).sum::<f64>();
+        let depth = along(self.forward);
+        depth > 0.0
+            && along(self.right).abs() <= depth * f64::from(self.half_width)
+            && along(self.up).abs() <= depth * f64::from(self.half_height)
+    }
+
+    /// Whether all numbers are finite and the pyramid is open.
+    pub fn is_valid(&self) -> bool {
+        let halves = [self.half_width, self.half_height];
+        let finite = self.rows().iter().flatten().all(|x| x.is_finite());
+        finite && halves.iter().all(|half| *half > 0.0 && half.is_finite())
+    }
+}
+
+/// Where a build is seen from. Structures without views ignore it, those without a view of the camera ignore that.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Viewpoint {
+    /// Metres relative to the frame origin.
+    pub eye: [f32; 3],
+    /// What the camera at the eye sees; absent where there is none, or none with a perspective.
+    pub camera: Option<CameraView>,
+}
+
+impl Viewpoint {
+    /// The same camera at another place.
+    pub fn at(self, eye: [f32; 3]) -> Self {
+        Self { eye, ..self }
+    }
+}
+
+impl From<[f32; 3]> for Viewpoint {
+    /// An eye without a camera.
+    fn from(eye: [f32; 3]) -> Self {
+        Self { eye, camera: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_camera_sees_is_a_pyramid_under_its_rows() {
+        let view = CameraView {
+            right: [0.0, 0.0, -1.0],
+            up: [0.0, 1.0, 0.0],
+            forward: [-1.0, 0.0, 0.0],
+            half_width: 2.0,
+            half_height: 0.5,
+        };
+        assert!(view.is_valid());
+        for (point, seen) in [
+            ([-1.0, 0.0, 0.0], true),
+            ([-1.0, 0.0, 1.9], true),
+            ([-1.0, 0.0, 2.1], false),
+            ([-1.0, 0.6, 0.0], false),
+            ([1.0, 0.0, 0.0], false),
+        ] {
+            assert_eq!(view.sees(point), seen, "{point:?}");
+            let [x, y, z] = view.rows().map(|row| (0..3).map(|i| f64::from(row[i]) * point[i]).sum::<f64>());
+            assert_eq!(z > 0.0 && x.abs() <= z && y.abs() <= z, seen, "{point:?}");
+        }
+        assert!(!CameraView { half_width: 0.0, ..view }.is_valid());
+    }
+}

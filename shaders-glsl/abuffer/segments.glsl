@@ -1,0 +1,96 @@
+// What: the stretches of a ray, one after the other: what the camera sees of it, then those in the faces of the cube.
+// Reads: header. Writes: nothing.
+// Source: MMRT section 3.4. Every view that sees a stretch is marched and the nearest hit counts. The camera comes first: what
+// it finds ends the faces early.
+#ifndef ABUFFER_SEGMENTS_GLSL
+#define ABUFFER_SEGMENTS_GLSL
+
+#include "contract/trace_log.glsl"
+#include "ads/march_cube.glsl"
+#include "abuffer/views.glsl"
+
+// The camera's stretches before and behind the near box, the near box where no face cuts it out, and the faces.
+#define ABUFFER_STAGE_BEFORE 0u
+#define ABUFFER_STAGE_BEHIND 1u
+#define ABUFFER_STAGE_NEAR 2u
+#define ABUFFER_STAGE_FACES 3u
+
+#define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
+
+// How far the stretches of a ray have been followed.
+struct AbufferStretch {
+    uint stage;           // the next one
+    float t;              // where the next stretch in a face begins
+};
+
+AbufferStretch abuffer_stretch_begin(vec2 clip) {
+    return AbufferStretch(abuffer_has_camera() ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
+}
+
+// The part of `clip` in which the ray lies in the camera's pyramid; empty if x > y.
+vec2 abuffer_camera_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 clip) {
+    vec3 o = abuffer_view_from_world(s, origin, ABUFFER_CAMERA);
+    vec3 d = abuffer_view_from_world(s, direction, ABUFFER_CAMERA);
+    vec2 interval = clip;
+    for (int side = 0; side < 4; side++) {
+        float turn = (side & 1) != 0 ? -1.0 : 1.0;
+        float value = o.z + turn * (side < 2 ? o.x : o.y);
+        float slope = d.z + turn * (side < 2 ? d.x : d.y);
+        if (slope > 0.0) {
+            interval.x = max(interval.x, -value / slope);
+        } else if (slope < 0.0) {
+            interval.y = min(interval.y, -value / slope);
+        } else if (value < 0.0) {
+            return vec2(1.0, 0.0);
+        }
+    }
+    return interval;
+}
+
+// The stretch of a stage before the faces; empty if x > y.
+vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint stage) {
+    bool has_near = near.x <= near.y;
+    if (stage == ABUFFER_STAGE_NEAR) {
+        return has_near && !abuffer_has_cube() ? vec2(max(near.x, clip.x), min(near.y, clip.y)) : vec2(1.0, 0.0);
+    }
+    if (stage == ABUFFER_STAGE_BEHIND && !has_near) {
+        return vec2(1.0, 0.0);
+    }
+    vec2 interval = abuffer_camera_interval(s, origin, direction, clip);
+    if (has_near) {
+        return stage == ABUFFER_STAGE_BEFORE ? vec2(interval.x, min(interval.y, near.x)) : vec2(max(interval.x, near.y), interval.y);
+    }
+    return interval;
+}
+
+// A stretch that is known by its ends.
+Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, uint view, float t_begin, float t_end) {
+    Segment segment = segment_at(origin, direction, t_begin, t_end, near);
+    segment.face = view;
+    segment.t_end = t_end;
+    return segment;
+}
+
+// The next stretch that may hold something nearer than `best`; false where none is left.
+bool abuffer_next_segment(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
+    inout AbufferStretch stretch, out Segment segment) {
+    while (stretch.stage < ABUFFER_STAGE_FACES) {
+        uint stage = stretch.stage++;
+        vec2 interval = abuffer_stage_interval(s, origin, direction, near, clip, stage);
+        if (interval.x < interval.y && !(interval.x > best)) {
+            uint view = stage == ABUFFER_STAGE_NEAR ? SEGMENT_NEAR : ABUFFER_CAMERA;
+            segment = abuffer_segment(origin, direction, near, view, interval.x, interval.y);
+            return true;
+        }
+    }
+    float t = stretch.t;
+    if (!abuffer_has_cube() || !(t < clip.y) || t > best) {
+        trace_log(STEP_SKIP, abuffer_has_cube() && t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
+        return false;
+    }
+    segment = segment_at(origin, direction, t, clip.y, near);
+    stretch.t = segment.t_end;
+    return true;
+}
+
+#endif
