@@ -3,6 +3,7 @@
 mod report;
 
 use std::collections::HashSet;
+use std::io::Write as _;
 
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
@@ -38,6 +39,15 @@ impl Held {
     }
 }
 
+/// With `RASRAY_PROGRESS` set, says what comes next on the real standard error: the last line of a log then tells
+/// where a driver ended the program.
+fn progress(what: &str) {
+    if std::env::var_os("RASRAY_PROGRESS").is_some() {
+        // Not `eprintln`, which the test harness holds back. A closed stream ends no test.
+        let _ = writeln!(std::io::stderr(), "conformance: {what}");
+    }
+}
+
 /// Holds rows against their cases.
 fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: &mut Held) {
     let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
@@ -68,6 +78,7 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             }
             prepared.only_camera = row.only_camera();
             let (depth_tolerance, rounding) = row.tolerances();
+            progress(&format!("{} {id}", row.name));
             let measured = measure(bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
                 let rate = measured.judged();
