@@ -6,6 +6,18 @@
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
 
+// Longest list that is sorted in one dispatch: a heap of so many takes 27,000 steps at most.
+#define SHORT_LIST_LIMIT 2048u
+
+// Dispatches that sort longer lists, and the steps of a list in each: drivers may end all loops of an invocation after
+// 65,535 iterations.
+#define LONG_LIST_ROUNDS 16u
+#define LONG_LIST_STEPS 60000u
+
+// Longest list that those dispatches sort: a heap of so many takes 875,000 steps at most. Longer ones stay unordered
+// and are counted.
+#define LONG_LIST_LIMIT 50000u
+
 // In the word of a brick: it lists nothing.
 #define BRICK_EMPTY 0x80000000u
 // Bricks that one step over empty ones crosses at most, its own included.

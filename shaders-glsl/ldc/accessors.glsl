@@ -1,10 +1,11 @@
 // What: the pools of a layered depth cube, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, lists, depths, primitives, blocks, heads, fringe, sums. Every access checks the capacity.
+// Reads, writes: header, lists, depths, primitives, blocks, heads, fringe, scratch. Every access checks the capacity.
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL
 
 #include "ads/axis_views.glsl"
+#include "ads/bucket.glsl"
 #include "ldc/header.glsl"
 
 #ifdef ADDRESSING_ADDRESS
@@ -15,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddre
 #define LDC_BLOCKS(s) LdcWordAddress(LDC_HEADER(s).blocks_address).words
 #define LDC_HEADS(s) LdcWordAddress(LDC_HEADER(s).heads_address).words
 #define LDC_FRINGE(s) LdcWordAddress(LDC_HEADER(s).fringe_address).words
-#define LDC_SUMS(s) LdcWordAddress(LDC_HEADER(s).sums_address).words
+#define LDC_SCRATCH(s) LdcWordAddress(LDC_HEADER(s).scratch_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer LdcListsBuffer { uint ldc_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer LdcDepthsBuffer { uint ldc_depth_words[]; };
@@ -23,14 +24,14 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPrimitivesBuffer { ui
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer LdcBlocksBuffer { uint ldc_block_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer LdcHeadsBuffer { uint ldc_head_words[]; };
 layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcFringeBuffer { uint ldc_fringe_words[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcSumsBuffer { uint ldc_sum_words[]; };
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcScratchBuffer { uint ldc_scratch_words[]; };
 #define LDC_LISTS(s) ldc_list_words
 #define LDC_DEPTHS(s) ldc_depth_words
 #define LDC_PRIMITIVES(s) ldc_primitive_words
 #define LDC_BLOCKS(s) ldc_block_words
 #define LDC_HEADS(s) ldc_head_words
 #define LDC_FRINGE(s) ldc_fringe_words
-#define LDC_SUMS(s) ldc_sum_words
+#define LDC_SCRATCH(s) ldc_scratch_words
 #endif
 
 AxisView ldc_view(LdcRef s, uint axis) {
@@ -46,13 +47,43 @@ uint ldc_cell(LdcRef s, uint axis, ivec2 cell) {
     return axis_cell_index(axis, cell, LDC_HEADER(s).resolution);
 }
 
-// Blocks a side of a view; the last ones may reach beyond its cells.
-uint ldc_blocks_a_side(LdcRef s) {
-    return (LDC_HEADER(s).resolution + LDC_BLOCK - 1u) / LDC_BLOCK;
+// Cells a side of a block of a level.
+uint ldc_block_cells(uint level) {
+    return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
 }
 
-uint ldc_block(LdcRef s, uint axis, ivec2 block) {
-    return axis_cell_index(axis, block, ldc_blocks_a_side(s));
+// Blocks of a level a side of a view; the last ones may reach beyond its cells.
+uint ldc_blocks_a_side(LdcRef s, uint level) {
+    return (LDC_HEADER(s).resolution + ldc_block_cells(level) - 1u) / ldc_block_cells(level);
+}
+
+// Running index of a block; those of the second level follow the others.
+uint ldc_block(LdcRef s, uint level, uint axis, ivec2 block) {
+    uint side = ldc_blocks_a_side(s, 0u);
+    uint before = level == 0u ? 0u : AXIS_VIEWS * side * side;
+    return before + axis_cell_index(axis, block, ldc_blocks_a_side(s, level));
+}
+
+// Words of a block.
+uint ldc_block_stride() {
+    return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
+}
+
+// Bits of the slices that depths from low to high lie in. The slice of a depth is monotone, so that no depth between
+// lies beside them.
+uvec2 ldc_slices(LdcRef s, float z_low, float z_high) {
+    float scale = LDC_HEADER(s).slices_a_metre;
+    int first = int(bucket_of(z_low, 0.0, scale, LDC_SLICES));
+    int last = int(bucket_of(z_high, 0.0, scale, LDC_SLICES));
+    uvec2 bits = uvec2(0u);
+    for (int word = 0; word < 2; word++) {
+        int from = max(first - 32 * word, 0);
+        int to = min(last - 32 * word, 31);
+        if (from <= to) {
+            bits[word] = 0xFFFFFFFFu << uint(from) & 0xFFFFFFFFu >> uint(31 - to);
+        }
+    }
+    return bits;
 }
 
 bool ldc_fragments_fit(LdcRef s) {
@@ -124,18 +155,31 @@ void ldc_set_bits(LdcRef s, uint place, uint bits) {
     }
 }
 
-// Widens the depths of a block. Word 0 holds the complement of the smallest depth's bits, so that a cleared block
-// is empty and both ends are maxima; depths are not negative, and order like their bits.
-void ldc_widen_block(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
-    uint word = 2u * ldc_block(s, axis, cell / int(LDC_BLOCK));
-    atomicMax(LDC_BLOCKS(s)[word], ~floatBitsToUint(z_low));
-    atomicMax(LDC_BLOCKS(s)[word + 1u], floatBitsToUint(z_high));
+// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so that a cleared
+// block is empty and both ends are maxima; depths are not negative, and order like their bits. Words only grow and most
+// fragments find theirs as large: reading first spares atomics.
+void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
+    uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
+    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(s, z_low, z_high) : uvec2(0u);
+    for (uint level = 0u; level < LDC_LEVELS; level++) {
+        uint word = ldc_block_stride() * ldc_block(s, level, axis, cell / int(ldc_block_cells(level)));
+        for (uint side = 0u; side < 2u; side++) {
+            if (LDC_BLOCKS(s)[word + side] < ends[side]) {
+                atomicMax(LDC_BLOCKS(s)[word + side], ends[side]);
+            }
+            if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && (slices[side] & ~LDC_BLOCKS(s)[word + 2u + side]) != 0u) {
+                atomicOr(LDC_BLOCKS(s)[word + 2u + side], slices[side]);
+            }
+        }
+    }
 }
 
-LdcBlock ldc_block_depths(LdcRef s, uint axis, ivec2 block) {
-    uint word = 2u * ldc_block(s, axis, block);
+LdcBlock ldc_block_depths(LdcRef s, uint level, uint axis, ivec2 block) {
+    uint word = ldc_block_stride() * ldc_block(s, level, axis, block);
     uint low = LDC_BLOCKS(s)[word];
-    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]));
+    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES
+        ? uvec2(LDC_BLOCKS(s)[word + 2u], LDC_BLOCKS(s)[word + 3u]) : uvec2(0xFFFFFFFFu);
+    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]), slices);
 }
 
 // Puts a triangle into a cell's fringe, or counts that there was no room for it. Links are node number + 1; 0

@@ -1,4 +1,4 @@
-// What: stores each fragment: depth and triangle, in the list of its cell; and widens its block's depths.
+// What: stores each fragment: depth and triangle, in the list of its cell; and widens its blocks' depths.
 // Reads: geometry, header. Writes: lists, depths, primitives, blocks.
 // Source: Bürger et al. sections 1.2 and 1.3: all layers in one pass instead of one a layer.
 #version 460
@@ -26,5 +26,5 @@ void main() {
     ldc_add_depth(ldc_built, place, bits);
     LDC_PRIMITIVES(ldc_built)[place] = primitive;
     float stored = ldc_depth_of_bits(ldc_built, bits);
-    ldc_widen_block(ldc_built, view.axis, cell, stored, stored);
+    ldc_widen_blocks(ldc_built, view.axis, cell, stored, stored);
 }

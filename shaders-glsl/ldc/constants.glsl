@@ -12,8 +12,15 @@
 #define LDC_COVERAGE_EXACT 1u
 #define LDC_COVERAGE_CONSERVATIVE 2u
 
-// Longest list that is sorted; longer ones stay unordered and are counted.
-#define LDC_SORT_LIMIT 1024u
+// What blocks say of the depths in them: the smallest and the largest, or with them which slices of the cube's depth.
+#define LDC_OCCUPANCY_BOUNDS 0u
+#define LDC_OCCUPANCY_SLICES 1u
+
+// Slices of a cube's depth: the bits of two words.
+#define LDC_SLICES 64u
+
+// Blocks a side of a block of the second level.
+#define LDC_LEVEL_BLOCKS 8u
 
 // Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
 // with more, every such triangle is kept.

@@ -1,5 +1,5 @@
 // What: the numbers that the scan of lists runs over: lengths become places, their sum the demand.
-// Reads, writes: lists, sums, header.demand.
+// Reads, writes: lists, scratch, header.demand.
 #ifndef LDC_SCANNED_GLSL
 #define LDC_SCANNED_GLSL
 
@@ -21,11 +21,11 @@ void scan_set_number(LdcRef s, uint step, uint i, uint number) {
 }
 
 uint scan_sum(LdcRef s, uint step, uint block) {
-    return LDC_SUMS(s)[block];
+    return LDC_SCRATCH(s)[block];
 }
 
 void scan_set_sum(LdcRef s, uint step, uint block, uint sum) {
-    LDC_SUMS(s)[block] = sum;
+    LDC_SCRATCH(s)[block] = sum;
 }
 
 void scan_set_total(LdcRef s, uint step, uint total) {

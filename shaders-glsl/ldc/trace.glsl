@@ -1,8 +1,7 @@
 // What: follows a ray through the three views, one after the other; each can only bring the end of the ray nearer.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4.
-// cursor: 0 flags, 1 block, 2 t of its entry, 3 cell, 4 t of its entry, 5 the cell being searched, 6 place within what is
-// being searched, 7 neighbours that are still to be visited.
+// cursor: 0 flags and view, 1 block of the second level, 2 block, 3 cell, 4 place within what is being searched.
 #ifndef LDC_TRACE_GLSL
 #define LDC_TRACE_GLSL
 
@@ -14,6 +13,7 @@
 #define LDC_CURSOR_IN_BLOCK 2u
 #define LDC_CURSOR_BEGUN 4u
 #define LDC_CURSOR_IN_FRINGE 8u
+#define LDC_CURSOR_IN_UPPER 64u
 
 uint ldc_pack_cell(ivec2 cell) {
     return uint(cell.x) | uint(cell.y) << 16;
@@ -23,42 +23,46 @@ ivec2 ldc_unpack_cell(uint word) {
     return ivec2(word & 0xFFFFu, word >> 16);
 }
 
-// Bits 4 and 5 of the flags: the view. Touched neighbours lie in the one layer there is: 9 bits each.
-void ldc_save(LdcWalk walk, LdcSearch search, inout TraceState state) {
-    state.cursor[0] = LDC_CURSOR_STARTED | (walk.in_block ? LDC_CURSOR_IN_BLOCK : 0u) | (search.begun ? LDC_CURSOR_BEGUN : 0u)
-        | (search.in_fringe ? LDC_CURSOR_IN_FRINGE : 0u) | walk.axis << 4;
-    state.cursor[7] = 0u;
-    if (LDC_SKIP != 0u) {
-        state.cursor[1] = ldc_pack_cell(walk.blocks.cell.xy);
-        state.cursor[2] = floatBitsToUint(walk.blocks.t_in);
-        state.cursor[7] = (walk.blocks.neighbours >> 9) & 511u;
-    }
-    if (walk.in_block) {
-        state.cursor[7] |= ((walk.cells.neighbours >> 9) & 511u) << 9;
-        state.cursor[3] = ldc_pack_cell(walk.cells.cell.xy);
-        state.cursor[4] = floatBitsToUint(walk.cells.t_in);
-        state.cursor[5] = ldc_pack_cell(walk.searched);
-    }
-    state.cursor[6] = search.place;
+// Bits 4 and 5 of the flags are the turn of the view.
+void ldc_save(LdcWalk walk, uint turn, LdcSearch search, inout TraceState state) {
+    state.cursor[0] = LDC_CURSOR_STARTED | (walk.in_upper ? LDC_CURSOR_IN_UPPER : 0u)
+        | (walk.in_block ? LDC_CURSOR_IN_BLOCK : 0u) | (search.begun ? LDC_CURSOR_BEGUN : 0u)
+        | (search.in_fringe ? LDC_CURSOR_IN_FRINGE : 0u) | turn << 4;
+    state.cursor[1] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.upper));
+    state.cursor[2] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.blocks));
+    state.cursor[3] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.cells));
+    state.cursor[4] = search.place;
 }
 
 void ldc_restore(LdcRef s, TraceState state, inout LdcWalk walk, inout LdcSearch search) {
     uint flags = state.cursor[0];
     vec2 stretch = vec2(walk.t_begin, walk.t_end);
-    if (LDC_SKIP != 0u && ldc_begin_blocks(s, walk)) {
-        grid_resume(walk.blocks, ivec3(ldc_unpack_cell(state.cursor[1]), 0), uintBitsToFloat(state.cursor[2]), -1,
-            (state.cursor[7] & 511u) << 9);
-        stretch = ldc_block_stretch(walk, walk.blocks.cell.xy);
-    }
+    ivec2 square = ivec2(0);
+    bool within = false;
+    walk.in_upper = (flags & LDC_CURSOR_IN_UPPER) != 0u;
     walk.in_block = (flags & LDC_CURSOR_IN_BLOCK) != 0u;
-    if (walk.in_block && ldc_begin_cells(s, walk, stretch)) {
-        grid_resume(walk.cells, ivec3(ldc_unpack_cell(state.cursor[3]), 0), uintBitsToFloat(state.cursor[4]), -1,
-            ((state.cursor[7] >> 9) & 511u) << 9);
-        walk.searched = ldc_unpack_cell(state.cursor[5]);
+    // Each walk has begun before, so it begins.
+    if (LDC_SKIP != 0u && LDC_LEVELS == 2u) {
+        ldc_begin_level(s, walk, 1u, false, square, stretch, walk.upper);
+        square = ldc_unpack_cell(state.cursor[1]);
+        ldc_march_resume(walk.flat_ray, square, walk.upper);
+        stretch = ldc_block_stretch(walk, 1u, square);
+        within = true;
+    }
+    if (LDC_SKIP != 0u && walk.in_upper) {
+        ldc_begin_level(s, walk, 0u, within, square, stretch, walk.blocks);
+        square = ldc_unpack_cell(state.cursor[2]);
+        ldc_march_resume(walk.flat_ray, square, walk.blocks);
+        stretch = ldc_block_stretch(walk, 0u, square);
+        within = true;
+    }
+    if (walk.in_block) {
+        ldc_begin_level(s, walk, 2u, within, square, stretch, walk.cells);
+        ldc_march_resume(walk.flat_ray, ldc_unpack_cell(state.cursor[3]), walk.cells);
     }
     search.begun = (flags & LDC_CURSOR_BEGUN) != 0u;
     search.in_fringe = (flags & LDC_CURSOR_IN_FRINGE) != 0u;
-    search.place = state.cursor[6];
+    search.place = state.cursor[4];
 }
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
@@ -82,52 +86,107 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     return interval;
 }
 
+// Begins the walk through a view; false where the ray does not meet it.
+bool ldc_begin_view(LdcRef s, vec2 clip, inout LdcWalk walk) {
+    if (LDC_SKIP == 0u) {
+        walk.in_upper = true;
+        walk.in_block = ldc_begin_level(s, walk, 2u, false, ivec2(0), clip, walk.cells);
+        return walk.in_block;
+    }
+    if (LDC_LEVELS == 2u) {
+        return ldc_begin_level(s, walk, 1u, false, ivec2(0), clip, walk.upper);
+    }
+    walk.in_upper = ldc_begin_level(s, walk, 0u, false, ivec2(0), clip, walk.blocks);
+    return walk.in_upper;
+}
+
 // Goes to the next block of the view; false where there is none.
 bool ldc_next_block(inout LdcWalk walk) {
     walk.in_block = false;
-    return LDC_SKIP != 0u && grid_next(walk.blocks);
+    if (LDC_SKIP == 0u) {
+        return false;
+    }
+    if (walk.in_upper && ldc_march_next(walk.flat_ray, walk.blocks)) {
+        return true;
+    }
+    walk.in_upper = LDC_LEVELS != 2u;
+    return LDC_LEVELS == 2u && ldc_march_next(walk.flat_ray, walk.upper);
 }
 
-// Walks one view, from its beginning or from where it stopped; true if the work budget ended first.
+// Enters the block that the walk is at, of either level, or goes to the next; false at the end of the view.
+bool ldc_enter_block(LdcRef s, inout LdcWalk walk, inout TraceState state, inout uint work) {
+    work++;
+    uint level = walk.in_upper ? 0u : 1u;
+    LdcMarch march = walk.upper;
+    if (walk.in_upper) {
+        march = walk.blocks;
+    }
+    if (march.rows <= 0) {
+        return ldc_next_block(walk);
+    }
+    ivec2 block = ldc_march_square(walk.flat_ray, march);
+    vec2 stretch = ldc_block_stretch(walk, level, block);
+    if (!(stretch.x <= stretch.y)) {
+        return ldc_next_block(walk);
+    }
+    if (ldc_is_behind(walk, stretch.x, state.best.t)) {
+        trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+        return false;
+    }
+    state.entries++;
+    bool met = ldc_block_is_met(s, walk, level, block, stretch)
+        && ldc_begin_level(s, walk, level == 1u ? 0u : 2u, true, block, stretch, march);
+    if (!met) {
+        return ldc_next_block(walk);
+    }
+    if (level == 1u) {
+        walk.blocks = march;
+        walk.in_upper = true;
+    } else {
+        walk.cells = march;
+        walk.in_block = true;
+    }
+    return true;
+}
+
+// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Blocks and cells have a
+// loop each: invocations that run side by side pay for all that one of them does in a turn.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcWalk walk, inout LdcSearch search,
     inout TraceState state, inout uint work) {
     while (more) {
-        if (work >= WORK_BUDGET) {
-            return true;
-        }
-        if (!walk.in_block) {
-            vec2 stretch = ldc_block_stretch(walk, walk.blocks.cell.xy);
-            if (ldc_is_behind(walk, stretch.x, state.best.t)) {
-                trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
-                return false;
+        while (more && !walk.in_block) {
+            if (work >= WORK_BUDGET) {
+                return true;
             }
-            walk.in_block = ldc_blocks_are_met(s, walk, stretch, state, work) && ldc_begin_cells(s, walk, stretch);
+            more = ldc_enter_block(s, walk, state, work);
+        }
+        while (more && walk.in_block) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            work++;
+            search.cell = ldc_march_square(walk.flat_ray, walk.cells);
+            vec2 stretch = ldc_stretch(walk, search.cell, search.cell + 1);
+            if (walk.cells.rows > 0 && stretch.x <= stretch.y) {
+                if (ldc_is_behind(walk, stretch.x, state.best.t)) {
+                    trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+                    return false;
+                }
+                search.t_low = stretch.x;
+                search.t_high = stretch.y;
+                state.cells++;
+                trace_log(STEP_CELL, 2u * walk.axis, uint(search.cell.x), uint(search.cell.y), stretch.x, stretch.y);
+                if (ldc_search(s, ray, ordered, search, state, work)) {
+                    return true;
+                }
+                if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+                    return false;
+                }
+            }
             search.begun = false;
             search.in_fringe = false;
-            more = walk.in_block || ldc_next_block(walk);
-            continue;
+            more = ldc_march_next(walk.flat_ray, walk.cells) || ldc_next_block(walk);
         }
-        vec2 stretch = ldc_stretch(walk, walk.searched, walk.searched + 1);
-        bool at_cell = walk.searched == walk.cells.cell.xy;
-        if (at_cell && ldc_is_behind(walk, stretch.x, state.best.t)) {
-            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
-            return false;
-        }
-        search.cell = walk.searched;
-        search.t_low = stretch.x;
-        search.t_high = stretch.y;
-        work++;
-        state.cells++;
-        trace_log(STEP_CELL, 2u * walk.axis, uint(walk.searched.x), uint(walk.searched.y), stretch.x, stretch.y);
-        if (stretch.x <= stretch.y && ldc_search(s, ray, ordered, search, state, work)) {
-            return true;
-        }
-        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
-            return false;
-        }
-        search.begun = false;
-        search.in_fringe = false;
-        more = ldc_next_cell(walk) || ldc_next_block(walk);
     }
     return false;
 }
@@ -147,7 +206,10 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool restored = (state.cursor[0] & LDC_CURSOR_STARTED) != 0u;
     uint work = 0u;
-    for (uint axis = restored ? (state.cursor[0] >> 4) & 3u : 0u; axis < AXIS_VIEWS; axis++) {
+    // First the view that the ray crosses the fewest cells of: what is met there ends it early in the others.
+    uint first_axis = triangle_major_axis(ray.direction);
+    for (uint turn = restored ? (state.cursor[0] >> 4) & 3u : 0u; turn < AXIS_VIEWS; turn++) {
+        uint axis = (first_axis + turn) % AXIS_VIEWS;
         LdcWalk walk = ldc_begin_walk(s, ray, axis, clip.x, clip.y);
         LdcSearch search;
         search.axis = axis;
@@ -162,15 +224,10 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
             restored = false;
         } else {
             trace_log(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
-            if (LDC_SKIP != 0u) {
-                more = ldc_begin_blocks(s, walk);
-            } else {
-                more = ldc_begin_cells(s, walk, clip);
-                walk.in_block = more;
-            }
+            more = ldc_begin_view(s, clip, walk);
         }
         if (ldc_trace_view(s, ray, any_hit, ordered, more, walk, search, state, work)) {
-            ldc_save(walk, search, state);
+            ldc_save(walk, turn, search, state);
             return TRACE_PAUSED;
         }
         if (any_hit && state.best.primitive != PRIMITIVE_NONE) {

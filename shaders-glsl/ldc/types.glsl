@@ -14,6 +14,8 @@ layout(constant_id = 51) const uint LDC_COVERAGE = LDC_COVERAGE_CONSERVATIVE;
 layout(constant_id = 52) const uint LDC_DEPTH_BITS = 32u;
 layout(constant_id = 53) const uint LDC_SKIP = 1u;
 layout(constant_id = 54) const uint LDC_BLOCK = 8u;
+layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
+layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 
 // State and sizes of one value. 152 bytes.
 struct LdcHeader {
@@ -22,26 +24,26 @@ struct LdcHeader {
     uint capacity;        // places the pools hold
     uint fringe_demand;   // triangles kept beside centres; counted once all fragments fit
     uint fringe_capacity;
-    uint unsorted;        // lists longer than is sorted
+    uint unsorted;        // lists longer than the sort passes sort
     uint corrupted;       // list entries that named no fragment
     uint resolution;      // cells a side of a view
     float cell;           // metres: side of a cell
     float size;           // metres: side of the cube
     float tolerance;      // metres, LDC_ACCEPT_TOLERANCE only
-    uint spare;
+    uint long_demand;     // lists too long for one dispatch of the sort
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube
-    float spare_origin;
+    uint long_capacity;
     vec3 lower;           // bounds of the geometry, metres
     float spare_lower;
     vec3 upper;
-    float spare_upper;
+    float slices_a_metre; // of depth, LDC_OCCUPANCY_SLICES only
     uvec2 lists_address;  // device addresses of the pools, zero where descriptors are used
     uvec2 depths_address;
     uvec2 primitives_address;
     uvec2 blocks_address;
     uvec2 heads_address;
     uvec2 fringe_address;
-    uvec2 sums_address;
+    uvec2 scratch_address;
 };
 
 // Depths of what a block of cells holds.
@@ -49,6 +51,7 @@ struct LdcBlock {
     bool empty;
     float z_min;          // metres
     float z_max;
+    uvec2 slices;         // a bit for each slice of depth in which something lies; all where blocks do not say
 };
 
 #endif

@@ -1,12 +1,13 @@
-// What: a ray's walk through one view: over blocks of cells, and within those whose depths it meets over cells.
+// What: a ray's walk through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
+// above it whose depths it meets.
 // Reads: header, blocks. Writes: nothing.
 // Source: Bürger et al. section 1.4, two-level traversal. A block's or cell's stretch of the ray follows from its place
 // alone, so it does not matter how the walk got there.
 #ifndef LDC_WALK_GLSL
 #define LDC_WALK_GLSL
 
-#include "ads/march_grid.glsl"
 #include "contract/trace_log.glsl"
+#include "ldc/march.glsl"
 #include "ldc/search.glsl"
 
 struct LdcWalk {
@@ -20,10 +21,12 @@ struct LdcWalk {
     float z_direction;
     float shift;          // bound of |origin / direction|
     float slack;          // t by which a fragment can be hit before its stretch
-    GridMarch blocks;
-    GridMarch cells;
+    LdcFlatRay flat_ray;
+    LdcMarch upper;       // blocks of blocks, with two levels only
+    LdcMarch blocks;
+    LdcMarch cells;
+    bool in_upper;
     bool in_block;
-    ivec2 searched;       // the cell being searched
 };
 
 LdcWalk ldc_begin_walk(LdcRef s, Ray ray, uint axis, float t_begin, float t_end) {
@@ -51,8 +54,9 @@ LdcWalk ldc_begin_walk(LdcRef s, Ray ray, uint axis, float t_begin, float t_end)
             walk.shift = max(walk.shift, abs(walk.origin[side] * inverse));
         }
     }
+    walk.flat_ray = ldc_flat_ray(walk.origin.xy, walk.direction.xy);
+    walk.in_upper = false;
     walk.in_block = false;
-    walk.searched = ivec2(0);
     return walk;
 }
 
@@ -75,8 +79,9 @@ vec2 ldc_stretch(LdcWalk walk, ivec2 lower, ivec2 upper) {
     return vec2(t.x - slack.x, t.y + slack.y);
 }
 
-vec2 ldc_block_stretch(LdcWalk walk, ivec2 block) {
-    return ldc_stretch(walk, block * int(LDC_BLOCK), (block + 1) * int(LDC_BLOCK));
+vec2 ldc_block_stretch(LdcWalk walk, uint level, ivec2 block) {
+    int side = int(ldc_block_cells(level));
+    return ldc_stretch(walk, block * side, (block + 1) * side);
 }
 
 // Whether nothing in a stretch that begins at t_low, or later on the way, can be nearer than the best hit. What comes
@@ -85,60 +90,39 @@ bool ldc_is_behind(LdcWalk walk, float t_low, float best_t) {
     return t_low - walk.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * walk.shift) > best_t;
 }
 
-bool ldc_begin_blocks(LdcRef s, inout LdcWalk walk) {
-    float scale = 1.0 / float(LDC_BLOCK);
-    vec3 shrink = vec3(scale, scale, 1.0);
-    int side = int(ldc_blocks_a_side(s));
-    return grid_begin(walk.origin * shrink, walk.direction * shrink, ivec3(side, side, 1), walk.t_begin, walk.t_end,
-        walk.blocks);
-}
-
-// Begins the walk over the cells of a stretch; false where it has none.
-bool ldc_begin_cells(LdcRef s, inout LdcWalk walk, vec2 stretch) {
-    int side = int(LDC_HEADER(s).resolution);
-    bool begun = grid_begin(walk.origin, walk.direction, ivec3(side, side, 1), max(stretch.x, walk.t_begin),
-        min(stretch.y, walk.t_end), walk.cells);
-    walk.searched = walk.cells.cell.xy;
-    return begun;
+// Begins the walk over the blocks of a level, or over cells (level 2), in a block of the level above or in all of the view;
+// false where the stretch has none. What it touches beside the block belongs to blocks that are walked over as well.
+bool ldc_begin_level(LdcRef s, LdcWalk walk, uint level, bool within, ivec2 block, vec2 stretch, out LdcMarch march) {
+    int width = level == 2u ? 1 : int(ldc_block_cells(level));
+    ivec2 first = ivec2(0);
+    ivec2 last = ivec2(int(level == 2u ? LDC_HEADER(s).resolution : ldc_blocks_a_side(s, level)) - 1);
+    if (within) {
+        int inside = int(level == 2u ? LDC_BLOCK : LDC_LEVEL_BLOCKS);
+        first = block * inside;
+        last = min(last, first + inside - 1);
+    }
+    vec2 t = vec2(max(stretch.x, walk.t_begin), min(stretch.y, walk.t_end));
+    return ldc_march_begin(walk.flat_ray, ldc_area(walk.flat_ray, float(width), first, last), t, march);
 }
 
 // Whether a block holds depths that the ray has in its stretch.
-bool ldc_block_is_met(LdcRef s, LdcWalk walk, ivec2 block, vec2 stretch) {
-    LdcBlock held = ldc_block_depths(s, walk.axis, block);
+bool ldc_block_is_met(LdcRef s, LdcWalk walk, uint level, ivec2 block, vec2 stretch) {
+    LdcBlock held = ldc_block_depths(s, level, walk.axis, block);
     float margin = ldc_margin(s);
     vec2 depths = ldc_depths_between(walk.z_origin, walk.z_direction, stretch.x, stretch.y);
     // The depths of a cell round differently.
     float rounding = 4.8e-7 * (abs(walk.z_origin) + max(abs(stretch.x), abs(stretch.y)) * abs(walk.z_direction));
-    bool met = !held.empty && depths.x - margin - rounding <= held.z_max && depths.y + margin + rounding >= held.z_min;
-    trace_log(STEP_NODE, ldc_block(s, walk.axis, block), 0u, 0u, stretch.x, stretch.y);
+    float low = depths.x - margin - rounding;
+    float high = depths.y + margin + rounding;
+    bool met = !held.empty && low <= held.z_max && high >= held.z_min;
+    if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && met) {
+        met = any(notEqual(ldc_slices(s, low, high) & held.slices, uvec2(0u)));
+    }
+    trace_log(STEP_NODE, ldc_block(s, level, walk.axis, block), 0u, 0u, stretch.x, stretch.y);
     if (!met) {
         trace_log(STEP_SKIP, held.empty ? SKIP_EMPTY : SKIP_OUTSIDE, 0u, 0u, depths.x, depths.y);
     }
     return met;
-}
-
-// Whether the block that the walk is at, or one that the ray touches beside it, is met.
-bool ldc_blocks_are_met(LdcRef s, inout LdcWalk walk, vec2 stretch, inout TraceState state, inout uint work) {
-    bool met = false;
-    ivec3 block = walk.blocks.cell;
-    do {
-        work++;
-        state.entries++;
-        met = met || ldc_block_is_met(s, walk, block.xy, stretch);
-    } while (grid_take_neighbour(walk.blocks, block) && !met);
-    return met;
-}
-
-// Goes to the next cell of the stretch that is walked; false at its end.
-bool ldc_next_cell(inout LdcWalk walk) {
-    ivec3 cell;
-    if (grid_take_neighbour(walk.cells, cell)) {
-        walk.searched = cell.xy;
-        return true;
-    }
-    bool more = grid_next(walk.cells);
-    walk.searched = walk.cells.cell.xy;
-    return more;
 }
 
 #endif

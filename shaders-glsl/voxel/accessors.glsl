@@ -1,6 +1,6 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, voxels, normals, lists, fragments, sums. Every access checks the capacity.
+// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
 // A list is a cell of a view. Once all is stored its word holds where its fragments end; they begin with the page
 // after the end of the list before it.
 #ifndef VOXEL_ACCESSORS_GLSL
@@ -16,18 +16,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelFragmen
 #define VOXEL_NORMALS(s) VoxelWordAddress(VOXEL_HEADER(s).normals_address).words
 #define VOXEL_LISTS(s) VoxelWordAddress(VOXEL_HEADER(s).lists_address).words
 #define VOXEL_FRAGMENTS(s) VoxelFragmentAddress(VOXEL_HEADER(s).fragments_address).fragments
-#define VOXEL_SUMS(s) VoxelWordAddress(VOXEL_HEADER(s).sums_address).words
+#define VOXEL_SCRATCH(s) VoxelWordAddress(VOXEL_HEADER(s).scratch_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer VoxelVoxelsBuffer { uint voxel_voxel_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer VoxelNormalsBuffer { uint voxel_normal_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer VoxelListsBuffer { uint voxel_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { VoxelFragment voxel_fragments[]; };
-layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelSumsBuffer { uint voxel_sum_words[]; };
+layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelScratchBuffer { uint voxel_scratch_words[]; };
 #define VOXEL_VOXELS(s) voxel_voxel_words
 #define VOXEL_NORMALS(s) voxel_normal_words
 #define VOXEL_LISTS(s) voxel_list_words
 #define VOXEL_FRAGMENTS(s) voxel_fragments
-#define VOXEL_SUMS(s) voxel_sum_words
+#define VOXEL_SCRATCH(s) voxel_scratch_words
 #endif
 
 // The view along an axis, with the cells of the fragments.

@@ -35,8 +35,8 @@
 // Unit normals are added up as whole numbers of this many steps.
 #define VOXEL_NORMAL_STEPS 127.0
 
-// Longest list that is sorted; longer ones stay unordered and are counted.
-#define VOXEL_SORT_LIMIT 2048u
+// Longest list that a parity takes where it is not sorted: it reads all of it for every point, without a pause.
+#define VOXEL_PARITY_LIMIT 2048u
 
 // Lists longer than this are entered by bisection where they are sorted.
 #define VOXEL_BISECT_FROM 8u

@@ -21,6 +21,22 @@ ivec2 voxel_cell_at(VoxelRef s, VoxelWalk walk, float t) {
     return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
 }
 
+// The first fragment of a sorted list that lies at a depth or beyond.
+uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
+    uint place = voxel_bisect(s, list, depth, state, work);
+    for (uint k = 0u; k < VOXEL_BISECT_FROM && place < list.y; k++) {
+        float z = VOXEL_FRAGMENTS(s)[place].z;
+        state.entries++;
+        work++;
+        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+        if (z >= depth) {
+            break;
+        }
+        place++;
+    }
+    return place;
+}
+
 // Counts the fragments of a cell that lie before the ray's point at t.
 VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout TraceState state, inout uint work) {
     VoxelPoint point;
@@ -29,19 +45,17 @@ VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout Tr
     state.cells++;
     work++;
     trace_log(STEP_CELL, walk.axis, uint(cell.x), uint(cell.y), t, t);
-    bool sorted = voxel_lists_sorted(s);
-    uint place = sorted ? voxel_bisect(s, point.list, point.depth, state, work) : point.list.x;
-    uint before = place - point.list.x;
-    // No list is longer than VOXEL_SORT_LIMIT here, or the build would not be complete.
-    for (; place < point.list.y; place++) {
-        float z = VOXEL_FRAGMENTS(s)[place].z;
-        state.entries++;
-        work++;
-        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
-        if (z < point.depth) {
-            before++;
-        } else if (sorted) {
-            break;
+    uint before = 0u;
+    if (voxel_lists_sorted(s)) {
+        before = voxel_first_from(s, point.list, point.depth, state, work) - point.list.x;
+    } else {
+        // No list is longer than VOXEL_PARITY_LIMIT here, or the build would not be complete.
+        for (uint place = point.list.x; place < point.list.y; place++) {
+            float z = VOXEL_FRAGMENTS(s)[place].z;
+            state.entries++;
+            work++;
+            trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+            before += z < point.depth ? 1u : 0u;
         }
     }
     point.inside = (before & 1u) != 0u;
@@ -50,19 +64,37 @@ VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout Tr
 
 // The fragment nearest in depth to a point, the lowest triangle of equals; PRIMITIVE_NONE in an empty cell.
 uint voxel_nearest(VoxelRef s, VoxelPoint point, inout TraceState state, inout uint work) {
-    VoxelFragment nearest = VoxelFragment(uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
-    for (uint place = point.list.x; place < point.list.y; place++) {
+    // The last before the point and the first that is not, of equals the lowest triangle.
+    VoxelFragment before = VoxelFragment(-uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
+    VoxelFragment behind = VoxelFragment(uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
+    uvec2 list = point.list;
+    if (voxel_lists_sorted(s) && list.x < list.y) {
+        uint first = voxel_first_from(s, list, point.depth, state, work);
+        if (first > list.x) {
+            before = VOXEL_FRAGMENTS(s)[first - 1u];
+            state.entries++;
+            work++;
+            trace_log(STEP_ENTRY, first - 1u, 0u, 0u, before.z, before.z);
+            before = VOXEL_FRAGMENTS(s)[voxel_first_from(s, uvec2(list.x, first), before.z, state, work)];
+        }
+        list = uvec2(first, min(first + 1u, list.y));
+    }
+    for (uint place = list.x; place < list.y; place++) {
         VoxelFragment fragment = VOXEL_FRAGMENTS(s)[place];
         state.entries++;
         work++;
         trace_log(STEP_ENTRY, place, 0u, 0u, fragment.z, fragment.z);
-        float far = abs(fragment.z - point.depth);
-        float near = abs(nearest.z - point.depth);
-        if (far < near || (far == near && fragment.primitive < nearest.primitive)) {
-            nearest = fragment;
+        if (fragment.z < point.depth) {
+            bool nearer = fragment.z > before.z || (fragment.z == before.z && fragment.primitive < before.primitive);
+            before = nearer ? fragment : before;
+        } else {
+            bool nearer = fragment.z < behind.z || (fragment.z == behind.z && fragment.primitive < behind.primitive);
+            behind = nearer ? fragment : behind;
         }
     }
-    return nearest.primitive;
+    float back = point.depth - before.z;
+    float ahead = behind.z - point.depth;
+    return ahead < back || (ahead == back && behind.primitive < before.primitive) ? behind.primitive : before.primitive;
 }
 
 // Bisects between a point on one side and one on the other, and lets the triangle there become the best hit.

@@ -1,5 +1,5 @@
 // What: the numbers that the scan of lists runs over: lengths become places, and their sum, in whole pages, the demand.
-// Reads, writes: lists, sums, header.demand.
+// Reads, writes: lists, scratch, header.demand.
 #ifndef VOXEL_SCANNED_GLSL
 #define VOXEL_SCANNED_GLSL
 
@@ -21,11 +21,11 @@ void scan_set_number(VoxelRef s, uint step, uint i, uint number) {
 }
 
 uint scan_sum(VoxelRef s, uint step, uint block) {
-    return VOXEL_SUMS(s)[block];
+    return VOXEL_SCRATCH(s)[block];
 }
 
 void scan_set_sum(VoxelRef s, uint step, uint block, uint sum) {
-    VOXEL_SUMS(s)[block] = sum;
+    VOXEL_SCRATCH(s)[block] = sum;
 }
 
 void scan_set_total(VoxelRef s, uint step, uint total) {

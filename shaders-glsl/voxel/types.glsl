@@ -15,13 +15,15 @@ layout(constant_id = 73) const uint VOXEL_COVERAGE = VOXEL_COVERAGE_EXACT;
 layout(constant_id = 74) const uint VOXEL_PAGE = 1u;
 layout(constant_id = 75) const uint VOXEL_SORT = 1u;
 
-// State and sizes of one value. 104 bytes.
+// State and sizes of one value. 112 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all pages, also those beyond the capacity
     uint capacity;        // entries the pool holds
     uint fragments;       // fragments met by the build, without what is left of their pages
-    uint unsorted;        // lists longer than the sort pass sorts
+    uint unsorted;        // lists longer than the sort passes sort, or than parities may take unsorted
+    uint long_demand;     // lists too long for one dispatch of the sort
+    uint long_capacity;
     uint corrupted;       // lists that reached beyond the pool
     uint resolution;      // cells a side of a view
     uint grid;            // voxels a side
@@ -35,7 +37,7 @@ struct VoxelHeader {
     uvec2 normals_address;
     uvec2 lists_address;
     uvec2 fragments_address;
-    uvec2 sums_address;
+    uvec2 scratch_address;
 };
 
 // A fragment: 8 bytes.

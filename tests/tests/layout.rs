@@ -321,17 +321,22 @@ fn records_of_voxels() {
         &shaders::VOXEL_BUILD_4_SCAN_PLACES,
         &shaders::VOXEL_BUILD_5_STORE,
         &shaders::VOXEL_BUILD_6_SORT,
-        &shaders::VOXEL_BUILD_7_STATUS,
+        &shaders::VOXEL_BUILD_7_SORT_LONG,
+        &shaders::VOXEL_BUILD_8_STATUS,
         &shaders::VOXEL_TRACE_CLOSEST,
         &shaders::VOXEL_TRACE_OCCLUDED,
     ];
     check_layout!(modules, rasray_voxel::Header as "VoxelHeader" {
-        status, demand, capacity, fragments, unsorted, corrupted, resolution, grid, samples, cell, voxel,
+        status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, samples, cell, voxel,
         cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
-        fragments_address, sums_address,
+        fragments_address, scratch_address,
     });
     let fragment = [("z", 0), ("primitive", 4)].map(|(name, offset)| (name.to_owned(), offset, 4));
-    let sizes = rasray_voxel::plan(&rasray_voxel::Config::robust(8), 1).expect("in range");
+    let sizes = rasray_voxel::plan(
+        &rasray_voxel::Config::robust(8),
+        rasray_voxel::Demand { entries: 1, long_lists: 0 },
+    )
+    .expect("in range");
     let pool = sizes.pools.iter().find(|pool| pool.name == "fragments").expect("the pool exists");
     for shader in [&shaders::VOXEL_BUILD_5_STORE, &shaders::VOXEL_BUILD_6_SORT, &shaders::VOXEL_TRACE_CLOSEST]
     {
@@ -356,15 +361,16 @@ fn records_of_layered_depth_cubes() {
         &shaders::LDC_BUILD_2_SCAN_PLACES,
         &shaders::LDC_BUILD_3_STORE,
         &shaders::LDC_BUILD_4_SORT,
-        &shaders::LDC_BUILD_5_FRINGE,
-        &shaders::LDC_BUILD_6_STATUS,
+        &shaders::LDC_BUILD_5_SORT_LONG,
+        &shaders::LDC_BUILD_6_FRINGE,
+        &shaders::LDC_BUILD_7_STATUS,
         &shaders::LDC_TRACE_CLOSEST,
         &shaders::LDC_TRACE_OCCLUDED,
     ];
     check_layout!(modules, rasray_ldc::Header as "LdcHeader" {
         status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
-        tolerance, spare, origin, spare_origin, lower, spare_lower, upper, spare_upper, lists_address,
-        depths_address, primitives_address, blocks_address, heads_address, fringe_address, sums_address,
+        tolerance, long_demand, origin, long_capacity, lower, spare_lower, upper, slices_a_metre, lists_address,
+        depths_address, primitives_address, blocks_address, heads_address, fringe_address, scratch_address,
     });
     let by_address = &read_by_us(&shaders::LDC_TRACE_CLOSEST_ADDRESS)["LdcHeader"];
     assert_eq!(*by_address, read_by_us(&shaders::LDC_TRACE_CLOSEST)["LdcHeader"]);

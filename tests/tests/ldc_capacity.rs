@@ -4,7 +4,8 @@
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_ldc::{
-    Addressing, Config, Contents, Coverage, Depth, Fault, LayeredDepthCube, formula_bytes, plan, well_formed,
+    Addressing, Config, Contents, Coverage, Demand, Depth, Fault, LayeredDepthCube, Occupancy, formula_bytes,
+    plan, well_formed,
 };
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
@@ -44,6 +45,11 @@ fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> 
     hits
 }
 
+/// Room for so many fragments and triangles beside centres.
+fn room(fragments: u64, fringe: u64) -> Demand {
+    Demand { fragments, fringe, long_lists: 0 }
+}
+
 fn demand(status: &BuildStatus, name: &str) -> u64 {
     status.demand(name).expect("the pool is counted")
 }
@@ -64,7 +70,9 @@ fn every_edge_capacity(config: Config) {
     let mut structure = made(&bench, config, &triangles);
 
     // Ample room: what the demand and the hits are.
-    structure.resize(bench.device(), &plan(&config, 1 << 16, 1 << 14).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
+        .expect("it fits");
     let status = build(&bench, &mut structure);
     assert!(status.complete);
     let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
@@ -75,21 +83,28 @@ fn every_edge_capacity(config: Config) {
 
     let rooms = [0, 1, fragments / 2, fragments - 1, fragments].map(|room| (room, fringe));
     let fringe_rooms = [0, 1, fringe / 2, fringe.saturating_sub(1)].map(|room| (fragments, room));
-    for (room, fringe_room) in rooms.into_iter().chain(fringe_rooms).chain([(0, 0)]) {
-        let sizes = plan(&config, room, fringe_room).expect("in range");
+    for (fragment_room, fringe_room) in rooms.into_iter().chain(fringe_rooms).chain([(0, 0)]) {
+        let sizes = plan(&config, room(fragment_room, fringe_room)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let mut status = build(&bench, &mut structure);
-        let fits = room >= fragments && fringe_room >= fringe;
-        assert_eq!(status.complete, fits, "room for {room} and {fringe_room}");
-        assert_eq!(demand(&status, "fragments"), fragments, "room for {room}");
+        let fits = fragment_room >= fragments && fringe_room >= fringe;
+        assert_eq!(status.complete, fits, "room for {fragment_room} and {fringe_room}");
+        assert_eq!(demand(&status, "fragments"), fragments, "room for {fragment_room}");
         // What stands for what is known only where all fragments fit.
-        let counted = if room >= fragments { fringe } else { 0 };
-        assert_eq!(demand(&status, "fringe"), counted, "room for {room} and {fringe_room}");
+        let counted = if fragment_room >= fragments { fringe } else { 0 };
+        assert_eq!(demand(&status, "fringe"), counted, "room for {fragment_room} and {fringe_room}");
         if !fits {
             for mode in [TraceMode::Closest, TraceMode::Occluded] {
                 let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
-                assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {fringe_room}");
-                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+                assert_eq!(
+                    counters.not_ready as usize,
+                    rays.len(),
+                    "room for {fragment_room} and {fringe_room}"
+                );
+                assert!(
+                    hits.iter().all(|hit| !hit.is_hit()),
+                    "a partial answer with room for {fragment_room}"
+                );
             }
         }
         let mut regrows = 0;
@@ -100,10 +115,14 @@ fn every_edge_capacity(config: Config) {
             status = build(&bench, &mut structure);
         }
         assert_eq!(regrows > 0, !fits);
-        assert!(status.complete, "grown from {room} and {fringe_room}");
+        assert!(status.complete, "grown from {fragment_room} and {fringe_room}");
         assert_eq!((demand(&status, "fragments"), demand(&status, "fringe")), (fragments, fringe));
         check_well_formed(&bench, &structure, &triangles);
-        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {fringe_room}");
+        assert_eq!(
+            trace(&bench, &structure, &rays),
+            expected,
+            "grown from {fragment_room} and {fringe_room}"
+        );
     }
 }
 
@@ -132,25 +151,26 @@ fn every_edge_capacity_by_address_with_short_depths() {
 fn bytes_are_those_of_the_formula() {
     let bench = Bench::new();
     let triangles = scene();
-    for (resolution, block, depth, coverage) in [
-        (16, 8, Depth::Bits32, Coverage::Conservative),
-        (50, 16, Depth::Bits16, Coverage::Exact),
-        (33, 1, Depth::Bits16, Coverage::Conservative),
-        (64, 64, Depth::Bits32, Coverage::Hardware),
+    for (resolution, block, levels, occupancy, depth, coverage) in [
+        (16, 8, 2, Occupancy::Slices, Depth::Bits32, Coverage::Conservative),
+        (50, 16, 1, Occupancy::Slices, Depth::Bits16, Coverage::Exact),
+        (33, 1, 2, Occupancy::Bounds, Depth::Bits16, Coverage::Conservative),
+        (64, 64, 1, Occupancy::Bounds, Depth::Bits32, Coverage::Hardware),
     ] {
-        let config = Config { block, depth, coverage, fragments: Some(0), ..Config::robust(resolution) };
+        let robust = Config::robust(resolution);
+        let config = Config { block, levels, occupancy, depth, coverage, fragments: Some(0), ..robust };
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, 0, 0).expect("in range")).expect("it fits");
+        structure.resize(bench.device(), &plan(&config, room(0, 0)).expect("in range")).expect("it fits");
         build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
         let status = structure.status().expect("the header is readable");
         let report = structure.report().expect("the header is readable");
         let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
-        let formula = formula_bytes(&config, fragments, fringe);
+        let formula = formula_bytes(&config, room(fragments, fringe));
         assert_eq!(report.bytes(), formula.total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());
         assert_eq!(structure.sizes().bytes(), formula.total());
         assert_eq!(report.stored, Some(fragments + fringe));
-        assert_ne!(formula.total(), formula_bytes(&config, fragments + 1, fringe).total());
+        assert_ne!(formula.total(), formula_bytes(&config, room(fragments + 1, fringe)).total());
     }
 }
 
@@ -163,7 +183,7 @@ fn every_fault_of_a_list_is_noticed() {
         let config = Config { depth, ..Config::robust(16) };
         let mut structure = made(&bench, config, &triangles);
         structure
-            .resize(bench.device(), &plan(&config, 1 << 16, 1 << 14).expect("in range"))
+            .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
             .expect("it fits");
         assert!(build(&bench, &mut structure).complete);
         let good = structure.download(bench.device()).expect("the device works");
@@ -201,5 +221,12 @@ fn every_fault_of_a_list_is_noticed() {
             Depth::Bits16 => c.depths[place / 2] = 0x7E00_7E00,
         });
         assert!(matches!(lost, Fault::Depth { .. }), "{lost:?}");
+        // A slice that a block of either level does not name: the last word of the first level, and the very last.
+        let blocks = good.blocks.len();
+        for words in [0..4, blocks - 12..blocks] {
+            let missing =
+                broken(&|c| c.blocks[words.clone()].iter_mut().skip(2).step_by(4).for_each(|word| *word = 0));
+            assert!(matches!(missing, Fault::Depth { .. }), "{missing:?}");
+        }
     }
 }

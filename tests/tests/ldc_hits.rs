@@ -2,9 +2,9 @@
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
-use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube};
+use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube, Occupancy, well_formed};
+use rasray_shaders_glsl::constants::ads::SHORT_LIST_LIMIT;
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
-use rasray_shaders_glsl::constants::ldc::LDC_SORT_LIMIT;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
@@ -118,36 +118,50 @@ fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     }
 }
 
-/// Hundreds of quads in one cell, in a list that is sorted and in one that is too long for it: each is found from
-/// both sides.
+/// Hundreds of plates in one cell, and ten thousand, which a dispatch does not sort: each is found from both sides, with
+/// depths of either length.
 #[test]
-fn a_deep_cell_finds_every_layer_sorted_or_not() {
+fn a_deep_cell_finds_every_layer() {
     let bench = Bench::new();
-    for (layers, is_sorted) in [(500, true), (2000, false)] {
-        assert_eq!(layers <= LDC_SORT_LIMIT as usize, is_sorted);
-        let depth = |layer: usize| 1.0 + layer as f32 * 1.0e-3;
-        // The cube is 2.1 m wide: of 8 cells a side the first is 0.26 m wide.
-        let mut triangles: Vec<Triangle> =
-            (0..layers).flat_map(|layer| quad([0.0, 0.25], [0.0, 0.25], depth(layer))).collect();
+    for (layers, is_long) in [(500, false), (10_000, true)] {
+        assert_eq!(layers > SHORT_LIST_LIMIT as usize, is_long);
+        let depth = |layer: usize| 1.0 + layer as f32 * 1.0e-4;
+        // The cube is 2.1 m wide: of 8 cells a side the first is 0.26 m wide. Layers are not in order.
+        let triangle_of = |layer: usize| layer * 7919 % layers;
+        let mut triangles: Vec<Triangle> = vec![[[0.0; 3]; 3]; layers];
+        for layer in 0..layers {
+            let [a, b, c] = [[0.0, 0.0], [0.6, 0.0], [0.0, 0.6]].map(|[x, y]| [x, y, depth(layer)]);
+            triangles[triangle_of(layer)] = [a, b, c];
+        }
         triangles.extend(quad([2.0, 2.1], [2.0, 2.1], 1.0));
         let mut random = Random::new(2);
-        let rays: Vec<Ray> = (0..600)
+        let below = |index: usize| index * 617 % (layers - 1);
+        let rays: Vec<Ray> = (0..200)
             .map(|index| {
-                let z = depth(index * 617 % (layers - 1)) + 5.0e-4;
+                let z = depth(below(index)) + 5.0e-5;
                 let direction = if index % 2 == 0 { 1.0 } else { -1.0 };
                 let origin = [random.between(0.01, 0.24), random.between(0.01, 0.24), z];
                 Ray::new(origin, [random.between(-1e-3, 1e-3), 0.0, direction])
             })
             .collect();
-        let expected = brute_force(&bench, &triangles, &rays);
-        let structure = made(&bench, Config { coverage: Coverage::Exact, ..Config::robust(8) }, &triangles);
-        let status = structure.status().expect("the header is readable");
-        assert_eq!((status.unsorted == 0, status.corrupted), (is_sorted, 0), "{status:?}");
-        let hits = bench.trace(&structure, &rays).hits;
-        for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
-            // Two triangles of a quad meet in its diagonal: the layer is what counts.
-            assert_eq!(hit.primitive / 2, expected.primitive / 2, "{:?}", rays[ray]);
-            assert!((hit.t - expected.t).abs() <= 1.0e-6, "ray {ray}: {} for {}", hit.t, expected.t);
+        for bits in [Depth::Bits32, Depth::Bits16] {
+            let config = Config { coverage: Coverage::Exact, depth: bits, ..Config::robust(8) };
+            let structure = made(&bench, config, &triangles);
+            let status = structure.status().expect("the header is readable");
+            assert_eq!((status.unsorted, status.corrupted), (0, 0), "{status:?}");
+            assert_eq!(status.demand("long") > Some(0), is_long, "{status:?}");
+            let contents = structure.download(bench.device()).expect("the device works");
+            well_formed(&contents, triangles.len() as u32).expect("lists are in order");
+            for (index, hit) in bench.trace(&structure, &rays).hits.iter().enumerate() {
+                let layer = below(index) + usize::from(index % 2 == 0);
+                assert_eq!(
+                    hit.primitive as usize,
+                    triangle_of(layer),
+                    "{bits:?}, {:?}: {hit:?}",
+                    rays[index]
+                );
+                assert!((hit.t - 5.0e-5).abs() <= 1.0e-6, "ray {index}: {}", hit.t);
+            }
         }
     }
 }
@@ -191,7 +205,14 @@ fn pauses_change_no_hit() {
     let mut triangles = tilted_box();
     triangles.extend(sphere([0.3, 0.2, -0.1], 0.6, 8));
     let rays = random_rays(9, 200, -1.5, 1.5);
-    for config in [Config::robust(24), Config::published(24), Config { skip: false, ..Config::robust(24) }] {
+    let robust = Config::robust(24);
+    for config in [
+        robust,
+        Config::published(24),
+        Config { skip: false, ..robust },
+        // Nine blocks of the second level.
+        Config { block: 1, occupancy: Occupancy::Bounds, ..robust },
+    ] {
         let answers = |budget, rounds| {
             let config = Config { work_budget: budget, ..config };
             let structure = made(&bench, config, &triangles);
@@ -206,7 +227,7 @@ fn pauses_change_no_hit() {
             })
         };
         let expected = answers(None, 2);
-        for (budget, rounds) in [(2, 400), (13, 60)] {
+        for (budget, rounds) in [(2, 800), (13, 120)] {
             assert_eq!(answers(Some(budget), rounds), expected, "{budget} units a dispatch, {config:?}");
         }
     }

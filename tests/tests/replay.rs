@@ -103,14 +103,14 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         cube(
             bench,
             geometry,
-            rasray_ldc::Config { counters, work_budget: Some(100), ..rasray_ldc::Config::robust(RESOLUTION) },
+            rasray_ldc::Config { counters, work_budget: Some(40), ..rasray_ldc::Config::robust(RESOLUTION) },
         ),
         cube(
             bench,
             geometry,
             rasray_ldc::Config {
                 counters,
-                work_budget: Some(100),
+                work_budget: Some(60),
                 ..rasray_ldc::Config::published(RESOLUTION)
             },
         ),

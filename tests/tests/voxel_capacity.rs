@@ -7,7 +7,9 @@ use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
-use rasray_voxel::{Addressing, Config, Contents, Fault, Storage, Voxels, formula_bytes, plan, well_formed};
+use rasray_voxel::{
+    Accept, Addressing, Config, Contents, Demand, Fault, Storage, Voxels, formula_bytes, plan, well_formed,
+};
 
 /// Layers, and a room around them.
 fn scene() -> Vec<Triangle> {
@@ -43,13 +45,18 @@ fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
 }
 
+/// Room for so many fragments.
+fn room(entries: u64) -> Demand {
+    Demand { entries, long_lists: 0 }
+}
+
 fn every_edge_capacity(config: Config) {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
     let mut structure = made(&bench, config, &triangles);
 
     // Ample room: what the demand and the hits are.
-    structure.resize(bench.device(), &plan(&config, 1 << 20).expect("in range")).expect("it fits");
+    structure.resize(bench.device(), &plan(&config, room(1 << 20)).expect("in range")).expect("it fits");
     let status = build(&bench, &mut structure);
     assert!(status.complete, "{status:?}");
     let demand = status.pools[0].demand;
@@ -59,28 +66,28 @@ fn every_edge_capacity(config: Config) {
     let expected = trace(&bench, &structure, &rays);
     assert!(expected.iter().filter(|hit| hit.is_hit()).count() > rays.len() / 2);
 
-    for room in [0, 1, demand / 2, demand - 1, demand] {
-        structure.resize(bench.device(), &plan(&config, room).expect("in range")).expect("it fits");
+    for entries in [0, 1, demand / 2, demand - 1, demand] {
+        structure.resize(bench.device(), &plan(&config, room(entries)).expect("in range")).expect("it fits");
         let status = build(&bench, &mut structure);
-        assert_eq!(status.complete, room == demand, "room for {room}");
-        assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, room));
-        if room == demand {
+        assert_eq!(status.complete, entries == demand, "room for {entries}");
+        assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, entries));
+        if entries == demand {
             assert_eq!(structure.check(&status), Check::Complete);
             assert_eq!(trace(&bench, &structure, &rays), expected);
             continue;
         }
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
-            assert_eq!(counters.not_ready as usize, rays.len(), "room for {room}, {mode:?}");
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+            assert_eq!(counters.not_ready as usize, rays.len(), "room for {entries}, {mode:?}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {entries}");
         }
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {room} does not grow") };
+        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {entries} does not grow") };
         assert_eq!(sizes.elements("fragments"), demand);
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(build(&bench, &mut structure).complete, "a build completes with its exact demand");
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
-        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room}");
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {entries}");
     }
 }
 
@@ -117,7 +124,7 @@ fn bytes_are_those_of_the_formula() {
         Config { storage: Storage::Paged, page: 8, ..Config::robust(40) },
     ] {
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, 0).expect("in range")).expect("it fits");
+        structure.resize(bench.device(), &plan(&config, room(0)).expect("in range")).expect("it fits");
         let status = build(&bench, &mut structure);
         let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for anything") };
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -125,11 +132,11 @@ fn bytes_are_those_of_the_formula() {
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let demand = status.pools[0].demand;
-        let formula = formula_bytes(&config, demand);
+        let formula = formula_bytes(&config, room(demand));
         assert_eq!(report.bytes(), formula.total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());
         assert_eq!(structure.sizes().bytes(), formula.total());
-        assert_ne!(formula.total(), formula_bytes(&config, demand + 1).total());
+        assert_ne!(formula.total(), formula_bytes(&config, room(demand + 1)).total());
         let stored = report.stored.expect("fragments are counted");
         match config.storage {
             Storage::Contiguous => assert_eq!(stored, demand),
@@ -140,26 +147,54 @@ fn bytes_are_those_of_the_formula() {
     }
 }
 
-/// Lists longer than what is sorted are searched in full with planes, and refused with parities.
+/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such lists; planes
+/// and parities find each layer. What is not sorted parities refuse.
 #[test]
-fn lists_too_long_to_sort_are_counted() {
+fn lists_of_ten_thousand_are_sorted() {
+    const LAYERS: usize = 10_000;
     let bench = Bench::new();
-    let plate = |z: f32| [[-1.0, -1.0, z], [1.0, -1.0, z], [0.0, 1.0, z]];
-    let triangles: Vec<Triangle> = (0..2100).map(|k| plate(k as f32 * 1e-3)).collect();
-    let mut structure = made(&bench, Config { fragments: Some(1 << 16), ..Config::robust(4) }, &triangles);
-    let status = build(&bench, &mut structure);
-    assert!(status.complete && status.unsorted > 0, "{status:?}");
-    let rays: Vec<Ray> = (0..50)
-        .map(|k| Ray::new([0.01 * k as f32 - 0.2, -0.1, 0.04 * k as f32 + 5e-4], [0.0, 0.0, 1.0]))
+    // Two cells a side: one plate covers one centre. From far to near, and not in order.
+    let depth = |layer: usize| layer as f32 * 1.0e-4;
+    let plate = |z: f32| [[0.0, 0.0, z], [1.4, 0.0, z], [0.0, 1.4, z]];
+    let mut triangles: Vec<Triangle> = (0..LAYERS).map(|k| plate(depth(k * 7919 % LAYERS))).collect();
+    triangles.push([[1.9, 1.9, 0.0], [2.0, 1.9, 0.0], [1.9, 2.0, 0.0]]);
+    let rays: Vec<Ray> = (0..64)
+        .map(|k| {
+            let (behind, direction) = (k * 155 + 1, if k % 2 == 0 { 1.0 } else { -1.0 });
+            Ray::new([0.4, 0.3, depth(behind) + 5.0e-5], [0.0, 0.0, direction])
+        })
         .collect();
-    for (k, hit) in bench.trace(&structure, &rays).hits.iter().enumerate() {
-        assert_eq!(hit.primitive as usize, 40 * k + 1, "{hit:?}");
+    let base = Config { fragments: Some(1 << 16), ..Config::robust(2) };
+    let published = Config { fragments: Some(1 << 16), ..Config::published_hu(2) };
+    for config in [base, Config { storage: Storage::Paged, ..base }, published] {
+        let mut structure = made(&bench, config, &triangles);
+        let status = build(&bench, &mut structure);
+        let long = status.demand("long").expect("the pool is counted");
+        assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
+        let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for long lists") };
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let status = build(&bench, &mut structure);
+        assert!(status.complete && status.unsorted == 0, "{status:?}");
+        let contents = structure.download(bench.device()).expect("the device works");
+        well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
+        assert!(
+            (0..contents.lists.len()).any(|list| contents.list(list).expect("well formed").len() == LAYERS)
+        );
+        if config.accept == Accept::Plane {
+            for (k, hit) in bench.trace(&structure, &rays).hits.iter().enumerate() {
+                let layer = if k % 2 == 0 { k * 155 + 2 } else { k * 155 + 1 };
+                assert_eq!(hit.primitive as usize * 7919 % LAYERS, layer, "{hit:?}");
+            }
+        }
     }
-    let mut structure =
-        made(&bench, Config { fragments: Some(1 << 16), ..Config::published_hu(4) }, &triangles);
+    let unsorted = Config { sort: false, ..published };
+    let mut structure = made(&bench, unsorted, &triangles);
     let status = build(&bench, &mut structure);
     assert!(!status.complete && status.unsorted > 0, "{status:?}");
     assert_eq!(structure.check(&status), Check::Complete, "more room does not help");
+    let mut structure = made(&bench, Config { sort: false, ..base }, &triangles);
+    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.trace(&structure, &rays).hits.iter().all(Hit::is_hit));
 }
 
 #[test]

@@ -122,16 +122,9 @@ impl Build {
                 0,
                 readers,
             );
-            // Where no list was ever long there is nothing to record.
             let long = groups(target.pools.sizes().elements("long"));
-            if long > 0 {
-                recorder.begin_pass("abuffer/build_8_reorder_long");
-                for round in 0..ABUFFER_LONG_ROUNDS {
-                    target.dispatch(recorder, &reorder.long, long, round);
-                    recorder.barrier(Access::COMPUTE, readers);
-                }
-                recorder.end_pass();
-            }
+            let (label, rounds) = ("abuffer/build_8_reorder_long", ABUFFER_LONG_ROUNDS);
+            target.rounds_pass(recorder, label, &reorder.long, long, rounds, readers);
         }
         target.status_pass(recorder, "abuffer/build_9_status", &self.status);
     }

@@ -157,6 +157,28 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
+    /// A labelled pass of several dispatches one after the other, each with its number as step; no pass where there are no
+    /// workgroups.
+    pub fn rounds_pass(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        pipeline: &ComputePipeline,
+        groups: u64,
+        rounds: u32,
+        readers: Access,
+    ) {
+        if groups == 0 {
+            return;
+        }
+        recorder.begin_pass(label);
+        for round in 0..rounds {
+            self.dispatch(recorder, pipeline, groups, round);
+            recorder.barrier(Access::COMPUTE, Access::COMPUTE | readers);
+        }
+        recorder.end_pass();
+    }
+
     /// A labelled pass that draws every triangle once a view onto a square of `side` cells, visible to compute
     /// and fragment shaders after it.
     pub fn raster_pass(

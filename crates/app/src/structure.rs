@@ -148,6 +148,16 @@ pub enum Depth {
     Bits32,
 }
 
+/// What a block of cells says of the depths in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Occupancy {
+    /// The smallest and the largest
+    Bounds,
+    /// The same, and which of 64 slices of depth hold something
+    Slices,
+}
+
 /// Who makes a structure, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -195,10 +205,18 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
-    /// Cells along each side of a block of the upper level, a power of two
+    /// Cells along each side of a block of cells, a power of two
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block: Option<u32>,
+    /// Levels of blocks of cells
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub levels: Option<u32>,
+    /// What a block of cells says of the depths in it
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub occupancy: Option<Occupancy>,
     /// Depth buckets per cell
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -346,6 +364,7 @@ mod tests {
         same_words::<Axes>();
         same_words::<Views>();
         same_words::<Depth>();
+        same_words::<Occupancy>();
         same_words::<Builder>();
         same_words::<Addressing>();
         same_words::<Switch>();

@@ -2,9 +2,10 @@
 
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
-use crate::layout::cell_count;
+use crate::layout::{cell_count, long_capacity};
 use crate::{Config, Coverage};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
@@ -17,6 +18,7 @@ pub(crate) struct Build {
     scan: Scan,
     store: RasterPipeline,
     sort: ComputePipeline,
+    sort_long: ComputePipeline,
     fringe: Option<RasterPipeline>,
     status: ComputePipeline,
 }
@@ -39,8 +41,9 @@ impl Build {
             scan: Scan::new(pipelines, "build_2_scan")?,
             store: pipelines.raster("build_raster", store)?,
             sort: pipelines.compute("build_4_sort")?,
-            fringe: kept.then(|| pipelines.raster("build_raster.fringe", "build_5_fringe")).transpose()?,
-            status: pipelines.compute("build_6_status")?,
+            sort_long: pipelines.compute("build_5_sort_long")?,
+            fringe: kept.then(|| pipelines.raster("build_raster.fringe", "build_6_fringe")).transpose()?,
+            status: pipelines.compute("build_7_status")?,
         })
     }
 
@@ -59,11 +62,14 @@ impl Build {
         target.raster_pass(recorder, "ldc/build_1_count", &self.count, side, DRAWS);
         self.scan.record(recorder, target, "ldc/build_2_scan", cells, 0, shaders);
         target.raster_pass(recorder, "ldc/build_3_store", &self.store, side, DRAWS);
-        let lists = cells.div_ceil(u64::from(LDC_GROUP_SIZE));
-        target.compute_pass(recorder, "ldc/build_4_sort", &self.sort, lists, 0, shaders);
+        let groups = |items: u64| items.div_ceil(u64::from(LDC_GROUP_SIZE));
+        target.compute_pass(recorder, "ldc/build_4_sort", &self.sort, groups(cells), 0, shaders);
+        let long = groups(long_capacity(config, target.pools.sizes()));
+        let rounds = LONG_LIST_ROUNDS;
+        target.rounds_pass(recorder, "ldc/build_5_sort_long", &self.sort_long, long, rounds, shaders);
         if let Some(fringe) = &self.fringe {
-            target.raster_pass(recorder, "ldc/build_5_fringe", fringe, side, DRAWS);
+            target.raster_pass(recorder, "ldc/build_6_fringe", fringe, side, DRAWS);
         }
-        target.status_pass(recorder, "ldc/build_6_status", &self.status);
+        target.status_pass(recorder, "ldc/build_7_status", &self.status);
     }
 }

@@ -35,13 +35,26 @@ pub enum Depth {
     Bits32,
 }
 
+/// What blocks say of the depths in them. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Occupancy {
+    /// The smallest and the largest: 8 bytes.
+    Bounds,
+    /// The same, and in which of 64 slices of the cube's depth something lies: 16 bytes.
+    Slices,
+}
+
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Cells a side of a block of the upper level, a power of two up to 64. Changes no hit.
+    /// Cells a side of a block, a power of two up to 64. Changes no hit.
     pub block: u32,
+    /// Levels of blocks, 1 or 2; those of the second hold 8 x 8 of the first. Changes no hit.
+    pub levels: u32,
+    /// What blocks say of the depths in them. Changes no hit.
+    pub occupancy: Occupancy,
     /// When a fragment counts.
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
@@ -68,6 +81,8 @@ impl Config {
         Self {
             resolution,
             block: 8,
+            levels: 2,
+            occupancy: Occupancy::Slices,
             accept: Accept::Plane,
             tolerance: 0.001,
             coverage: Coverage::Conservative,
@@ -80,9 +95,12 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, the rasterizer's own coverage.
+    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, the rasterizer's own coverage, one level of
+    /// blocks with their smallest and largest depth.
     pub fn published(resolution: u32) -> Self {
         Self {
+            levels: 1,
+            occupancy: Occupancy::Bounds,
             accept: Accept::Tolerance,
             coverage: Coverage::Hardware,
             depth: Depth::Bits16,
@@ -101,6 +119,9 @@ impl Config {
         }
         if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
             return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells a side");
+        }
+        if !(1..=2).contains(&self.levels) {
+            return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");
         }
         if !(0.0..=1.0).contains(&self.tolerance) {
             return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
@@ -128,12 +149,18 @@ impl Config {
             Coverage::Exact => numbers::LDC_COVERAGE_EXACT,
             Coverage::Conservative => numbers::LDC_COVERAGE_CONSERVATIVE,
         };
+        let occupancy = match self.occupancy {
+            Occupancy::Bounds => numbers::LDC_OCCUPANCY_BOUNDS,
+            Occupancy::Slices => numbers::LDC_OCCUPANCY_SLICES,
+        };
         vec![
             (50, accept),
             (51, coverage),
             (52, self.depth.bits()),
             (53, u32::from(self.skip)),
             (54, self.block),
+            (55, occupancy),
+            (56, self.levels),
         ]
     }
 
@@ -144,6 +171,8 @@ impl Config {
             ("storage", "sb".to_owned()),
             ("resolution", self.resolution.to_string()),
             ("block", self.block.to_string()),
+            ("levels", self.levels.to_string()),
+            ("occupancy", lower(&self.occupancy)),
             ("accept", lower(&self.accept)),
             ("depth", self.depth.bits().to_string()),
             ("payload", "index".to_owned()),

@@ -16,7 +16,7 @@ pub struct Header {
     pub fringe_demand: u32,
     /// Triangles the fringe holds.
     pub fringe_capacity: u32,
-    /// Lists too long to be sorted.
+    /// Lists longer than the sort passes sort.
     pub unsorted: u32,
     /// List entries that named no fragment.
     pub corrupted: u32,
@@ -28,20 +28,20 @@ pub struct Header {
     pub size: f32,
     /// How far a fragment may be from the ray along the view, metres.
     pub tolerance: f32,
-    /// Zero.
-    pub spare: u32,
+    /// Lists too long for one dispatch of the sort.
+    pub long_demand: u32,
     /// Lower corner of the cube, metres relative to the frame origin.
     pub origin: [f32; 3],
-    /// Zero.
-    pub spare_origin: f32,
+    /// Long lists that the pool of them has room for.
+    pub long_capacity: u32,
     /// Lower corner of the geometry, metres relative to the frame origin.
     pub lower: [f32; 3],
     /// Zero.
     pub spare_lower: f32,
     /// Upper corner of the geometry, metres relative to the frame origin.
     pub upper: [f32; 3],
-    /// Zero.
-    pub spare_upper: f32,
+    /// Slices of depth a metre, for blocks that keep them.
+    pub slices_a_metre: f32,
     /// Device address of the lists; zero with descriptors.
     pub lists_address: [u32; 2],
     /// Device address of the depths.
@@ -54,6 +54,6 @@ pub struct Header {
     pub heads_address: [u32; 2],
     /// Device address of the fringe.
     pub fringe_address: [u32; 2],
-    /// Device address of the sums of the scan.
-    pub sums_address: [u32; 2],
+    /// Device address of the sums of the scan, and the long lists behind them.
+    pub scratch_address: [u32; 2],
 }

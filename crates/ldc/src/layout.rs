@@ -2,48 +2,65 @@
 
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
-use crate::{Config, Coverage, Depth, Header};
+use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
+
+use crate::{Config, Coverage, Depth, Header, Occupancy};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
-    ["header", "lists", "depths", "primitives", "blocks", "heads", "fringe", "sums"];
+    ["header", "lists", "depths", "primitives", "blocks", "heads", "fringe", "scratch"];
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
 
-/// Blocks of all three views; the last of a row may reach beyond the view.
+/// Blocks of all three views and both levels; the last of a row may reach beyond the view.
 pub fn block_count(config: &Config) -> u64 {
-    cell_count(config.resolution.div_ceil(config.block))
+    let side = config.resolution.div_ceil(config.block);
+    cell_count(side) + if config.levels == 2 { cell_count(side.div_ceil(LDC_LEVEL_BLOCKS)) } else { 0 }
 }
 
-/// What a layered depth cube of this configuration allocates to hold `fragments` places of fragments and `fringe`
-/// triangles beside centres. With 16-bit depths every list begins at an even place, so a list of odd length takes
-/// one place more than it has fragments.
+/// What a build found: how much of each pool it asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length takes one
+    /// place more than it has fragments.
+    pub fragments: u64,
+    /// Triangles beside centres.
+    pub fringe: u64,
+    /// Lists that one dispatch does not sort.
+    pub long_lists: u64,
+}
+
+/// What a layered depth cube of this configuration allocates to hold what a build may ask for.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
-pub fn plan(config: &Config, fragments: u64, fringe: u64) -> Result<Sizes, AdsError> {
+pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let cells = cell_count(config.resolution);
     let depth_words = match config.depth {
-        Depth::Bits16 => fragments.div_ceil(2),
-        Depth::Bits32 => fragments,
+        Depth::Bits16 => demand.fragments.div_ceil(2),
+        Depth::Bits32 => demand.fragments,
+    };
+    let block_bytes = match config.occupancy {
+        Occupancy::Bounds => 8,
+        Occupancy::Slices => 16,
     };
     let (heads, fringe) = match config.coverage {
-        Coverage::Conservative => (cells, fringe),
+        Coverage::Conservative => (cells, demand.fringe),
         Coverage::Exact | Coverage::Hardware => (0, 0),
     };
     let sizes = [
         (1, size_of::<Header>() as u64),
         (cells, 4),
         (depth_words, 4),
-        (fragments, 4),
-        (block_count(config), 8),
+        (demand.fragments, 4),
+        (block_count(config), block_bytes),
         (heads, 4),
         (fringe, 8),
-        (Scan::sums(cells), 4),
+        (scratch_words(config, demand.long_lists), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -59,25 +76,36 @@ pub fn plan(config: &Config, fragments: u64, fringe: u64) -> Result<Sizes, AdsEr
     Ok(Sizes { pools })
 }
 
+/// Words for the sums of the scan, and for two of each long list behind them.
+pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
+    Scan::sums(cell_count(config.resolution)) + 2 * long_lists
+}
+
+/// Long lists that such pools have room for.
+pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
+}
+
 /// The first guess where nothing has been counted: two fragments a cell, and a triangle beside the centre of
 /// every fourth.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
-    plan(config, config.fragments.unwrap_or(2 * cells), cells / 4)
+    let fragments = config.fragments.unwrap_or(2 * cells);
+    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0 })
 }
 
-/// Bytes for counted cells, places of fragments and triangles beside centres.
+/// Bytes for counted cells, places of fragments, triangles beside centres and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
     /// Per cell: the end of its list 4, and with conservative coverage the head of its fringe 4.
     pub cells: u64,
-    /// Per block: smallest and largest depth 8.
+    /// Per block: smallest and largest depth 8, and slices 8 where it keeps them.
     pub blocks: u64,
     /// Per place: triangle 4 and depth 2 or 4.
     pub fragments: u64,
     /// Per triangle beside a centre: triangle and link 8.
     pub fringe: u64,
-    /// Header, and a sum of 4 per 1024 cells for the scan.
+    /// Header, a sum of 4 per 1024 cells for the scan, and 8 per long list.
     pub rest: u64,
 }
 
@@ -89,19 +117,22 @@ impl FormulaBytes {
 }
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
-pub fn formula_bytes(config: &Config, fragments: u64, fringe: u64) -> FormulaBytes {
+pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
+    let Demand { fragments, fringe, long_lists } = demand;
     let side = u64::from(config.resolution);
     let blocks = side.div_ceil(u64::from(config.block));
+    let upper = if config.levels == 2 { blocks.div_ceil(8) } else { 0 };
+    let block_bytes = if config.occupancy == Occupancy::Slices { 16 } else { 8 };
     let cells = side * side * 3;
     let kept = config.coverage == Coverage::Conservative;
     // Depths of 16 bits fill whole words.
     let depths = if config.depth == Depth::Bits16 { 4 * fragments.div_ceil(2) } else { 4 * fragments };
     FormulaBytes {
         cells: cells * if kept { 8 } else { 4 },
-        blocks: 3 * blocks * blocks * 8,
+        blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: 4 * fragments + depths,
         fringe: if kept { 8 * fringe } else { 0 },
-        rest: 152 + 4 * cells.div_ceil(1024),
+        rest: 152 + 4 * cells.div_ceil(1024) + 8 * long_lists,
     }
 }
 
@@ -117,23 +148,29 @@ mod tests {
             (33, 1, Depth::Bits16, Coverage::Exact),
             (1, 2, Depth::Bits32, Coverage::Exact),
         ] {
-            let config = Config { block, depth, coverage, ..Config::robust(resolution) };
-            for fragments in [0, 12_344, 12_345] {
-                let sizes = plan(&config, fragments, 77).expect("options are in range");
-                assert_eq!(sizes.bytes(), formula_bytes(&config, fragments, 77).total(), "{config:?}");
+            for (occupancy, levels) in [(Occupancy::Slices, 2), (Occupancy::Bounds, 1)] {
+                let config =
+                    Config { block, depth, coverage, occupancy, levels, ..Config::robust(resolution) };
+                for fragments in [0, 12_344, 12_345] {
+                    let demand = Demand { fragments, fringe: 77, long_lists: 3 };
+                    let sizes = plan(&config, demand).expect("options are in range");
+                    assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total(), "{config:?}");
+                }
             }
         }
     }
 
     #[test]
     fn out_of_range_options_are_named() {
-        let refused = |config: Config| plan(&config, 0, 0).expect_err("refused").to_string();
+        let refused = |config: Config| plan(&config, Demand::default()).expect_err("refused").to_string();
         assert!(refused(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
         assert!(refused(Config { block: 3, ..Config::robust(64) }).contains("block is 3"));
         assert!(refused(Config { block: 128, ..Config::robust(64) }).contains("block is 128"));
+        assert!(refused(Config { levels: 3, ..Config::robust(64) }).contains("levels is 3"));
         assert!(refused(Config { tolerance: f32::NAN, ..Config::robust(64) }).contains("tolerance"));
         assert!(refused(Config { work_budget: Some(1), ..Config::robust(64) }).contains("work budget"));
-        assert!(plan(&Config::robust(64), 1 << 32, 0).unwrap_err().to_string().contains("depths"));
-        assert!(plan(&Config::robust(64), 0, 1 << 31).unwrap_err().to_string().contains("fringe"));
+        let asked = |demand| plan(&Config::robust(64), demand).expect_err("refused").to_string();
+        assert!(asked(Demand { fragments: 1 << 32, ..Demand::default() }).contains("depths"));
+        assert!(asked(Demand { fringe: 1 << 31, ..Demand::default() }).contains("fringe"));
     }
 }

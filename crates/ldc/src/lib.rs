@@ -13,9 +13,9 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Config, Coverage, Depth};
+pub use config::{Accept, Config, Coverage, Depth, Occupancy};
 pub use header::Header;
-pub use layout::{FormulaBytes, block_count, cell_count, formula_bytes, plan};
+pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};

@@ -7,9 +7,10 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
 
 use crate::build::Build;
-use crate::layout::{first_plan, formula_bytes, plan};
+use crate::layout::{Demand, first_plan, formula_bytes, long_capacity, plan, scratch_words};
 use crate::{Config, Contents, Header};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most.
@@ -84,6 +85,8 @@ impl LayeredDepthCube {
         Header {
             capacity: self.pools.sizes().elements("primitives") as u32,
             fringe_capacity: self.pools.sizes().elements("fringe") as u32,
+            long_capacity: long_capacity(&self.config, self.pools.sizes()) as u32,
+            slices_a_metre: LDC_SLICES as f32 / size,
             resolution: self.config.resolution,
             cell: size / self.config.resolution as f32,
             size,
@@ -97,7 +100,7 @@ impl LayeredDepthCube {
             blocks_address: self.pools.address_of("blocks"),
             heads_address: self.pools.address_of("heads"),
             fringe_address: self.pools.address_of("fringe"),
-            sums_address: self.pools.address_of("sums"),
+            scratch_address: self.pools.address_of("scratch"),
             ..Header::default()
         }
     }
@@ -196,6 +199,11 @@ impl Structure for LayeredDepthCube {
                     demand: header.fringe_demand.into(),
                     capacity: header.fringe_capacity.into(),
                 },
+                PoolStatus {
+                    name: "long",
+                    demand: header.long_demand.into(),
+                    capacity: header.long_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -207,10 +215,14 @@ impl Structure for LayeredDepthCube {
         if status.complete {
             return Check::Complete;
         }
-        let fragments = demand("fragments").max(self.pools.sizes().elements("primitives"));
-        let fringe = demand("fringe").max(self.pools.sizes().elements("fringe"));
+        let room = |pool| self.pools.sizes().elements(pool);
+        let demand = Demand {
+            fragments: demand("fragments").max(room("primitives")),
+            fringe: demand("fringe").max(room("fringe")),
+            long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
+        };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, fragments, fringe).map_or(Check::Complete, Check::Grow)
+        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
@@ -247,20 +259,25 @@ impl Structure for LayeredDepthCube {
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
-        let (fragments, fringe) = (u64::from(header.demand), u64::from(header.fringe_demand));
-        let depth_words = fragments.div_ceil(u64::from(32 / self.config.depth.bits()));
+        let demand = Demand {
+            fragments: header.demand.into(),
+            fringe: header.fringe_demand.into(),
+            long_lists: header.long_demand.into(),
+        };
+        let depth_words = demand.fragments.div_ceil(u64::from(32 / self.config.depth.bits()));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "depths" => depth_words,
-            "primitives" => fragments,
-            "fringe" => fringe,
+            "primitives" => demand.fragments,
+            "fringe" => demand.fringe,
+            "scratch" => scratch_words(&self.config, demand.long_lists),
             _ => pool.elements,
         });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, fragments, fringe).total(),
-            stored: Some(fragments + fringe),
+            formula_bytes: formula_bytes(&self.config, demand).total(),
+            stored: Some(demand.fragments + demand.fringe),
         })
     }
 }

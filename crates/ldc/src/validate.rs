@@ -1,6 +1,8 @@
 //! Checks the contents of a built layered depth cube.
 
-use crate::{Config, Coverage, Depth, Header, cell_count};
+use rasray_shaders_glsl::constants::ldc::{LDC_LEVEL_BLOCKS, LDC_SLICES};
+
+use crate::{Config, Coverage, Depth, Header, Occupancy, cell_count};
 
 /// All pools as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -15,7 +17,8 @@ pub struct Contents {
     pub depths: Vec<u32>,
     /// Triangles of fragments.
     pub primitives: Vec<u32>,
-    /// Smallest (its complement) and largest depth of each block.
+    /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the second level
+    /// follows the first.
     pub blocks: Vec<u32>,
     /// First link of each cell's fringe.
     pub heads: Vec<u32>,
@@ -45,8 +48,8 @@ pub enum Fault {
         /// Place of the fragment.
         place: u32,
     },
-    /// A depth lies outside of its block's, or is no number.
-    #[error("cell {cell}: depth {z} at place {place} is outside of its block's")]
+    /// A depth lies outside of its blocks', or is no number.
+    #[error("cell {cell}: depth {z} at place {place} is outside of its blocks'")]
     Depth {
         /// Cell.
         cell: usize,
@@ -132,13 +135,31 @@ impl Contents {
         Ok(found)
     }
 
-    /// The block of a cell.
-    fn block(&self, cell: usize) -> usize {
+    /// Whether the blocks of a cell, of all levels, say that something lies at a depth in metres.
+    fn blocks_hold(&self, cell: usize, z: f32) -> bool {
         let side = self.config.resolution as usize;
-        let (block, blocks) =
-            (self.config.block as usize, self.config.resolution.div_ceil(self.config.block) as usize);
         let (view, x, y) = (cell / (side * side), cell % side, cell / side % side);
-        (view * blocks + y / block) * blocks + x / block
+        let words = if self.config.occupancy == Occupancy::Slices { 4 } else { 2 };
+        // The device's arithmetic of a half's share may differ in the last place.
+        let slack = if self.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
+        let (mut before, mut size) = (0, self.config.block as usize);
+        for _ in 0..self.config.levels {
+            let blocks = side.div_ceil(size);
+            let word = words * (before + (view * blocks + y / size) * blocks + x / size);
+            let [z_min, z_max] = [!self.blocks[word], self.blocks[word + 1]].map(f32::from_bits);
+            let slices = match self.blocks[word..word + words] {
+                [_, _, low, high] => u64::from(high) << 32 | u64::from(low),
+                _ => u64::MAX,
+            };
+            let slice = |z: f32| (z * self.header.slices_a_metre).clamp(0.0, (LDC_SLICES - 1) as f32) as u32;
+            let marked = (slice(z - slack)..=slice(z + slack)).any(|slice| slices >> slice & 1 != 0);
+            if !(z >= z_min - slack && z <= z_max + slack && marked) {
+                return false;
+            }
+            before += 3 * blocks * blocks;
+            size *= LDC_LEVEL_BLOCKS as usize;
+        }
+        true
     }
 }
 
@@ -153,7 +174,7 @@ fn half(bits: u32) -> f32 {
 }
 
 /// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they should be,
-/// that depths lie within their blocks', and that every node of the fringe is in exactly one list.
+/// that depths lie within those of their blocks, and that every node of the fringe is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.
@@ -162,8 +183,6 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let (mut listed, mut nodes) = (0, 0);
     for cell in 0..cell_count(contents.config.resolution) as usize {
         let list = contents.list(cell)?;
-        let block = 2 * contents.block(cell);
-        let [z_min, z_max] = [!contents.blocks[block], contents.blocks[block + 1]].map(f32::from_bits);
         let mut previous = None;
         for place in list.clone() {
             let primitive = contents.primitives[place as usize];
@@ -171,9 +190,7 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
                 return Err(Fault::Primitive { cell, primitive });
             }
             let z = contents.depth(place);
-            // The device's arithmetic of a half's share may differ in the last place.
-            let slack = if contents.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
-            if !(z >= z_min - slack && z <= z_max + slack) {
+            if !contents.blocks_hold(cell, z) {
                 return Err(Fault::Depth { cell, place, z: z.to_string() });
             }
             let key = Some((contents.depth_bits(place), primitive));

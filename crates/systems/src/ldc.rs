@@ -1,6 +1,6 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube};
+use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Occupancy};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,9 +18,11 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 12] = [
+const OPTIONS: [&str; 14] = [
     "resolution",
     "block",
+    "levels",
+    "occupancy",
     "storage",
     "payload",
     "accept",
@@ -47,6 +49,11 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         match given.name {
             "resolution" => config.resolution = given.number()?,
             "block" => config.block = given.number()?,
+            "levels" => config.levels = given.number()?,
+            "occupancy" => {
+                config.occupancy =
+                    given.choice(&[("bounds", Occupancy::Bounds), ("slices", Occupancy::Slices)])?;
+            }
             "capacity" => config.fragments = Some(given.number()?.into()),
             "tolerance" => config.tolerance = given.share()?,
             "skip" => config.skip = given.switch()?,

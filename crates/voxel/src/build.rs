@@ -2,9 +2,10 @@
 
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
-use crate::layout::list_count;
+use crate::layout::{list_count, long_capacity};
 use crate::{Axes, Config};
 
 /// Pipelines of the build.
@@ -16,6 +17,7 @@ pub(crate) struct Build {
     scan: Scan,
     store: RasterPipeline,
     sort: ComputePipeline,
+    sort_long: ComputePipeline,
     status: ComputePipeline,
 }
 
@@ -39,7 +41,8 @@ impl Build {
             scan: Scan::new(pipelines, "build_4_scan")?,
             store: pipelines.raster("build_raster", store)?,
             sort: pipelines.compute("build_6_sort")?,
-            status: pipelines.compute("build_7_status")?,
+            sort_long: pipelines.compute("build_7_sort_long")?,
+            status: pipelines.compute("build_8_status")?,
         })
     }
 
@@ -84,6 +87,9 @@ impl Build {
             0,
             Access::COMPUTE,
         );
-        target.status_pass(recorder, "voxel/build_7_status", &self.status);
+        let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
+        let (label, rounds) = ("voxel/build_7_sort_long", LONG_LIST_ROUNDS);
+        target.rounds_pass(recorder, label, &self.sort_long, long, rounds, Access::COMPUTE);
+        target.status_pass(recorder, "voxel/build_8_status", &self.status);
     }
 }

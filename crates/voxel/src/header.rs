@@ -14,8 +14,12 @@ pub struct Header {
     pub capacity: u32,
     /// Fragments met by the build, without what is left of their pages.
     pub fragments: u32,
-    /// Lists longer than the sort pass sorts.
+    /// Lists longer than the sort passes sort, or than parities may take unsorted.
     pub unsorted: u32,
+    /// Lists too long for one dispatch of the sort.
+    pub long_demand: u32,
+    /// Long lists that the pool of them has room for.
+    pub long_capacity: u32,
     /// Lists that reached beyond the pool.
     pub corrupted: u32,
     /// Cells a side of a view.
@@ -42,6 +46,6 @@ pub struct Header {
     pub lists_address: [u32; 2],
     /// Device address of the fragments.
     pub fragments_address: [u32; 2],
-    /// Device address of the sums of the scan.
-    pub sums_address: [u32; 2],
+    /// Device address of the sums of the scan, and the long lists behind them.
+    pub scratch_address: [u32; 2],
 }

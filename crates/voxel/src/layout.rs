@@ -5,18 +5,27 @@ use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 use crate::{Axes, Config, Header};
 
 /// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "sums"];
+pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "scratch"];
 
 /// Lists of all three views: one a cell.
 pub fn list_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
 
-/// What a configuration allocates to hold `entries` fragments, those included that fill up pages.
+/// What a build found: how much of each pool it asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Fragments, and what is left of their pages.
+    pub entries: u64,
+    /// Lists that one dispatch does not sort.
+    pub long_lists: u64,
+}
+
+/// What a configuration allocates to hold what a build may ask for.
 ///
 /// # Errors
 /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
-pub fn plan(config: &Config, entries: u64) -> Result<Sizes, AdsError> {
+pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let voxels = u64::from(config.grid()).pow(3);
     let lists = list_count(config.resolution);
@@ -26,8 +35,8 @@ pub fn plan(config: &Config, entries: u64) -> Result<Sizes, AdsError> {
         (voxels.div_ceil(8), 4),
         (normals, 12),
         (lists, 4),
-        (entries, 8),
-        (Scan::sums(lists), 4),
+        (demand.entries, 8),
+        (scratch_words(config, demand.long_lists), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -43,9 +52,20 @@ pub fn plan(config: &Config, entries: u64) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
+/// Words for the sums of the scan, and for two of each long list behind them.
+pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
+    Scan::sums(list_count(config.resolution)) + 2 * long_lists
+}
+
+/// Long lists that such pools have room for.
+pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
+}
+
 /// The first guess where nothing has been counted: one a cell of one view.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
-    plan(config, config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3))
+    let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
+    plan(config, Demand { entries, long_lists: 0 })
 }
 
 /// The cube that voxels and views divide: its lower corner, and its side, metres.
@@ -65,7 +85,7 @@ pub(crate) fn cube([lower, upper]: [[f32; 3]; 2]) -> ([f32; 3], f32) {
     ([corner[0], corner[1], corner[2]], (reach as f32).next_up())
 }
 
-/// Bytes for counted voxels, cells and entries.
+/// Bytes for counted voxels, cells, entries and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
     /// Per eight voxels a word of 4; and 12 a voxel where normals are averaged.
@@ -74,7 +94,7 @@ pub struct FormulaBytes {
     pub lists: u64,
     /// Per entry: 8.
     pub fragments: u64,
-    /// Header; a sum of 4 per 1024 lists for the scan.
+    /// Header; a sum of 4 per 1024 lists for the scan; 8 per long list.
     pub rest: u64,
 }
 
@@ -86,15 +106,15 @@ impl FormulaBytes {
 }
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
-pub fn formula_bytes(config: &Config, entries: u64) -> FormulaBytes {
+pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let grid = u64::from(config.grid());
     let cells = u64::from(config.resolution) * u64::from(config.resolution) * 3;
     let averaged = config.axes != Axes::Triangle;
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
-        fragments: entries * 8,
-        rest: 104 + cells.div_ceil(1024) * 4,
+        fragments: demand.entries * 8,
+        rest: 112 + cells.div_ceil(1024) * 4 + demand.long_lists * 8,
     }
 }
 
@@ -111,23 +131,27 @@ mod tests {
                 Config { grid, ..Config::published_hu(resolution) },
                 Config { grid, ..Config::published_selective(resolution) },
             ] {
-                let sizes = plan(&config, 12_345).expect("options are in range");
-                assert_eq!(sizes.bytes(), formula_bytes(&config, 12_345).total());
-                assert_ne!(sizes.bytes(), formula_bytes(&config, 12_346).total());
+                let demand = Demand { entries: 12_345, long_lists: 3 };
+                let sizes = plan(&config, demand).expect("options are in range");
+                assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
+                for more in [Demand { entries: 12_346, ..demand }, Demand { long_lists: 4, ..demand }] {
+                    assert_ne!(sizes.bytes(), formula_bytes(&config, more).total());
+                }
             }
         }
     }
 
     #[test]
     fn out_of_range_options_are_named() {
-        let message = |config: Config| plan(&config, 0).unwrap_err().to_string();
+        let message = |config: Config| plan(&config, Demand::default()).unwrap_err().to_string();
         assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
         assert!(message(Config { grid: Some(1025), ..Config::robust(64) }).contains("grid is 1025"));
         assert!(message(Config { samples: 0, ..Config::robust(64) }).contains("samples is 0"));
         assert!(message(Config { page: 9, ..Config::robust(64) }).contains("page is 9"));
         assert!(message(Config { work_budget: Some(0), ..Config::robust(64) }).contains("work budget is 0"));
         assert!(message(Config { accept: Accept::Plane, ..Config::published_hu(64) }).contains("march"));
-        assert!(plan(&Config::robust(64), 1 << 32).unwrap_err().to_string().contains("fragments"));
+        let many = Demand { entries: 1 << 32, long_lists: 0 };
+        assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod validate;
 
 pub use config::{Accept, Axes, Config, Coverage, March, Storage};
 pub use header::Header;
-pub use layout::{FormulaBytes, formula_bytes, list_count, plan};
+pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use rasray_ads::Addressing;
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};

@@ -9,7 +9,7 @@ use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 
 use crate::build::Build;
-use crate::layout::{cube, first_plan, formula_bytes, plan};
+use crate::layout::{Demand, cube, first_plan, formula_bytes, long_capacity, plan, scratch_words};
 use crate::{Config, Contents, Header};
 
 /// A voxel grid over three axis A-buffers.
@@ -78,6 +78,7 @@ impl Voxels {
         let (resolution, grid) = (self.config.resolution as f32, self.config.grid() as f32);
         Header {
             capacity: self.pools.sizes().elements("fragments") as u32,
+            long_capacity: long_capacity(&self.config, self.pools.sizes()) as u32,
             resolution: self.config.resolution,
             grid: self.config.grid(),
             samples: self.config.samples,
@@ -90,7 +91,7 @@ impl Voxels {
             normals_address: self.pools.address_of("normals"),
             lists_address: self.pools.address_of("lists"),
             fragments_address: self.pools.address_of("fragments"),
-            sums_address: self.pools.address_of("sums"),
+            scratch_address: self.pools.address_of("scratch"),
             ..Header::default()
         }
     }
@@ -160,23 +161,36 @@ impl Structure for Voxels {
         let header = self.header()?;
         Ok(BuildStatus {
             complete: header.status & STATUS_COMPLETE != 0,
-            pools: vec![PoolStatus {
-                name: "fragments",
-                demand: header.demand.into(),
-                capacity: header.capacity.into(),
-            }],
+            pools: vec![
+                PoolStatus {
+                    name: "fragments",
+                    demand: header.demand.into(),
+                    capacity: header.capacity.into(),
+                },
+                PoolStatus {
+                    name: "long",
+                    demand: header.long_demand.into(),
+                    capacity: header.long_capacity.into(),
+                },
+            ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
         })
     }
 
     fn check(&self, status: &BuildStatus) -> Check {
-        let short = status.pools.iter().find(|pool| pool.demand > pool.capacity);
-        let Some(short) = short.filter(|_| !status.complete) else {
+        let short = status.pools.iter().any(|pool| pool.demand > pool.capacity);
+        if status.complete || !short {
             return Check::Complete;
+        }
+        let demand = |name| status.demand(name).unwrap_or(0);
+        let sizes = self.pools.sizes();
+        let demand = Demand {
+            entries: demand("fragments").max(sizes.elements("fragments")),
+            long_lists: demand("long").max(long_capacity(&self.config, sizes)),
         };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, short.demand).map_or(Check::Complete, Check::Grow)
+        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
@@ -212,16 +226,17 @@ impl Structure for Voxels {
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
-        let entries = u64::from(header.demand);
+        let demand = Demand { entries: header.demand.into(), long_lists: header.long_demand.into() };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
-            "fragments" => entries,
+            "fragments" => demand.entries,
+            "scratch" => scratch_words(&self.config, demand.long_lists),
             _ => pool.elements,
         });
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, entries).total(),
+            formula_bytes: formula_bytes(&self.config, demand).total(),
             stored: Some(header.fragments.into()),
         })
     }

@@ -71,5 +71,5 @@ void main() {
     // The part of the triangle within the cell.
     float z_low = clamp(z_center - extent, z_nearest, z_farthest);
     float z_high = clamp(z_center + extent, z_nearest, z_farthest);
-    ldc_widen_block(ldc_built, view.axis, place, max(z_low, 0.0), max(z_high, 0.0));
+    ldc_widen_blocks(ldc_built, view.axis, place, max(z_low, 0.0), max(z_high, 0.0));
 }

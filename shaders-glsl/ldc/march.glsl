@@ -1,0 +1,122 @@
+// What: walks the squares of a flat grid that a ray crosses, column by column along the side it moves along most.
+// Reads, writes: nothing.
+// Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed follows from the
+// column alone, so a walk can go on anywhere. The visited squares are a superset of the exact ones.
+#ifndef LDC_MARCH_GLSL
+#define LDC_MARCH_GLSL
+
+// A ray over a view, in cells.
+struct LdcFlatRay {
+    bool turned;          // columns are along the second side
+    vec2 origin;          // along columns, along rows
+    vec2 direction;
+    float inverse;        // 1 / direction.x, zero where that is not finite
+    ivec2 step;
+};
+
+// The squares of a walk, along columns and along rows.
+struct LdcArea {
+    float width;          // cells
+    ivec2 first;
+    ivec2 last;
+};
+
+// A walk. A column may have no row within the area: then `rows` is not positive.
+struct LdcMarch {
+    LdcArea area;
+    vec2 t;               // the part of the ray that is walked
+    int column;
+    int row;
+    int columns;          // how many are left, with this one
+    int rows;
+};
+
+LdcFlatRay ldc_flat_ray(vec2 origin, vec2 direction) {
+    LdcFlatRay ray;
+    ray.turned = abs(direction.y) > abs(direction.x);
+    ray.origin = ray.turned ? origin.yx : origin;
+    ray.direction = ray.turned ? direction.yx : direction;
+    float inverse = 1.0 / ray.direction.x;
+    // Comparisons with infinity and NaN are false.
+    ray.inverse = abs(ray.direction.x) > 0.0 && abs(inverse) < 3.0e38 ? inverse : 0.0;
+    ray.step = ivec2(ray.direction.x < 0.0 ? -1 : 1, ray.direction.y < 0.0 ? -1 : 1);
+    return ray;
+}
+
+// The area from one square to another one.
+LdcArea ldc_area(LdcFlatRay ray, float width, ivec2 first, ivec2 last) {
+    return LdcArea(width, ray.turned ? first.yx : first, ray.turned ? last.yx : last);
+}
+
+// The first and last square along a side (0: columns, 1: rows) that the ray touches between two t, within rounding.
+ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
+    float origin = ray.origin[side];
+    vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
+    float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y)));
+    vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width;
+    // Clamped as floats: what does not fit into an integer has none.
+    ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
+    return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
+}
+
+// Finds the rows of the walk's column.
+void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
+    vec2 t = march.t;
+    if (ray.inverse != 0.0) {
+        float from = (float(march.column) * march.area.width - ray.origin.x) * ray.inverse;
+        float to = (float(march.column + 1) * march.area.width - ray.origin.x) * ray.inverse;
+        float slack = 6.0e-8 * (8.0 * max(abs(from), abs(to)) + 2.0 * abs(ray.origin.x * ray.inverse));
+        t = vec2(max(t.x, min(from, to) - slack), min(t.y, max(from, to) + slack));
+    }
+    ivec2 rows = ldc_touched(ray, march.area, 1, t);
+    march.row = ray.step.y > 0 ? rows.x : rows.y;
+    march.rows = rows.y - rows.x + 1;
+}
+
+// Starts a walk over [t.x, t.y]; false where the ray does not meet the area.
+bool ldc_march_begin(LdcFlatRay ray, LdcArea area, vec2 t, out LdcMarch march) {
+    march.area = area;
+    march.t = t;
+    ivec2 columns = ldc_touched(ray, area, 0, t);
+    march.column = ray.step.x > 0 ? columns.x : columns.y;
+    march.columns = columns.y - columns.x + 1;
+    march.row = 0;
+    march.rows = 0;
+    if (!(t.x <= t.y) || march.columns <= 0) {
+        return false;
+    }
+    ldc_enter_column(ray, march);
+    return true;
+}
+
+bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
+    march.rows--;
+    march.row += ray.step.y;
+    if (march.rows > 0) {
+        return true;
+    }
+    march.columns--;
+    march.column += ray.step.x;
+    if (march.columns <= 0) {
+        return false;
+    }
+    ldc_enter_column(ray, march);
+    return true;
+}
+
+// The square that a walk is at.
+ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
+    return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
+}
+
+// Takes a walk that has begun to the square where another one of the same ray stood.
+void ldc_march_resume(LdcFlatRay ray, ivec2 square, inout LdcMarch march) {
+    ivec2 place = ray.turned ? square.yx : square;
+    march.columns -= abs(place.x - march.column);
+    march.column = place.x;
+    ldc_enter_column(ray, march);
+    march.rows -= abs(place.y - march.row);
+    march.row = place.y;
+}
+
+#endif
