@@ -80,8 +80,10 @@ bool axis_has_cell(uint resolution, ivec2 cell) {
 
 // Depth of the plane of a triangle (frame of the view) at a point; that of a corner where the plane is edge-on.
 float axis_plane_depth(vec3 a, vec3 b, vec3 c, vec2 p) {
-    vec3 normal = cross(b - a, c - a);
-    return normal.z == 0.0 ? a.z : a.z - dot(normal.xy, p - a.xy) / normal.z;
+    precise vec3 normal = cross(b - a, c - a);
+    // Passes that count, store and peel must agree.
+    precise float depth = a.z - dot(normal.xy, p - a.xy) / normal.z;
+    return normal.z == 0.0 ? a.z : depth;
 }
 
 // Largest difference of the plane's depth within a cell from that at its centre, metres. A triangle that faces the

@@ -6,6 +6,7 @@
 
 #include "ads/axis_views.glsl"
 #include "ads/bucket.glsl"
+#include "ads/constants.glsl"
 #include "ldc/header.glsl"
 
 #ifdef ADDRESSING_ADDRESS
@@ -40,6 +41,11 @@ AxisView ldc_view(LdcRef s, uint axis) {
 
 uint ldc_cell_count(LdcRef s) {
     return AXIS_VIEWS * LDC_HEADER(s).resolution * LDC_HEADER(s).resolution;
+}
+
+// Words of the scratch pool that the scan takes; long lists or the counts of layers follow.
+uint ldc_scan_words(LdcRef s) {
+    return (ldc_cell_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
 }
 
 // Running index of a cell over all views.
@@ -143,6 +149,29 @@ uint ldc_bits_at(LdcRef s, uint place) {
         return (LDC_DEPTHS(s)[place >> 1u] >> (16u * (place & 1u))) & 0xFFFFu;
     }
     return LDC_DEPTHS(s)[place];
+}
+
+// Lowers the depth at a place whose bits start out as ones. Of two depths that share a word the first is settled before
+// the second is lowered.
+void ldc_lower_depth(LdcRef s, uint place, uint bits) {
+    uint word = bits;
+    if (LDC_DEPTH_BITS == 16u) {
+        word = (place & 1u) == 0u ? 0xFFFF0000u | bits : bits << 16u | ldc_bits_at(s, place - 1u);
+    }
+    atomicMin(LDC_DEPTHS(s)[LDC_DEPTH_BITS == 16u ? place >> 1u : place], word);
+}
+
+// Counts a fragment as its cell's next layer.
+void ldc_count_layer(LdcRef s, uint layer) {
+    if (layer >= LDC_HEADER(s).layer_limit) {
+        atomicAdd(LDC_HEADER(s).beyond, 1u);
+    }
+    if (LDC_HEADER(s).layer_demand <= layer) {
+        atomicMax(LDC_HEADER(s).layer_demand, layer + 1u);
+    }
+    if (layer < LDC_HEADER(s).layer_capacity) {
+        atomicAdd(LDC_SCRATCH(s)[ldc_scan_words(s) + layer], 1u);
+    }
 }
 
 // Replaces the depth at a place of a list that no other thread writes.

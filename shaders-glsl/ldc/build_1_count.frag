@@ -1,5 +1,6 @@
-// What: length of each cell's list.
-// Reads: geometry, header. Writes: lists.
+// What: length of each cell's list; where layers are peeled, how many there are, and in a second draw lists grow from
+// where they begin to where they end.
+// Reads: geometry, header. Writes: lists; scratch, header.layer_demand, header.beyond.
 // Source: Bürger et al. section 1.2, where the largest length says how often to peel.
 #version 460
 #include "contract/extensions.glsl"
@@ -16,6 +17,9 @@ void main() {
     AxisView view = ldc_built_view(primitive_and_axis.y);
     if (ldc_fragment(view, primitive_and_axis.x, gl_FragCoord, cell, z, barycentrics)
         && alpha_accepts(primitive_and_axis.x, barycentrics)) {
-        atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, view.axis, cell)], 1u);
+        uint layer = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, view.axis, cell)], 1u);
+        if (LDC_BUILD == LDC_BUILD_PEEL && build_step == 0u) {
+            ldc_count_layer(ldc_built, layer);
+        }
     }
 }

@@ -16,6 +16,10 @@
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
+// How layers are made: all in one pass and then sorted, or one a pass by peeling.
+#define LDC_BUILD_SINGLE 0u
+#define LDC_BUILD_PEEL 1u
+
 // Slices of a cube's depth: the bits of two words.
 #define LDC_SLICES 64u
 

@@ -10,6 +10,7 @@
 
 layout(push_constant, scalar) uniform LdcBuildConstants {
     LdcRef ldc_built;
+    uint build_step;
 };
 
 AxisView ldc_built_view(uint axis) {

@@ -5,7 +5,6 @@
 #ifndef LDC_SORT_GLSL
 #define LDC_SORT_GLSL
 
-#include "ads/constants.glsl"
 #include "ldc/accessors.glsl"
 
 #define SortRef LdcRef
@@ -50,7 +49,7 @@ uint sort_long_count(LdcRef s) {
 
 // Word of the scratch pool at which a long list stands: behind the sums of the scan.
 uint sort_long_word(LdcRef s, uint place) {
-    return (ldc_cell_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK + 2u * place;
+    return ldc_scan_words(s) + 2u * place;
 }
 
 uvec2 sort_long(LdcRef s, uint place) {

@@ -16,8 +16,9 @@ layout(constant_id = 53) const uint LDC_SKIP = 1u;
 layout(constant_id = 54) const uint LDC_BLOCK = 8u;
 layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
 layout(constant_id = 56) const uint LDC_LEVELS = 2u;
+layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
 
-// State and sizes of one value. 152 bytes.
+// State and sizes of one value. 168 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
@@ -34,7 +35,7 @@ struct LdcHeader {
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube
     uint long_capacity;
     vec3 lower;           // bounds of the geometry, metres
-    float spare_lower;
+    uint layer_demand;    // fragments of the deepest cell, LDC_BUILD_PEEL only, as the next three
     vec3 upper;
     float slices_a_metre; // of depth, LDC_OCCUPANCY_SLICES only
     uvec2 lists_address;  // device addresses of the pools, zero where descriptors are used
@@ -44,6 +45,10 @@ struct LdcHeader {
     uvec2 heads_address;
     uvec2 fringe_address;
     uvec2 scratch_address;
+    uint layer_capacity;  // layers that are peeled
+    uint layer_limit;     // layers that may be
+    uint beyond;          // fragments behind those
+    uint spare;
 };
 
 // Depths of what a block of cells holds.

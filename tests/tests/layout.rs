@@ -360,6 +360,7 @@ fn records_of_layered_depth_cubes() {
         &shaders::LDC_BUILD_2_SCAN_SUMS,
         &shaders::LDC_BUILD_2_SCAN_PLACES,
         &shaders::LDC_BUILD_3_STORE,
+        &shaders::LDC_BUILD_3_PEEL,
         &shaders::LDC_BUILD_4_SORT,
         &shaders::LDC_BUILD_5_SORT_LONG,
         &shaders::LDC_BUILD_6_FRINGE,
@@ -369,8 +370,9 @@ fn records_of_layered_depth_cubes() {
     ];
     check_layout!(modules, rasray_ldc::Header as "LdcHeader" {
         status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
-        tolerance, long_demand, origin, long_capacity, lower, spare_lower, upper, slices_a_metre, lists_address,
+        tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
         depths_address, primitives_address, blocks_address, heads_address, fringe_address, scratch_address,
+        layer_capacity, layer_limit, beyond, spare,
     });
     let by_address = &read_by_us(&shaders::LDC_TRACE_CLOSEST_ADDRESS)["LdcHeader"];
     assert_eq!(*by_address, read_by_us(&shaders::LDC_TRACE_CLOSEST)["LdcHeader"]);

@@ -47,7 +47,7 @@ fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> 
 
 /// Room for so many fragments and triangles beside centres.
 fn room(fragments: u64, fringe: u64) -> Demand {
-    Demand { fragments, fringe, long_lists: 0 }
+    Demand { fragments, fringe, ..Demand::default() }
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {

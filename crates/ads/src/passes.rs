@@ -179,6 +179,26 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
+    /// Draws every triangle once a view onto a square of `side` cells; nothing where there is none.
+    pub fn draw(
+        &self,
+        recorder: &mut Recorder<'_>,
+        pipeline: &RasterPipeline,
+        side: u32,
+        views: u32,
+        step: u32,
+    ) {
+        let triangles = self.geometry.triangle_count();
+        if triangles == 0 {
+            return;
+        }
+        recorder.begin_rendering(side, side);
+        recorder.bind_raster(pipeline);
+        self.bind(recorder, step);
+        recorder.draw(3 * triangles, views, 0);
+        recorder.end_rendering();
+    }
+
     /// A labelled pass that draws every triangle once a view onto a square of `side` cells, visible to compute
     /// and fragment shaders after it.
     pub fn raster_pass(
@@ -201,13 +221,8 @@ impl BuildTarget<'_> {
         draws: &[ViewDraw],
     ) {
         recorder.begin_pass(label);
-        let triangles = self.geometry.triangle_count();
-        for draw in draws.iter().filter(|_| triangles > 0) {
-            recorder.begin_rendering(draw.side, draw.side);
-            recorder.bind_raster(pipeline);
-            self.bind(recorder, draw.first);
-            recorder.draw(3 * triangles, draw.views, 0);
-            recorder.end_rendering();
+        for draw in draws {
+            self.draw(recorder, pipeline, draw.side, draw.views, draw.first);
         }
         recorder.barrier(Access::FRAGMENT, Access::COMPUTE | Access::FRAGMENT);
         recorder.end_pass();

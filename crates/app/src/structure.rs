@@ -158,6 +158,16 @@ pub enum Occupancy {
     Slices,
 }
 
+/// How the layers of a depth cube are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LayerBuild {
+    /// All in one pass, then sorted
+    Single,
+    /// One after the other, by depth peeling
+    Peel,
+}
+
 /// Who makes a structure, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -217,6 +227,14 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub occupancy: Option<Occupancy>,
+    /// How the layers of a depth cube are made
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub build: Option<LayerBuild>,
+    /// With --build peel: most layers, a scene with more is refused
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layers: Option<u32>,
     /// Depth buckets per cell
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -365,6 +383,7 @@ mod tests {
         same_words::<Views>();
         same_words::<Depth>();
         same_words::<Occupancy>();
+        same_words::<LayerBuild>();
         same_words::<Builder>();
         same_words::<Addressing>();
         same_words::<Switch>();

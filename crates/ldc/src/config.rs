@@ -44,6 +44,15 @@ pub enum Occupancy {
     Slices,
 }
 
+/// How layers are made. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Making {
+    /// All in one pass, then sorted.
+    Single,
+    /// One after the other by peeling, the paper's way, two draws each.
+    Peel,
+}
+
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
@@ -55,6 +64,10 @@ pub struct Config {
     pub levels: u32,
     /// What blocks say of the depths in them. Changes no hit.
     pub occupancy: Occupancy,
+    /// How layers are made. Changes no hit.
+    pub making: Making,
+    /// Most layers that are peeled, 1 to 1024; only for [`Making::Peel`]. Deeper cells are refused.
+    pub layers: u32,
     /// When a fragment counts.
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
@@ -83,6 +96,8 @@ impl Config {
             block: 8,
             levels: 2,
             occupancy: Occupancy::Slices,
+            making: Making::Single,
+            layers: 256,
             accept: Accept::Plane,
             tolerance: 0.001,
             coverage: Coverage::Conservative,
@@ -123,6 +138,9 @@ impl Config {
         if !(1..=2).contains(&self.levels) {
             return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");
         }
+        if !(1..=1024).contains(&self.layers) {
+            return refused("layers", self.layers.to_string(), "1 to 1024 layers");
+        }
         if !(0.0..=1.0).contains(&self.tolerance) {
             return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
         }
@@ -153,6 +171,10 @@ impl Config {
             Occupancy::Bounds => numbers::LDC_OCCUPANCY_BOUNDS,
             Occupancy::Slices => numbers::LDC_OCCUPANCY_SLICES,
         };
+        let making = match self.making {
+            Making::Single => numbers::LDC_BUILD_SINGLE,
+            Making::Peel => numbers::LDC_BUILD_PEEL,
+        };
         vec![
             (50, accept),
             (51, coverage),
@@ -161,6 +183,7 @@ impl Config {
             (54, self.block),
             (55, occupancy),
             (56, self.levels),
+            (57, making),
         ]
     }
 
@@ -173,6 +196,7 @@ impl Config {
             ("block", self.block.to_string()),
             ("levels", self.levels.to_string()),
             ("occupancy", lower(&self.occupancy)),
+            ("build", lower(&self.making)),
             ("accept", lower(&self.accept)),
             ("depth", self.depth.bits().to_string()),
             ("payload", "index".to_owned()),
@@ -181,6 +205,9 @@ impl Config {
         ];
         if self.accept == Accept::Tolerance {
             options.push(("tolerance", self.tolerance.to_string()));
+        }
+        if self.making == Making::Peel {
+            options.push(("layers", self.layers.to_string()));
         }
         options
     }

@@ -36,8 +36,8 @@ pub struct Header {
     pub long_capacity: u32,
     /// Lower corner of the geometry, metres relative to the frame origin.
     pub lower: [f32; 3],
-    /// Zero.
-    pub spare_lower: f32,
+    /// Fragments of the deepest cell; counted where layers are peeled, as the next three.
+    pub layer_demand: u32,
     /// Upper corner of the geometry, metres relative to the frame origin.
     pub upper: [f32; 3],
     /// Slices of depth a metre, for blocks that keep them.
@@ -56,4 +56,12 @@ pub struct Header {
     pub fringe_address: [u32; 2],
     /// Device address of the sums of the scan, and the long lists behind them.
     pub scratch_address: [u32; 2],
+    /// Layers that are peeled.
+    pub layer_capacity: u32,
+    /// Layers that may be peeled.
+    pub layer_limit: u32,
+    /// Fragments behind those.
+    pub beyond: u32,
+    /// Zero.
+    pub spare: u32,
 }

@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Config, Coverage, Depth, Header, Occupancy};
+use crate::{Config, Coverage, Depth, Header, Making, Occupancy};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
@@ -31,6 +31,8 @@ pub struct Demand {
     pub fringe: u64,
     /// Lists that one dispatch does not sort.
     pub long_lists: u64,
+    /// Fragments of the deepest cell, which is how many layers are peeled.
+    pub layers: u64,
 }
 
 /// What a layered depth cube of this configuration allocates to hold what a build may ask for.
@@ -60,7 +62,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (block_count(config), block_bytes),
         (heads, 4),
         (fringe, 8),
-        (scratch_words(config, demand.long_lists), 4),
+        (scratch_words(config, demand), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -76,22 +78,37 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// Words for the sums of the scan, and for two of each long list behind them.
-pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
-    Scan::sums(cell_count(config.resolution)) + 2 * long_lists
+/// Words for the sums of the scan, and behind them two of each long list, or one of each layer that is peeled.
+pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
+    let sorted_or_peeled = match config.making {
+        Making::Single => 2 * demand.long_lists,
+        Making::Peel => demand.layers,
+    };
+    Scan::sums(cell_count(config.resolution)) + sorted_or_peeled
+}
+
+/// Words that such pools have behind the sums.
+fn words_behind_sums(config: &Config, sizes: &Sizes) -> u64 {
+    sizes.elements("scratch").saturating_sub(scratch_words(config, Demand::default()))
 }
 
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
+    if config.making == Making::Single { words_behind_sums(config, sizes) / 2 } else { 0 }
+}
+
+/// Layers that are peeled into such pools.
+pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    if config.making == Making::Peel { words_behind_sums(config, sizes) } else { 0 }
 }
 
 /// The first guess where nothing has been counted: two fragments a cell, and a triangle beside the centre of
-/// every fourth.
+/// every fourth; and eight layers.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
     let fragments = config.fragments.unwrap_or(2 * cells);
-    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0 })
+    let layers = config.layers.min(8).into();
+    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0, layers })
 }
 
 /// Bytes for counted cells, places of fragments, triangles beside centres and long lists.
@@ -105,7 +122,7 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// Per triangle beside a centre: triangle and link 8.
     pub fringe: u64,
-    /// Header, a sum of 4 per 1024 cells for the scan, and 8 per long list.
+    /// Header, a sum of 4 per 1024 cells for the scan, and 8 per long list or 4 per layer peeled.
     pub rest: u64,
 }
 
@@ -118,7 +135,7 @@ impl FormulaBytes {
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
-    let Demand { fragments, fringe, long_lists } = demand;
+    let Demand { fragments, fringe, long_lists, layers } = demand;
     let side = u64::from(config.resolution);
     let blocks = side.div_ceil(u64::from(config.block));
     let upper = if config.levels == 2 { blocks.div_ceil(8) } else { 0 };
@@ -132,7 +149,9 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: 4 * fragments + depths,
         fringe: if kept { 8 * fringe } else { 0 },
-        rest: 152 + 4 * cells.div_ceil(1024) + 8 * long_lists,
+        rest: 168
+            + 4 * cells.div_ceil(1024)
+            + if config.making == Making::Peel { 4 * layers } else { 8 * long_lists },
     }
 }
 
@@ -148,11 +167,13 @@ mod tests {
             (33, 1, Depth::Bits16, Coverage::Exact),
             (1, 2, Depth::Bits32, Coverage::Exact),
         ] {
-            for (occupancy, levels) in [(Occupancy::Slices, 2), (Occupancy::Bounds, 1)] {
-                let config =
-                    Config { block, depth, coverage, occupancy, levels, ..Config::robust(resolution) };
+            for (occupancy, levels, making) in
+                [(Occupancy::Slices, 2, Making::Single), (Occupancy::Bounds, 1, Making::Peel)]
+            {
+                let robust = Config::robust(resolution);
+                let config = Config { block, depth, coverage, occupancy, levels, making, ..robust };
                 for fragments in [0, 12_344, 12_345] {
-                    let demand = Demand { fragments, fringe: 77, long_lists: 3 };
+                    let demand = Demand { fragments, fringe: 77, long_lists: 3, layers: 5 };
                     let sizes = plan(&config, demand).expect("options are in range");
                     assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total(), "{config:?}");
                 }
@@ -167,6 +188,7 @@ mod tests {
         assert!(refused(Config { block: 3, ..Config::robust(64) }).contains("block is 3"));
         assert!(refused(Config { block: 128, ..Config::robust(64) }).contains("block is 128"));
         assert!(refused(Config { levels: 3, ..Config::robust(64) }).contains("levels is 3"));
+        assert!(refused(Config { layers: 1025, ..Config::robust(64) }).contains("layers is 1025"));
         assert!(refused(Config { tolerance: f32::NAN, ..Config::robust(64) }).contains("tolerance"));
         assert!(refused(Config { work_budget: Some(1), ..Config::robust(64) }).contains("work budget"));
         let asked = |demand| plan(&Config::robust(64), demand).expect_err("refused").to_string();

@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGE
 use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
 
 use crate::build::Build;
-use crate::layout::{Demand, first_plan, formula_bytes, long_capacity, plan, scratch_words};
+use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, long_capacity, plan, scratch_words};
 use crate::{Config, Contents, Header};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most.
@@ -86,6 +86,8 @@ impl LayeredDepthCube {
             capacity: self.pools.sizes().elements("primitives") as u32,
             fringe_capacity: self.pools.sizes().elements("fringe") as u32,
             long_capacity: long_capacity(&self.config, self.pools.sizes()) as u32,
+            layer_capacity: layer_capacity(&self.config, self.pools.sizes()) as u32,
+            layer_limit: self.config.layers,
             slices_a_metre: LDC_SLICES as f32 / size,
             resolution: self.config.resolution,
             cell: size / self.config.resolution as f32,
@@ -169,6 +171,14 @@ impl Structure for LayeredDepthCube {
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        let layers = layer_capacity(&self.config, sizes);
+        if layers > self.config.layers.into() {
+            return Err(AdsError::Option {
+                option: "layers",
+                value: format!("{}, and the deepest cell has {layers} fragments", self.config.layers),
+                expected: "as many layers as the deepest cell has fragments, up to 1024, or `build=single`",
+            });
+        }
         self.pools.resize(device, sizes)
     }
 
@@ -204,6 +214,11 @@ impl Structure for LayeredDepthCube {
                     demand: header.long_demand.into(),
                     capacity: header.long_capacity.into(),
                 },
+                PoolStatus {
+                    name: "layers",
+                    demand: header.layer_demand.into(),
+                    capacity: header.layer_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -220,6 +235,7 @@ impl Structure for LayeredDepthCube {
             fragments: demand("fragments").max(room("primitives")),
             fringe: demand("fringe").max(room("fringe")),
             long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
+            layers: demand("layers").max(layer_capacity(&self.config, self.pools.sizes())),
         };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
@@ -263,13 +279,14 @@ impl Structure for LayeredDepthCube {
             fragments: header.demand.into(),
             fringe: header.fringe_demand.into(),
             long_lists: header.long_demand.into(),
+            layers: header.layer_demand.into(),
         };
         let depth_words = demand.fragments.div_ceil(u64::from(32 / self.config.depth.bits()));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "depths" => depth_words,
             "primitives" => demand.fragments,
             "fringe" => demand.fringe,
-            "scratch" => scratch_words(&self.config, demand.long_lists),
+            "scratch" => scratch_words(&self.config, demand),
             _ => pool.elements,
         });
         Ok(StructureReport {

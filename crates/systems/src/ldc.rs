@@ -1,6 +1,6 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Occupancy};
+use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,7 +18,9 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 14] = [
+const OPTIONS: [&str; 16] = [
+    "build",
+    "layers",
     "resolution",
     "block",
     "levels",
@@ -49,6 +51,8 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         match given.name {
             "resolution" => config.resolution = given.number()?,
             "block" => config.block = given.number()?,
+            "layers" => config.layers = given.number()?,
+            "build" => config.making = given.choice(&[("single", Making::Single), ("peel", Making::Peel)])?,
             "levels" => config.levels = given.number()?,
             "occupancy" => {
                 config.occupancy =

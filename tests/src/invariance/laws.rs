@@ -41,6 +41,8 @@ pub const LAWS: &[Law] = &[
     same("corners", &["on", "off"]),
     same("inline", &["on", "off"]),
     same("leaf", &["1", "16"]),
+    same("build", &["single", "peel"]),
+    same("layers", &["256", "1024"]),
     same("levels", &["1", "2"]),
     same("occupancy", &["bounds", "slices"]),
     same("page", &["1", "2", "4", "8"]),
