@@ -1,17 +1,22 @@
 //! Rays from the host, hits back to the host.
 
+use std::time::Instant;
+
 use rasray_ads::{
     Counters, Hit, QueueCounters, QueueHeader, QueueParts, Ray, RayQueue, RayWork, Structure, TraceMode,
 };
 use rasray_gpu::{Device, PassTiming, Timing};
 
+use crate::share::Shares;
 use crate::{Replay, TracerError};
 
-/// Traces batches of rays of any length through a queue of fixed capacity.
+/// Traces batches of rays of any length through a queue of fixed capacity. A submission to a structure that has not been
+/// traced yet is small, and later ones hold as many rays as fit into a second; which rays share a submission changes no hit.
 #[derive(Debug)]
 pub struct BatchTracer {
     device: Device,
     queue: RayQueue,
+    shares: Shares,
 }
 
 /// Hits and what they cost.
@@ -19,7 +24,7 @@ pub struct BatchTracer {
 pub struct TraceOutcome {
     /// One per ray, in order.
     pub hits: Vec<Hit>,
-    /// Trace passes, one per chunk.
+    /// Trace passes, one per submission.
     pub passes: Vec<PassTiming>,
     /// Sums over all rays; work is zero unless the structure counts it.
     pub counters: QueueCounters,
@@ -41,10 +46,11 @@ impl BatchTracer {
     /// Out of memory.
     pub fn new(device: &Device, capacity: u32) -> Result<Self, TracerError> {
         let parts = QueueParts { work: true, ..QueueParts::default() };
-        Ok(Self { device: device.clone(), queue: RayQueue::with_parts(device, "batch", capacity, parts)? })
+        let queue = RayQueue::with_parts(device, "batch", capacity, parts)?;
+        Ok(Self { device: device.clone(), queue, shares: Shares::default() })
     }
 
-    /// Traces all rays, chunk by chunk, in at most [`Structure::rounds`] rounds.
+    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds.
     ///
     /// # Errors
     /// The device fails, rays do not finish, or the structure is not built.
@@ -58,12 +64,18 @@ impl BatchTracer {
         let rounds = structure.rounds();
         let mut outcome = TraceOutcome { hits: Vec::with_capacity(rays.len()), ..TraceOutcome::default() };
         self.device.submit(|recorder| self.queue.record_reset(recorder))?;
-        for chunk in rays.chunks(self.queue.capacity() as usize) {
+        let mut rest = rays;
+        while !rest.is_empty() {
+            let share = self.shares.of(structure.name(), self.queue.capacity()) as usize;
+            let (chunk, others) = rest.split_at(share.min(rest.len()));
+            rest = others;
             let count = chunk.len() as u32;
             self.device.upload_slice(self.queue.rays(), 0, chunk)?;
+            let started = Instant::now();
             let submitted = self.device.submit_passes(timing, |recorder| {
                 structure.record_trace(recorder, &self.queue, count, mode, rounds);
             })?;
+            self.shares.learn(structure.name(), count, started.elapsed().as_secs_f64());
             outcome.passes.extend(submitted.passes);
             outcome.hits.extend(self.device.download_as::<Hit>(self.queue.hits(), 0, chunk.len())?);
             if structure.counters() >= Counters::PerRay {

@@ -6,6 +6,7 @@ mod batch;
 mod build;
 mod error;
 mod replay;
+mod share;
 
 pub use batch::{BatchTracer, TraceOutcome};
 pub use build::{BuildOutcome, build_until_complete};

@@ -12,6 +12,8 @@ const FEW_CELLS: &str = "triangles of two or three cells, of which the turned vi
 
 const FAR_PLATES: &str =
     "plates so far off that they fill a few cells only, all of whose centres are near an edge";
+const CORNER: &str = "rays at the ends of the diagonal, where centres of cells lie beside the quad";
+const LEFT_PLATES: &str = "plates so near to where rays begin that these count as leaving them";
 const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
 const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
 
@@ -71,6 +73,7 @@ pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.435, 0.68),
     deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("E1", CORNER, 0.016, 0.026),
     deviation("V1", EDGE_ON, 0.99, 1.0),
     deviation("V2-1", EDGE_ON, 0.107, 0.168),
     deviation("V2-2", EDGE_ON, 0.597, 0.934),
@@ -80,6 +83,7 @@ pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("V2-6", EDGE_ON, 0.78, 1.0),
     deviation("V7", FEW_CELLS, 0.049, 0.079),
     deviation("V16", THIN, 0.74, 1.0),
+    deviation("Z3-3", LEFT_PLATES, 0.012, 0.02),
     deviation("X1", FEW_CELLS, 0.355, 0.556),
     deviation("X10", FEW_CELLS, 0.085, 0.135),
     deviation("T2", NEEDLE, 0.69, 1.0),
