@@ -8,9 +8,19 @@
 
 #include "ads/bricks.glsl"
 
-// One step along a further axis: the reach so far, and what the brick `k` farther along that axis reaches.
-uint brick_reach_with(uint reach, uint k, uint reach_there) {
-    return min(reach, max(k, reach_there));
+// A line of bricks is gone through once in each direction, with the lengths of the runs that end at the brick: nibble v - 1
+// counts bricks in a row that reach v or more, BRICK_REACH at most. Before the first brick everything is empty.
+#define BRICK_RUNS_BEGIN 0x88888888u
+
+// The runs that end at a brick, from those that end before it and what it reaches along the axes so far.
+uint brick_runs_with(uint runs, uint reach) {
+    uint longer = runs + 0x11111111u - (runs >> 3 & 0x11111111u);
+    return reach < BRICK_REACH ? longer & ((1u << (4u * reach)) - 1u) : longer;
+}
+
+// The reach of the brick that runs end at, this axis included: the largest v whose run is v long.
+uint brick_reach_of(uint runs) {
+    return uint(bitCount((runs + 0x01234567u) & 0x88888888u));
 }
 
 // The word of an empty brick from its eight reaches.

@@ -95,6 +95,16 @@ void march_find_exit(inout CellMarch m) {
     }
 }
 
+// The cell that the ray is in at t, one of the border beyond the face.
+ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
+    vec3 p = origin + t * direction;
+    vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
+    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the walk
+    // corrects itself because steps follow boundaries, not points.
+    q = vec2(q.x >= 0.0 ? min(q.x, float(resolution)) : -1.0, q.y >= 0.0 ? min(q.y, float(resolution)) : -1.0);
+    return ivec2(floor(q));
+}
+
 // Starts a walk. origin and direction are in face space; the segment [t_begin, t_end] lies in the
 // face's pyramid within rounding. t_error bounds the error of t_begin.
 CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
@@ -107,12 +117,7 @@ CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begi
     precise vec2 behind = origin.xy * direction.z;
     m.step_direction = ivec2(ahead.x > behind.x ? 1 : (ahead.x < behind.x ? -1 : 0),
         ahead.y > behind.y ? 1 : (ahead.y < behind.y ? -1 : 0));
-    vec3 p = origin + t_begin * direction;
-    vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
-    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the walk
-    // corrects itself because steps follow boundaries, not points.
-    q = vec2(q.x >= 0.0 ? min(q.x, float(resolution)) : -1.0, q.y >= 0.0 ? min(q.y, float(resolution)) : -1.0);
-    m.cell = ivec2(floor(q));
+    m.cell = march_cell_at(origin, direction, t_begin, resolution);
     m.t_in = t_begin;
     m.error_in = t_error;
     m.t_out = t_begin;

@@ -15,17 +15,11 @@
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PrimitiveTriangleAddress { vec3 corners[]; };
 #define PRIMITIVE_RECORDS(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).records_address).words
-#define PRIMITIVE_PAIRS(s) PrimitiveWordAddress(PRIMITIVE_HEADER(s).triangles_address).words
 #define PRIMITIVE_CORNERS(s) PrimitiveTriangleAddress(PRIMITIVE_HEADER(s).triangles_address).corners
 #else
 layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveRecordsBuffer { uint primitive_record_words[]; };
-#ifdef PRIMITIVE_BINNING
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer PrimitivePairsBuffer { uint primitive_pair_words[]; };
-#else
 layout(set = STRUCTURE_SET, binding = 7, scalar) buffer PrimitiveTrianglesBuffer { vec3 primitive_corners[]; };
-#endif
 #define PRIMITIVE_RECORDS(s) primitive_record_words
-#define PRIMITIVE_PAIRS(s) primitive_pair_words
 #define PRIMITIVE_CORNERS(s) primitive_corners
 #endif
 
@@ -70,13 +64,31 @@ bool brick_has_nothing(PrimitiveRef s, uint brick) {
     return (PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 0u)] | PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 1u)]) == 0u;
 }
 
-// Files a record, or counts that there was no room for it.
+// Sets the bits of the cells of a record.
+void brick_mark(PrimitiveRef s, BrickRecord record) {
+    uint tiles = PRIMITIVE_HEADER(s).tiles;
+    uint slices = PRIMITIVE_HEADER(s).slices;
+    for (uint slice = record.first & ~1u; slice <= record.last; slice += 2u) {
+        ivec3 cell = ivec3(record.x, record.y, slice);
+        uint bit = brick_bit(cell);
+        uint bits = (slice >= record.first ? 1u << bit : 0u) | (slice < record.last ? 1u << (bit + 16u) : 0u);
+        uint brick = brick_index(record.face, cell, tiles, slices);
+        uint word = brick_mask_at(brick, brick_word(cell));
+        // Most bits are set already, and reading is cheaper.
+        if ((PRIMITIVE_BRICKS(s)[word] & bits) != bits) {
+            atomicOr(PRIMITIVE_BRICKS(s)[word], bits);
+        }
+    }
+}
+
+// Files a record and marks its cells, or counts that there was no room for it.
 void brick_file_record(PrimitiveRef s, BrickRecord record) {
     uint place = atomicAdd(PRIMITIVE_HEADER(s).record_demand, 1u);
     if (place < PRIMITIVE_HEADER(s).record_capacity) {
         PRIMITIVE_RECORDS(s)[3u * place] = record.primitive;
         PRIMITIVE_RECORDS(s)[3u * place + 1u] = record.x | record.y << 12 | record.face << 24;
         PRIMITIVE_RECORDS(s)[3u * place + 2u] = record.first | record.last << 16;
+        brick_mark(s, record);
     }
 }
 
@@ -87,16 +99,22 @@ BrickRecord brick_record(PrimitiveRef s, uint place) {
         slices & 0xFFFFu, slices >> 16);
 }
 
-// Cells before the one at `bit` of word `word` that list something, in its brick.
-uint brick_rank(PrimitiveRef s, uint brick, uint word, uint bit) {
-    uint before = uint(bitCount(PRIMITIVE_BRICKS(s)[brick_mask_at(brick, word)] & ((1u << bit) - 1u)));
-    return before + (word != 0u ? uint(bitCount(PRIMITIVE_BRICKS(s)[brick_mask_at(brick, 0u)])) : 0u);
+// The words of a brick while its own is that of the scan.
+struct BrickWords {
+    uint before;          // cells that list something in all bricks before
+    uvec2 mask;
+};
+
+BrickWords brick_words(PrimitiveRef s, uint face, ivec3 cell, uint tiles, uint slices) {
+    uint at = brick_at(brick_index(face, cell, tiles, slices));
+    return BrickWords(PRIMITIVE_BRICKS(s)[at], uvec2(PRIMITIVE_BRICKS(s)[at + 1u], PRIMITIVE_BRICKS(s)[at + 2u]));
 }
 
-// The list of a cell that lists something, while the words of bricks are those of the scan.
-uint brick_list(PrimitiveRef s, uint face, ivec3 cell, uint tiles, uint slices) {
-    uint brick = brick_index(face, cell, tiles, slices);
-    return PRIMITIVE_BRICKS(s)[brick_at(brick)] + brick_rank(s, brick, brick_word(cell), brick_bit(cell));
+// The list of a cell of the brick that lists something.
+uint brick_list(BrickWords words, ivec3 cell) {
+    bool second = brick_word(cell) != 0u;
+    uint below = (1u << brick_bit(cell)) - 1u;
+    return words.before + uint(second ? bitCount(words.mask.x) + bitCount(words.mask.y & below) : bitCount(words.mask.x & below));
 }
 
 #endif

@@ -1,11 +1,11 @@
 // What: files triangles that may reach into many columns; one workgroup a triangle and face, blocks of columns by turns.
-// Reads: geometry, header, pairs. Writes: records, header.record_demand, header.demand.
+// Reads: geometry, header, pairs. Writes: records, bricks (masks), header.record_demand, header.demand.
 // Source: DIRT section 3.2, by computing instead of drawing.
 // With PRIMITIVE_BRICK_SIDE_LIMIT columns a side an invocation gets 1,024 blocks of 16 columns: its loops turn 21,504
 // times at most.
 #version 460
 #include "contract/extensions.glsl"
-#define PRIMITIVE_BINNING
+#include "primitive/bin_pairs.glsl"
 #include "primitive/brick_bin.glsl"
 
 layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
@@ -14,31 +14,28 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
 };
 
-const int BLOCK = 4;
-
 void main() {
-    uint place = gl_WorkGroupID.y * PRIMITIVE_PAIR_ROW + gl_WorkGroupID.x;
+    uint pair;
     uint triangles = geometry_triangle_count();
-    if (place >= min(PRIMITIVE_HEADER(primitive_built).pairs, PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(primitive_built).triangle_capacity)) {
+    if (!bin_left(primitive_built, gl_WorkGroupID.y * PRIMITIVE_PAIR_ROW + gl_WorkGroupID.x, pair)) {
         return;
     }
-    uint pair = PRIMITIVE_PAIRS(primitive_built)[place];
     uint primitive = pair % triangles;
     vec3 a;
     vec3 b;
     vec3 c;
     BrickBin bin;
-    if (!brick_bin_corners(primitive_built, primitive, a, b, c)
+    if (!bin_corners(primitive_built, primitive, a, b, c)
         || !brick_bin_begin(primitive_grid(primitive_built), primitive_slices(primitive_built), primitive, pair / triangles, a, b, c, bin)) {
         return;
     }
     uint entries = 0u;
-    ivec2 blocks = (bin.upper - bin.lower) / BLOCK + 1;
+    ivec2 blocks = (bin.upper - bin.lower) / PRIMITIVE_BIN_BLOCK + 1;
     for (int block = int(gl_LocalInvocationID.x); block < blocks.x * blocks.y; block += int(PRIMITIVE_GROUP_SIZE)) {
-        ivec2 lower = bin.lower + BLOCK * ivec2(block % blocks.x, block / blocks.x);
+        ivec2 lower = bin.lower + PRIMITIVE_BIN_BLOCK * ivec2(block % blocks.x, block / blocks.x);
         vec2 depths;
-        if (brick_bin_depths(bin, lower, BLOCK, depths)) {
-            entries += brick_bin_columns(primitive_built, bin, lower, min(lower + BLOCK - 1, bin.upper));
+        if (brick_bin_depths(bin, lower, PRIMITIVE_BIN_BLOCK, depths)) {
+            entries += brick_bin_columns(primitive_built, bin, lower, min(lower + PRIMITIVE_BIN_BLOCK - 1, bin.upper));
         }
     }
     if (entries > 0u) {

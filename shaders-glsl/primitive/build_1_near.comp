@@ -22,7 +22,7 @@ void main() {
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    vec3 eye = PRIMITIVE_HEADER(primitive_built).eye;
+    vec3 eye = PRIMITIVE_HEADER(primitive_built).centre;
     vec3 lower = min(a, min(b, c)) - eye;
     vec3 upper = max(a, max(b, c)) - eye;
     float size = PRIMITIVE_HEADER(primitive_built).near_size + PRIMITIVE_HEADER(primitive_built).rounding;

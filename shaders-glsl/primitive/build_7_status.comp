@@ -16,6 +16,7 @@ void main() {
         && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
     bool fits = lists_fit && PRIMITIVE_HEADER(primitive_built).record_demand <= PRIMITIVE_HEADER(primitive_built).record_capacity
         && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity
+        && PRIMITIVE_HEADER(primitive_built).pairs <= PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(primitive_built).triangle_capacity
         && (PRIMITIVE_STORAGE != PRIMITIVE_STORAGE_BRICKS || geometry_triangle_count() <= PRIMITIVE_HEADER(primitive_built).triangle_capacity);
     PRIMITIVE_HEADER(primitive_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
 }

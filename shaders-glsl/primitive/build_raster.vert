@@ -22,9 +22,11 @@ void main() {
     primitive_face_vertices(primitive_built, primitive, face, a, b, c);
     if (!primitive_is_listed(primitive)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    } else if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_EXACT) {
+    } else if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_CONSERVATIVE) {
         // The centre of every cell that the triangle reaches into, with 1/32 of a cell for the hardware's grid.
         float margin = 1.0 / float(tiles) + primitive_margin(grid, a, b, c) + 1.0 / (16.0 * float(tiles));
+        // Columns of bricks reach farther beyond their sides: brick_margin.
+        margin += PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS ? 2.0e-6 : 0.0;
         gl_Position = coverage_proposal_within(a, b, c, corner, tiles, margin);
     } else {
         vec3 p = corner == 0u ? a : (corner == 1u ? b : c);

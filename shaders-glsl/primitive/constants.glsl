@@ -9,12 +9,28 @@
 
 // Which cells list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
-#define PRIMITIVE_COVERAGE_EXACT 1u
+#define PRIMITIVE_COVERAGE_CONSERVATIVE 1u
+
+// When a triangle that the ray meets is a hit: by its t alone, or only where it lies in the tile that listed it.
+#define PRIMITIVE_ACCEPT_T 0u
+#define PRIMITIVE_ACCEPT_TILE 1u
+
+// Where the search of a tile ends: at buckets behind the best hit, or after the first bucket with a hit.
+#define PRIMITIVE_STOP_BEST 0u
+#define PRIMITIVE_STOP_BUCKET 1u
+
+// The depths of a triangle in a tile: of all of it, or of its plane at the corners of the tile.
+#define PRIMITIVE_DEPTHS_CLIPPED 0u
+#define PRIMITIVE_DEPTHS_CORNERS 1u
+
+// How a ray goes on from a tile: over the next boundary, or half a pixel on.
+#define PRIMITIVE_MARCH_EXACT 0u
+#define PRIMITIVE_MARCH_JUMP 1u
 
 // What a compute pass of the binning builder does with a triangle in a cell.
-#define PRIMITIVE_VISIT_BOUNDS 1u
-#define PRIMITIVE_VISIT_COUNT 2u
-#define PRIMITIVE_VISIT_STORE 3u
+#define PRIMITIVE_VISIT_BOUNDS 1
+#define PRIMITIVE_VISIT_COUNT 2
+#define PRIMITIVE_VISIT_STORE 3
 
 // Rays whose origin is farther from the eye than this many times the geometry are tested against every
 // triangle: their rounding exceeds what the cells near the eye can bear.
@@ -43,8 +59,12 @@
 
 // Most columns that one invocation of the binning builder looks at; triangles with more get a workgroup.
 #define PRIMITIVE_BIN_COLUMNS 64
+// Columns a side of the blocks that an invocation of such a workgroup looks at by turns.
+#define PRIMITIVE_BIN_BLOCK 4
 // Words a triangle for those: one a face.
 #define PRIMITIVE_PAIR_LIMIT 6u
+// Most turns of all loops of such an invocation.
+#define PRIMITIVE_BIN_TURNS 30000
 // Workgroups a row of that dispatch.
 #define PRIMITIVE_PAIR_ROW 32768u
 

@@ -13,7 +13,7 @@
 // The corners of a triangle as a face sees them.
 void primitive_face_vertices(PrimitiveRef s, uint primitive, uint face, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
-    vec3 eye = PRIMITIVE_HEADER(s).eye;
+    vec3 eye = PRIMITIVE_HEADER(s).centre;
     a = face_from_world(a - eye, face);
     b = face_from_world(b - eye, face);
     c = face_from_world(c - eye, face);
@@ -34,10 +34,12 @@ struct PrimitiveGrid {
     uint tiles;
     float near_size;
     float rounding;
+    float reach;
 };
 
 PrimitiveGrid primitive_grid(PrimitiveRef s) {
-    return PrimitiveGrid(PRIMITIVE_HEADER(s).tiles, PRIMITIVE_HEADER(s).near_size, PRIMITIVE_HEADER(s).rounding);
+    return PrimitiveGrid(PRIMITIVE_HEADER(s).tiles, PRIMITIVE_HEADER(s).near_size, PRIMITIVE_HEADER(s).rounding,
+        PRIMITIVE_HEADER(s).reach);
 }
 
 // How far cells reach beyond their sides, in x/z, so that rounding moves no triangle out of a cell in

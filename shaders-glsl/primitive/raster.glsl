@@ -4,7 +4,7 @@
 #ifndef PRIMITIVE_RASTER_GLSL
 #define PRIMITIVE_RASTER_GLSL
 
-#include "primitive/overlap.glsl"
+#include "primitive/corner_depths.glsl"
 
 layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
@@ -24,9 +24,12 @@ bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cel
         if (!primitive_overlap(grid, a, b, c, place, depths)) {
             depths = vec2(1.0 / frag_coord.w);
         }
+        if (PRIMITIVE_DEPTHS == PRIMITIVE_DEPTHS_CORNERS) {
+            depths = primitive_corner_depths(grid, a, b, c, place);
+        }
         return frag_coord.w > 0.0;
     }
-    return primitive_overlap(grid, a, b, c, place, depths);
+    return primitive_reaches(grid, a, b, c, place, depths);
 }
 
 #endif

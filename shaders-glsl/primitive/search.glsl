@@ -1,12 +1,12 @@
 // What: searches the lists of one cell, bucket by bucket in the order of the ray.
 // Reads: bounds, lists, entries, geometry. Writes: header.corrupted.
-// Source: DIRT section 3.3. Buckets behind the best hit are left out, never those before it: a triangle
-// stands in every bucket it reaches into, so the first bucket with a hit need not hold the nearest.
+// Source: DIRT section 4.2.1. Buckets behind the best hit are left out, never those before it: a triangle
+// stands in every bucket it reaches into, so the first bucket with a hit need not hold the nearest. PRIMITIVE_STOP_BUCKET
+// is the paper's rule, after which it ends the search of the tile.
 #ifndef PRIMITIVE_SEARCH_GLSL
 #define PRIMITIVE_SEARCH_GLSL
 
-#include "ads/judge.glsl"
-#include "primitive/lists.glsl"
+#include "primitive/rules.glsl"
 
 // One search, able to stop between two entries.
 struct PrimitiveSearch {
@@ -15,15 +15,16 @@ struct PrimitiveSearch {
     float t_high;
     bool begun;           // `bucket` is the one to go on with
     bool in_list;         // its list has been begun
+    bool found;           // the best hit is one of this bucket
     uint bucket;
     PrimitiveCursor list;
 };
 
-// Tests a candidate. A hit counts by its t alone, in whatever cell it lies.
-void primitive_test(uint primitive, Ray ray, inout TraceState state) {
+// Tests a candidate. A hit counts by its t alone, in whatever cell it lies. True if it became the best.
+bool primitive_test(uint primitive, Ray ray, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;
-    test_triangle(ray, primitive, -infinity, infinity, state.best);
+    return test_triangle(ray, primitive, -infinity, infinity, state.best);
 }
 
 // Depths between two t, widened by rounding: that of the ray, and `rounding` of the triangles.
@@ -35,8 +36,10 @@ vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float 
 }
 
 // Returns true if the work budget ended before the search did. `slack` bounds the error of a t.
-bool primitive_search(PrimitiveRef s, Ray ray, float origin_z, float direction_z, float slack, bool any_hit,
-    inout PrimitiveSearch search, inout TraceState state, inout uint work) {
+bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, bool any_hit, inout PrimitiveSearch search,
+    inout TraceState state, inout uint work) {
+    float origin_z = tile.origin.z;
+    float direction_z = tile.direction.z;
     PrimitiveBounds bounds = primitive_bounds(s, search.cell);
     if (bounds.empty) {
         trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
@@ -74,6 +77,7 @@ bool primitive_search(PrimitiveRef s, Ray ray, float origin_z, float direction_z
             work++;
             search.list = primitive_list_begin(s, primitive_list(search.cell, search.bucket));
             search.in_list = true;
+            search.found = false;
             trace_log(STEP_LIST, search.bucket, search.list.at, 0u, depths.x, depths.y);
         }
         while (!primitive_list_ended(search.list)) {
@@ -85,11 +89,17 @@ bool primitive_search(PrimitiveRef s, Ray ray, float origin_z, float direction_z
             uint primitive = primitive_list_next(s, search.list);
             trace_log(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
             if (primitive != PRIMITIVE_NONE) {
-                primitive_test(primitive, ray, state);
+                bool better = PRIMITIVE_ACCEPT == PRIMITIVE_ACCEPT_TILE
+                    ? primitive_test_in_tile(s, tile, primitive, ray, state) : primitive_test(primitive, ray, state);
+                search.found = search.found || better;
             }
             if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
                 return false;
             }
+        }
+        if (PRIMITIVE_STOP == PRIMITIVE_STOP_BUCKET && search.found) {
+            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, depths.x, depths.y);
+            return false;
         }
         if (search.bucket == (away ? PRIMITIVE_BUCKETS - 1u : 0u)) {
             return false;

@@ -6,7 +6,7 @@
 #ifndef PRIMITIVE_TRACE_GLSL
 #define PRIMITIVE_TRACE_GLSL
 
-#include "primitive/walk.glsl"
+#include "primitive/leap.glsl"
 #include "primitive/brick_trace.glsl"
 
 // Tests triangles one by one: those of the near list, or all. True if the budget ended first.
@@ -45,16 +45,24 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             }
             work++;
             state.cells++;
+            MarchLeap leap;
+            // What is touched beside a cell lies within the bounds of its block.
+            if (PRIMITIVE_PYRAMID != 0u && all(equal(walk.searched, walk.cells.cell)) && primitive_leap(s, walk, leap)) {
+                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, walk.search.t_low, leap.t_out);
+                more = primitive_take_leap(s, walk, leap);
+                continue;
+            }
             walk.searching = true;
             trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
         }
-        if (primitive_search(s, ray, walk.origin.z, walk.direction.z, slack, any_hit, walk.search, state, work)) {
+        PrimitiveTile tile = PrimitiveTile(walk.origin, walk.direction, walk.searched);
+        if (primitive_search(s, ray, tile, slack, any_hit, walk.search, state, work)) {
             return true;
         }
         if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
             return false;
         }
-        more = primitive_next_cell(walk);
+        more = primitive_next_cell(s, walk);
     }
     return false;
 }
@@ -84,7 +92,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     if ((PRIMITIVE_HEADER(s).status & STATUS_COMPLETE) == 0u) {
         return TRACE_NOT_READY;
     }
-    vec3 origin = ray.origin - PRIMITIVE_HEADER(s).eye;
+    vec3 origin = ray.origin - PRIMITIVE_HEADER(s).centre;
     vec3 direction = ray.direction;
     float reach = PRIMITIVE_HEADER(s).reach;
     float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));

@@ -11,9 +11,15 @@
 // Constant ids 30 to 49 belong to primitive lists.
 layout(constant_id = 30) const uint PRIMITIVE_BUCKETS = 16u;
 layout(constant_id = 31) const uint PRIMITIVE_STORAGE = PRIMITIVE_STORAGE_CONTIGUOUS;
-layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_EXACT;
+layout(constant_id = 32) const uint PRIMITIVE_COVERAGE = PRIMITIVE_COVERAGE_CONSERVATIVE;
 layout(constant_id = 33) const uint PRIMITIVE_SKIP = 1u;
 layout(constant_id = 34) const uint PRIMITIVE_CORNERS_KEPT = 0u;
+// What follows is of lists alone; the other value of each is the paper's and loses hits.
+layout(constant_id = 35) const uint PRIMITIVE_ACCEPT = PRIMITIVE_ACCEPT_T;
+layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
+layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
+layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
+layout(constant_id = 39) const uint PRIMITIVE_PYRAMID = 0u;
 
 // State and sizes of one value. 328 bytes.
 struct PrimitiveHeader {
@@ -24,14 +30,14 @@ struct PrimitiveHeader {
     uint near_capacity;
     uint corrupted;       // list entries that named no node
     uint tiles;           // cells a side of a face, border not counted
-    uint spare;
-    float reach;          // metres: farthest that the geometry is from the eye along an axis
+    uint tile;            // pixels a side of a cell
+    float reach;          // metres: farthest that the geometry is from the centre along an axis
     float near_size;      // metres: half side of the near box
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     float spare_length;
-    vec3 eye;             // metres relative to the frame origin: common centre of the faces
-    float spare_eye;
-    vec3 lower;           // bounds of the geometry relative to the eye, metres
+    vec3 centre;          // metres relative to the frame origin: of the faces
+    float spare_centre;
+    vec3 lower;           // bounds of the geometry relative to the centre, metres
     float spare_lower;
     vec3 upper;
     float spare_upper;

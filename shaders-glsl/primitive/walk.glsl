@@ -5,8 +5,8 @@
 #ifndef PRIMITIVE_WALK_GLSL
 #define PRIMITIVE_WALK_GLSL
 
-#include "ads/march_cells.glsl"
 #include "ads/march_cube.glsl"
+#include "primitive/jump.glsl"
 #include "primitive/search.glsl"
 
 // In place of a face: the ray is tested against every triangle.
@@ -36,27 +36,40 @@ void primitive_begin_walk(PrimitiveRef s, vec3 origin, vec3 direction, inout Pri
     walk.searching = false;
     walk.search.begun = false;
     walk.search.in_list = false;
+    walk.search.found = false;
     if (primitive_walks_cells(walk)) {
         walk.origin = face_from_world(origin, walk.segment.face);
         walk.direction = face_from_world(direction, walk.segment.face);
         walk.cells = march_begin(walk.origin, walk.direction, PRIMITIVE_HEADER(s).tiles, walk.segment.t_begin, walk.segment.t_end,
             walk.segment.t_error);
         walk.searched = walk.cells.cell;
+        if (PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP) {
+            walk.cells.neighbours = 0u;
+        }
     }
 }
 
 // Prepares the search of the cell the walk is at.
 void primitive_begin_search(PrimitiveRef s, inout PrimitiveWalk walk) {
     walk.search.t_low = walk.cells.t_in - walk.cells.error_in;
+    if (PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP) {
+        walk.search.t_low = min(walk.search.t_low, primitive_jumped_entry(walk.cells, walk.segment.t_begin));
+    }
     walk.search.t_high = walk.cells.t_out + walk.cells.error_out;
     walk.search.cell = cell_index(walk.segment.face, walk.searched, PRIMITIVE_HEADER(s).tiles);
 }
 
 // Goes to the next cell; false at the end of the segment.
-bool primitive_next_cell(inout PrimitiveWalk walk) {
+bool primitive_next_cell(PrimitiveRef s, inout PrimitiveWalk walk) {
     walk.searching = false;
     walk.search.begun = false;
     walk.search.in_list = false;
+    walk.search.found = false;
+    if (PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP) {
+        bool jumped = primitive_jump(s, walk.cells, march_leap_of_one(walk.cells));
+        walk.searched = walk.cells.cell;
+        return jumped;
+    }
     if (march_take_neighbour(walk.cells, walk.searched)) {
         return true;
     }
@@ -76,7 +89,8 @@ ivec2 primitive_unpacked_cell(uint word) {
 void primitive_save(PrimitiveWalk walk, inout TraceState state) {
     bool cells = primitive_walks_cells(walk);
     state.cursor[0] = PRIMITIVE_CURSOR_STARTED | (walk.searching ? PRIMITIVE_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (walk.search.in_list ? 32u : 0u) | (cells ? walk.cells.neighbours << 6 | walk.search.bucket << 16 : 0u);
+        | (walk.search.in_list ? 32u : 0u) | (walk.search.found ? 1u << 15 : 0u)
+        | (cells ? walk.cells.neighbours << 6 | walk.search.bucket << 16 : 0u);
     state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
     state.cursor[2] = floatBitsToUint(walk.segment.t_end);
     state.cursor[3] = primitive_packed_cell(walk.cells.cell);
@@ -105,6 +119,7 @@ void primitive_restore(PrimitiveRef s, vec3 origin, vec3 direction, vec2 near, T
     walk.searching = (flags & PRIMITIVE_CURSOR_SEARCHING) != 0u;
     walk.search.begun = walk.searching;
     walk.search.in_list = (flags & 32u) != 0u;
+    walk.search.found = (flags & 1u << 15) != 0u;
     walk.search.bucket = (flags >> 16) & 63u;
     if (walk.search.in_list) {
         uint cell = cell_index(walk.segment.face, walk.searched, PRIMITIVE_HEADER(s).tiles);

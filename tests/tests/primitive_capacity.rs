@@ -3,7 +3,8 @@
 
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_ads_primitive::{
-    Addressing, Config, Contents, Demand, Fault, PrimitiveLists, Storage, formula_bytes, plan, well_formed,
+    Addressing, Builder, Config, Contents, Demand, Fault, PrimitiveLists, Storage, formula_bytes, plan,
+    well_formed,
 };
 use rasray_gpu::Timing;
 use rasray_shaders_glsl::constants::ads::BRICK_EMPTY;
@@ -65,9 +66,12 @@ fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> PrimitiveLists
 }
 
 fn every_edge_capacity(storage: Storage, addressing: Addressing) {
+    every_edge_capacity_of(Config { storage, addressing, buckets: 4, ..Config::robust(32) });
+}
+
+fn every_edge_capacity_of(config: Config) {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
-    let config = Config { storage, addressing, buckets: 4, ..Config::robust(32) };
     let mut structure = made(&bench, config, &triangles);
 
     // Ample room: what the demand and the hits are.
@@ -119,6 +123,14 @@ fn every_edge_capacity_of_contiguous_lists() {
 #[test]
 fn every_edge_capacity_of_linked_lists() {
     every_edge_capacity(Storage::Linked, Addressing::Descriptor);
+}
+
+/// Those that are not the usual ones of their storages.
+#[test]
+fn every_edge_capacity_of_either_builder() {
+    let lists = Config { buckets: 4, builder: Some(Builder::Binning), pyramid: true, ..Config::robust(32) };
+    every_edge_capacity_of(Config { storage: Storage::Contiguous, ..lists });
+    every_edge_capacity_of(Config { builder: Some(Builder::Raster), ..Config::robust(32) });
 }
 
 #[test]
@@ -179,10 +191,16 @@ fn bricks_grow_from_any_room_to_what_they_need() {
 
 /// Pools for fewer triangles than there are make no half structure.
 #[test]
-fn bricks_notice_missing_room_for_triangles() {
+fn missing_room_for_triangles_is_noticed() {
+    let lists = Config { storage: Storage::Linked, builder: Some(Builder::Binning), ..Config::robust(64) };
+    for config in [Config::robust(32), lists] {
+        missing_room_for_triangles(config);
+    }
+}
+
+fn missing_room_for_triangles(config: Config) {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
-    let config = Config { storage: Storage::Bricks, ..Config::robust(32) };
     let mut structure = made(&bench, config, &triangles);
     let few = Demand { triangles: 3, ..room(1 << 20, 1 << 10, &triangles) };
     structure.resize(bench.device(), &plan(&config, &few).expect("in range")).expect("it fits");
@@ -221,7 +239,9 @@ fn bytes_are_those_of_the_formula() {
         (33, 1, 1, Storage::Contiguous),
         (50, 2, 1, Storage::Bricks),
     ] {
-        let config = Config { tile, buckets, storage, entries: Some(0), ..Config::robust(resolution) };
+        let builder = (resolution == 33).then_some(Builder::Binning);
+        let own = Config { entries: Some(0), pyramid: resolution == 50, ..Config::robust(resolution) };
+        let config = Config { tile, buckets, storage, builder, ..own };
         let mut structure = made(&bench, config, &triangles);
         let bricks = storage == Storage::Bricks;
         let nothing = Demand { triangles: triangles.len() as u64, ..Demand::default() };

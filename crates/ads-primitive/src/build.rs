@@ -1,45 +1,46 @@
-//! The build: pipelines, and the passes in the order they are recorded.
+//! The build of lists: pipelines, and the passes in the order they are recorded.
 
 use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
-use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
-use crate::layout::cell_count;
+use crate::build_visit::Visit;
+use crate::layout::{cell_count, pyramid_blocks};
 use crate::{Config, Storage};
-
-/// Faces of the cube.
-const VIEWS: u32 = 6;
 
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
     near: ComputePipeline,
-    bounds: RasterPipeline,
+    bounds: Visit,
     scale: Option<ComputePipeline>,
+    pyramid: Option<ComputePipeline>,
     lengths: Option<Lengths>,
-    store: RasterPipeline,
+    store: Visit,
     status: ComputePipeline,
 }
 
 /// What contiguous lists need before they are stored.
 #[derive(Debug)]
 struct Lengths {
-    count: RasterPipeline,
+    count: Visit,
     scan: Scan,
 }
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let raster = |name| pipelines.raster("build_raster", name);
+        let visit = |name| Visit::new(pipelines, config, name);
         let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths { count: raster("build_4_count")?, scan: Scan::new(pipelines, "build_5_scan")? })
+            Ok(Lengths { count: visit("build_4_count")?, scan: Scan::new(pipelines, "build_5_scan")? })
         };
+        let compute = |wanted: bool, name| wanted.then(|| pipelines.compute(name)).transpose();
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            bounds: raster("build_2_bounds")?,
-            scale: (config.buckets > 1).then(|| pipelines.compute("build_3_scale")).transpose()?,
+            bounds: visit("build_2_bounds")?,
+            scale: compute(config.buckets > 1, "build_3_scale")?,
+            pyramid: compute(config.pyramid_levels() > 0, "build_3_pyramid")?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: raster("build_6_store")?,
+            store: visit("build_6_store")?,
             status: pipelines.compute("build_7_status")?,
         })
     }
@@ -48,31 +49,32 @@ impl Build {
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
         let cells = cell_count(config.tiles());
         let lists = cells * u64::from(config.buckets);
-        let triangles = u64::from(target.geometry.triangle_count());
         let group = u64::from(PRIMITIVE_GROUP_SIZE);
-        let side = config.tiles() + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
         let readers = shaders | Access::VERTEX_READ;
         target.pools.record_header(recorder, "primitive/build_0_clear", &["bounds", "lists"], readers);
-        target.compute_pass(
-            recorder,
-            "primitive/build_1_near",
-            &self.near,
-            triangles.div_ceil(group),
-            0,
-            Access::COMPUTE,
-        );
-        target.raster_pass(recorder, "primitive/build_2_bounds", &self.bounds, side, VIEWS);
+        let groups = u64::from(target.geometry.triangle_count()).div_ceil(group);
+        target.compute_pass(recorder, "primitive/build_1_near", &self.near, groups, 0, shaders);
+        self.bounds.record(recorder, config, target);
         if let Some(scale) = &self.scale {
             let groups = cells.div_ceil(group);
             target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
         }
+        if let Some(pyramid) = &self.pyramid {
+            recorder.begin_pass("primitive/build_3_pyramid");
+            for level in 1..=config.pyramid_levels() {
+                let groups = pyramid_blocks(config, level).div_ceil(group);
+                target.dispatch(recorder, pyramid, groups, level);
+                recorder.barrier(Access::COMPUTE, shaders);
+            }
+            recorder.end_pass();
+        }
         if let Some(lengths) = &self.lengths {
-            target.raster_pass(recorder, "primitive/build_4_count", &lengths.count, side, VIEWS);
+            lengths.count.record(recorder, config, target);
             lengths.scan.record(recorder, target, "primitive/build_5_scan", lists, 0, shaders);
         }
-        target.raster_pass(recorder, "primitive/build_6_store", &self.store, side, VIEWS);
+        self.store.record(recorder, config, target);
         target.status_pass(recorder, "primitive/build_7_status", &self.status);
     }
 }

@@ -3,6 +3,8 @@
 use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
+use crate::{Accept, Coverage, Depths, March, Stop};
+
 /// Cells a side of a brick.
 const BRICK_SIDE: u32 = 4;
 /// Most tiles a side of a face of bricks.
@@ -22,23 +24,33 @@ pub enum Storage {
     Bricks,
 }
 
-/// Which cells list a triangle.
+/// Who puts triangles into cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coverage {
-    /// Those whose centre the rasterizer covers: rays that pass a listed triangle's neighbour are lost.
-    Hardware,
-    /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
-    Exact,
+pub enum Builder {
+    /// The rasterizer proposes cells, and the shared function decides.
+    Raster,
+    /// A compute pass goes through all cells that a triangle may reach into; the same function decides.
+    Binning,
+}
+
+/// Where the faces of the cube meet. Changes no hit where [`Config::is_exact`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Centre {
+    /// At the eye, as in the paper.
+    Eye,
+    /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the nearest point well
+    /// within.
+    Scene,
 }
 
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Pixels a side of each face, 1 to 8192. Changes no hit with [`Coverage::Exact`].
+    /// Pixels a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
     pub resolution: u32,
-    /// Pixels a side of a tile, 1 to 64: lists are kept per tile. Changes no hit with [`Coverage::Exact`].
+    /// Pixels a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where [`Config::is_exact`].
     pub tile: u32,
-    /// Depth buckets a tile, 1 to 64; bricks have slices instead. Changes no hit.
+    /// Depth buckets a tile, 1 to 64; bricks have slices instead. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,
     /// Bricks only: depth slices, the same for all tiles, at most 1024, made up to a multiple of 4; twice the tiles of
     /// a side where absent. Changes no hit.
@@ -47,9 +59,25 @@ pub struct Config {
     pub corners: bool,
     /// How lists are kept.
     pub storage: Storage,
+    /// Where the faces meet.
+    pub centre: Centre,
+    /// Who puts triangles into cells; absent: the rasterizer for lists, a compute pass for bricks. Changes no hit.
+    pub builder: Option<Builder>,
+    /// Lists only, with [`Config::skip`]: depth bounds of blocks of tiles, over which a ray leaps. Changes no hit where
+    /// [`Config::is_exact`].
+    pub pyramid: bool,
     /// Which tiles list a triangle.
     pub coverage: Coverage,
-    /// Skip tiles and buckets that the ray's depths cannot meet, or empty bricks. Changes no hit.
+    /// When a triangle that a ray meets is a hit.
+    pub accept: Accept,
+    /// Where the search of a tile ends.
+    pub stop: Stop,
+    /// What the depths of a triangle in a tile are.
+    pub depths: Depths,
+    /// How a ray goes on from a tile.
+    pub march: March,
+    /// Skip tiles and buckets that the ray's depths cannot meet, or empty bricks. Changes no hit where
+    /// [`Config::is_exact`].
     pub skip: bool,
     /// How pools are reached.
     pub addressing: Addressing,
@@ -71,7 +99,14 @@ impl Config {
             slices: None,
             corners: true,
             storage: Storage::Bricks,
-            coverage: Coverage::Exact,
+            centre: Centre::Scene,
+            builder: None,
+            pyramid: false,
+            coverage: Coverage::Conservative,
+            accept: Accept::T,
+            stop: Stop::Best,
+            depths: Depths::Clipped,
+            march: March::Exact,
             skip: true,
             addressing: Addressing::Descriptor,
             entries: None,
@@ -90,6 +125,40 @@ impl Config {
         Self::robust(tiles * unit.tile)
     }
 
+    /// The paper's structure: linked lists, 20 buckets, and its rules, by which hits are lost.
+    pub fn published(resolution: u32) -> Self {
+        Self {
+            buckets: 20,
+            storage: Storage::Linked,
+            centre: Centre::Eye,
+            pyramid: true,
+            accept: Accept::Tile,
+            stop: Stop::Bucket,
+            depths: Depths::Corners,
+            march: March::Jump,
+            ..Self::robust(resolution)
+        }
+    }
+
+    /// Whether every hit is that of brute force: no rule of the paper that loses some is chosen.
+    pub fn is_exact(&self) -> bool {
+        self.lossy_rule().is_none()
+    }
+
+    /// The first rule that loses hits, as option and value.
+    fn lossy_rule(&self) -> Option<(&'static str, &'static str)> {
+        let robust = Self::robust(1);
+        [
+            (self.accept == robust.accept, ("accept", "tile")),
+            (self.stop == robust.stop, ("stop", "bucket")),
+            (self.depths == robust.depths, ("depths", "corners")),
+            (self.march == robust.march, ("march", "jump")),
+            (self.coverage == robust.coverage, ("coverage", "hardware")),
+        ]
+        .into_iter()
+        .find_map(|(kept, rule)| (!kept).then_some(rule))
+    }
+
     /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels. Bricks have a
     /// multiple of 4.
     pub fn tiles(&self) -> u32 {
@@ -101,6 +170,18 @@ impl Config {
     pub fn slices(&self) -> u32 {
         let slices = || self.slices.unwrap_or_else(|| (2 * self.tiles()).min(SLICE_LIMIT));
         if self.storage == Storage::Bricks { slices().next_multiple_of(BRICK_SIDE) } else { 0 }
+    }
+
+    /// Who puts triangles into cells.
+    pub fn builder(&self) -> Builder {
+        let usual = if self.storage == Storage::Bricks { Builder::Binning } else { Builder::Raster };
+        self.builder.unwrap_or(usual)
+    }
+
+    /// Levels of blocks behind the cells; 0 without.
+    pub(crate) fn pyramid_levels(&self) -> u32 {
+        let wanted = self.pyramid && self.skip && self.storage != Storage::Bricks;
+        if wanted { (self.tiles() + 2).next_power_of_two().trailing_zeros() } else { 0 }
     }
 
     /// Whether triangles' corners are kept once more.
@@ -127,10 +208,14 @@ impl Config {
         if self.storage == Storage::Bricks {
             let expected = "bricks have at most 1024 tiles a side: raise the tile or lower the resolution";
             range("tiles a side", self.tiles(), 1, SIDE_LIMIT, expected)?;
-            if self.coverage == Coverage::Hardware {
-                let expected = "bricks are filled by computing, which is exact: take storage sb or llb";
-                return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
+            if let Some((option, value)) = self.lossy_rule() {
+                let expected = "bricks lose no hit, so they follow no such rule: take storage sb or llb";
+                return Err(AdsError::Option { option, value: value.to_owned(), expected });
             }
+        }
+        if self.coverage == Coverage::Hardware && self.builder() == Builder::Binning {
+            let expected = "the binning builder does not draw: take builder raster";
+            return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
         }
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")
@@ -145,10 +230,32 @@ impl Config {
         };
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::PRIMITIVE_COVERAGE_HARDWARE,
-            Coverage::Exact => numbers::PRIMITIVE_COVERAGE_EXACT,
+            Coverage::Conservative => numbers::PRIMITIVE_COVERAGE_CONSERVATIVE,
+        };
+        let accept = match self.accept {
+            Accept::T => numbers::PRIMITIVE_ACCEPT_T,
+            Accept::Tile => numbers::PRIMITIVE_ACCEPT_TILE,
+        };
+        let stop = match self.stop {
+            Stop::Best => numbers::PRIMITIVE_STOP_BEST,
+            Stop::Bucket => numbers::PRIMITIVE_STOP_BUCKET,
+        };
+        let depths = match self.depths {
+            Depths::Clipped => numbers::PRIMITIVE_DEPTHS_CLIPPED,
+            Depths::Corners => numbers::PRIMITIVE_DEPTHS_CORNERS,
+        };
+        let march = match self.march {
+            March::Exact => numbers::PRIMITIVE_MARCH_EXACT,
+            March::Jump => numbers::PRIMITIVE_MARCH_JUMP,
         };
         let corners = u32::from(self.keeps_corners());
-        vec![(30, self.buckets), (31, storage), (32, coverage), (33, u32::from(self.skip)), (34, corners)]
+        let skip = u32::from(self.skip);
+        let pyramid = u32::from(self.pyramid_levels() > 0);
+        [self.buckets, storage, coverage, skip, corners, accept, stop, depths, march, pyramid]
+            .into_iter()
+            .zip(30..)
+            .map(|(value, id)| (id, value))
+            .collect()
     }
 
     /// Options as name and value, for reports.
@@ -168,18 +275,26 @@ impl Config {
             options.push(("slices", self.slices().to_string()));
             options.push(("corners", switch(self.corners)));
         } else {
-            options.push(("buckets", self.buckets.to_string()));
+            let lower = |rule: &dyn std::fmt::Debug| format!("{rule:?}").to_lowercase();
+            options.extend([
+                ("buckets", self.buckets.to_string()),
+                ("pyramid", switch(self.pyramid)),
+                ("coverage", lower(&self.coverage)),
+                ("accept", lower(&self.accept)),
+                ("stop", lower(&self.stop)),
+                ("depths", lower(&self.depths)),
+                ("march", lower(&self.march)),
+            ]);
         }
-        options.extend([("skip", switch(self.skip)), ("views", "cube".to_owned())]);
+        let centre = format!("{:?}", self.centre).to_lowercase();
+        options.extend([("skip", switch(self.skip)), ("centre", centre), ("views", "cube".to_owned())]);
         options
     }
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
-            ("builder", if self.storage == Storage::Bricks { "binning" } else { "raster" }.to_owned()),
-            ("coverage", lower(&self.coverage)),
+            ("builder", format!("{:?}", self.builder()).to_lowercase()),
             ("addressing", self.addressing.name().to_owned()),
         ]
     }

@@ -20,9 +20,9 @@ pub struct Header {
     pub corrupted: u32,
     /// Cells a side of a face, border not counted.
     pub tiles: u32,
-    /// Zero.
-    pub spare: u32,
-    /// Farthest that the geometry is from the eye along an axis, metres.
+    /// Pixels a side of a cell.
+    pub tile: u32,
+    /// Farthest that the geometry is from the centre along an axis, metres.
     pub reach: f32,
     /// Half side of the near box, metres.
     pub near_size: f32,
@@ -30,11 +30,11 @@ pub struct Header {
     pub rounding: f32,
     /// Zero.
     pub spare_length: f32,
-    /// Common centre of the faces, metres relative to the frame origin.
-    pub eye: [f32; 3],
+    /// Centre of the faces, metres relative to the frame origin.
+    pub centre: [f32; 3],
     /// Zero.
-    pub spare_eye: f32,
-    /// Lower corner of the geometry relative to the eye, metres.
+    pub spare_centre: f32,
+    /// Lower corner of the geometry relative to the centre, metres.
     pub lower: [f32; 3],
     /// Zero.
     pub spare_lower: f32,

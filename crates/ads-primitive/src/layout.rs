@@ -1,9 +1,9 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
-use rasray_shaders_glsl::constants::primitive::PRIMITIVE_PAIR_LIMIT;
+use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Config, Header, Storage};
+use crate::{Builder, Config, Header, Storage};
 
 /// The pool that holds what is known of each cell: bounds of lists, or bricks.
 pub(crate) fn cells_pool(storage: Storage) -> &'static str {
@@ -27,7 +27,7 @@ pub struct Demand {
     pub records: u64,
     /// Bricks only: cells that list something.
     pub cells: u64,
-    /// Bricks only: triangles of the geometry.
+    /// Bricks, and lists that a compute pass fills: triangles of the geometry.
     pub triangles: u64,
 }
 
@@ -56,10 +56,38 @@ pub(crate) fn entry_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which are only kept
-/// while bricks are built.
+/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which binning needs while
+/// it builds. None for lists that are drawn.
 pub(crate) fn triangle_words(config: &Config) -> u64 {
-    if config.keeps_corners() { 9 } else { u64::from(PRIMITIVE_PAIR_LIMIT) }
+    match (config.storage, config.builder()) {
+        (Storage::Bricks, _) if config.keeps_corners() => 9,
+        (Storage::Bricks, _) | (_, Builder::Binning) => numbers::PRIMITIVE_PAIR_LIMIT.into(),
+        (_, Builder::Raster) => 0,
+    }
+}
+
+/// Workgroups a triangle with many columns of a face: so many that no invocation's loops turn more often than they may.
+pub(crate) fn bin_groups(config: &Config) -> u32 {
+    if config.storage == Storage::Bricks {
+        return 1;
+    }
+    let block = numbers::PRIMITIVE_BIN_BLOCK as u64;
+    let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
+    // Each block, its rows and columns, and the buckets of each column.
+    let turns = blocks * (1 + block + block * block * u64::from(1 + config.buckets));
+    let invocations = u64::from(numbers::PRIMITIVE_GROUP_SIZE);
+    turns.div_ceil(invocations * numbers::PRIMITIVE_BIN_TURNS as u64) as u32
+}
+
+/// Blocks of a level behind the cells of lists: 2^level cells a side.
+pub(crate) fn pyramid_blocks(config: &Config, level: u32) -> u64 {
+    let side = u64::from(config.tiles() + 2).div_ceil(1 << level);
+    6 * side * side
+}
+
+/// Words of all levels: the bounds of each block.
+fn pyramid_words(config: &Config) -> u64 {
+    (1..=config.pyramid_levels()).map(|level| 2 * pyramid_blocks(config, level)).sum()
 }
 
 /// What primitive lists of this configuration allocate to hold `demand`.
@@ -84,13 +112,17 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
     let pools = vec![
         PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
-        pool(cells_pool(config.storage), cells, cell_words),
+        pool(cells_pool(config.storage), cells * cell_words + pyramid_words(config), 1),
         pool("lists", lists, 1),
         pool("entries", demand.entries, entry_words(config.storage)),
         pool("sums", sums, 1),
         pool("near", demand.near, 1),
         pool("records", of_bricks(demand.records), RECORD_WORDS),
-        pool("triangles", of_bricks(demand.triangles), triangle_words(config)),
+        pool(
+            "triangles",
+            if triangle_words(config) > 0 { demand.triangles } else { 0 },
+            triangle_words(config).max(1),
+        ),
     ];
     // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
     if let Some(pool) =
@@ -116,7 +148,8 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
 /// Bytes for counted cells, buckets and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Lists: a tile 8, a list of each bucket 4, and a scale of 4 where there are several buckets. Bricks: each 12, and 4
+    /// Lists: a tile 8, a list of each bucket 4, and a scale of 4 where there are several buckets; 8 a block of the
+    /// pyramid. Bricks: each 12, and 4
     /// per cell that lists something.
     pub cells: u64,
     /// Per entry: 4, or 8 in a linked list.
@@ -124,7 +157,7 @@ pub struct FormulaBytes {
     /// Per 1024 numbers that are scanned: a sum of 4. Bricks: 4 each where distances of empty ones are found.
     pub scan: u64,
     /// Header, 4 per triangle of the near list; bricks: 12 per triangle in a column of tiles, and per triangle 36 for
-    /// its corners or 24 while it is filed.
+    /// its corners or 24 while it is filed, as for lists that a compute pass fills.
     pub rest: u64,
 }
 
@@ -153,11 +186,17 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let cells = (tiles + 2) * (tiles + 2) * 6;
     let buckets = u64::from(config.buckets);
     let contiguous = config.storage == Storage::Contiguous;
+    let (mut side, mut blocks) = (tiles + 2, 0);
+    while config.pyramid && config.skip && side > 1 {
+        side = side.div_ceil(2);
+        blocks += 6 * side * side;
+    }
+    let pairs = if config.builder == Some(Builder::Binning) { 24 * demand.triangles } else { 0 };
     FormulaBytes {
-        cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }),
+        cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }) + 8 * blocks,
         entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest,
+        rest: rest + pairs,
     }
 }
 
@@ -176,11 +215,14 @@ mod tests {
             (64, 1, 1, Storage::Bricks),
             (33, 2, 4, Storage::Bricks),
         ] {
-            for (slices, skip, corners) in
-                [(None, true, true), (Some(13), false, true), (Some(8), true, false)]
-            {
+            for (slices, skip, corners, builder, pyramid) in [
+                (None, true, true, None, true),
+                (Some(13), false, true, Some(Builder::Binning), true),
+                (Some(8), true, false, Some(Builder::Raster), false),
+            ] {
+                let own = Config::robust(resolution);
                 let config =
-                    Config { tile, buckets, storage, slices, skip, corners, ..Config::robust(resolution) };
+                    Config { tile, buckets, storage, slices, skip, corners, builder, pyramid, ..own };
                 let sizes = plan(&config, &demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
                 let more = Demand { entries: demand.entries + 1, ..demand };
@@ -198,6 +240,15 @@ mod tests {
         assert_eq!(formula.entries, 8 * 3_100_000);
         // One word more a cell than the paper: the scale of its buckets.
         assert_eq!(formula.cells, cells * (8 + 4 * 4 + 4));
+    }
+
+    /// However many tiles and buckets, an invocation's share of a triangle that covers all columns stays bounded.
+    #[test]
+    fn binning_gives_each_invocation_a_bounded_share() {
+        for (resolution, buckets, groups) in [(16, 1, 1), (256, 16, 1), (1024, 64, 36), (8192, 64, 2286)] {
+            let lists = Config { tile: 1, buckets, storage: Storage::Linked, ..Config::robust(resolution) };
+            assert_eq!(bin_groups(&lists), groups, "{resolution} tiles, {buckets} buckets");
+        }
     }
 
     #[test]

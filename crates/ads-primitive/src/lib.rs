@@ -2,21 +2,25 @@
 //! faces of a cube around the eye, and rays are tested against what the tiles on their way list.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "DIRT: Deferred image-based ray tracing", HPG 2016. Hits are those
-//! of the triangles themselves. See `docs/systems/dirt.md` for passes, bytes, options, limits and departures.
+//! of the triangles themselves; the rules of the paper by which some are lost are options. See `docs/systems/dirt.md` for passes, bytes, options, limits and departures.
 //!
 //! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
 mod build;
 mod build_bricks;
+mod build_visit;
+mod centre;
 mod config;
 mod header;
 mod layout;
+mod rules;
 mod structure;
 mod validate;
 
-pub use config::{Config, Coverage, Storage};
+pub use config::{Builder, Centre, Config, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;
+pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::PrimitiveLists;
 pub use validate::{Contents, Fault, well_formed};

@@ -11,8 +11,9 @@ use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::build::Build;
 use crate::build_bricks::BuildBricks;
-use crate::layout::{Demand, cells_pool, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Storage};
+use crate::centre::centre_within;
+use crate::layout::{Demand, bin_groups, cells_pool, first_plan, formula_bytes, plan, triangle_words};
+use crate::{Builder, Centre, Config, Contents, Header, Storage};
 
 /// The passes of a storage.
 #[derive(Debug)]
@@ -73,7 +74,7 @@ impl PrimitiveLists {
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
-        if config.storage != Storage::Bricks {
+        if config.builder() == Builder::Raster {
             requirements.required.push(Feature::FragmentStoresAndAtomics);
         }
         config.addressing.add_to(&mut requirements);
@@ -88,26 +89,32 @@ impl PrimitiveLists {
     /// The header that the next build starts from.
     fn first_header(&self, eye: [f32; 3]) -> Header {
         let [lower, upper] = self.geometry.bounds();
-        let relative = |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - eye[axis]);
+        let centre = match self.config.centre {
+            Centre::Eye => eye,
+            Centre::Scene => centre_within(eye, [lower, upper]),
+        };
+        let relative =
+            |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]);
         let (lower, upper) = (relative(lower), relative(upper));
         let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
         // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
-        // eye is from the frame origin.
+        // centre is from the frame origin.
         let rounding = match self.config.storage {
             Storage::Bricks => numbers::PRIMITIVE_BRICK_ROUNDING,
             Storage::Linked | Storage::Contiguous => numbers::PRIMITIVE_ROUNDING,
         } * farthest;
-        // What a ray outside of the near box meets is not behind the eye, also where tiles are few.
+        // What a ray outside of the near box meets is not behind the centre, also where tiles are few.
         let near_size = (numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest).max(2.0 * rounding);
         Header {
             capacity: self.pools.sizes().elements("entries") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
             tiles: self.config.tiles(),
+            tile: self.config.tile,
             reach: farthest,
             // Depths are positive, also where all geometry is at the eye.
             near_size: near_size.max(1.0e-30),
             rounding,
-            eye,
+            centre,
             lower: lower.map(|x| x - rounding),
             upper: upper.map(|x| x + rounding),
             bounds_address: self.pools.address_of(cells_pool(self.config.storage)),
@@ -121,7 +128,7 @@ impl PrimitiveLists {
             record_capacity: self.pools.sizes().elements("records") as u32,
             cell_capacity: self.pools.sizes().elements("lists") as u32,
             triangle_capacity: self.pools.sizes().elements("triangles") as u32,
-            groups: [0, 0, 1],
+            groups: [0, 0, bin_groups(&self.config)],
             ..Header::default()
         }
     }
@@ -169,7 +176,7 @@ impl Structure for PrimitiveLists {
     }
 
     fn kind(&self) -> StructureKind {
-        StructureKind::Primitive
+        if self.config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }
     }
 
     fn requirements(&self) -> Requirements {
@@ -190,7 +197,7 @@ impl Structure for PrimitiveLists {
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         let triangles = u64::from(geometry.triangle_count());
-        if self.config.storage == Storage::Bricks && triangles > self.pools.sizes().elements("triangles") {
+        if triangle_words(&self.config) > 0 && triangles > self.pools.sizes().elements("triangles") {
             let sizes = plan(&self.config, &Demand { triangles, ..self.allocated() })?;
             self.pools.resize(device, &sizes)?;
         }
@@ -298,7 +305,7 @@ impl Structure for PrimitiveLists {
             "records" => demand.records,
             "lists" if bricks => demand.cells,
             "sums" => sums,
-            "triangles" => demand.triangles,
+            "triangles" if triangle_words(&self.config) > 0 => demand.triangles,
             _ => pool.elements,
         });
         Ok(StructureReport {

@@ -11,7 +11,7 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Bounds of each cell; bricks, three words each.
+    /// Bounds of each cell, and of the blocks of the pyramid; bricks, three words each.
     pub bounds: Vec<u32>,
     /// Head, or end, of each bucket of each cell.
     pub lists: Vec<u32>,

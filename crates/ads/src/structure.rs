@@ -9,8 +9,17 @@ use crate::{AdsError, Counters, Geometry, RayQueue, Viewpoint};
 pub enum StructureKind {
     /// Triangles: no missed, false or wrong hit on unambiguous rays.
     Primitive,
+    /// Triangles, by the rules of a paper that lose some of them: a share of the hits that does not fall with the resolution.
+    LossyPrimitive,
     /// Stored fragments: errors follow a law in the resolution.
     Fragment,
+}
+
+impl StructureKind {
+    /// Whether a hit is one on a triangle, with barycentrics, and not on a stored fragment.
+    pub fn finds_triangles(self) -> bool {
+        self != Self::Fragment
+    }
 }
 
 /// What a trace answers.

@@ -15,6 +15,7 @@ mod renderer;
 pub mod report;
 mod scene_source;
 pub mod structure;
+mod structure_values;
 pub mod systems;
 mod terminal;
 

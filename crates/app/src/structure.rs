@@ -4,6 +4,11 @@ use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+pub use crate::structure_values::{
+    Accept, Addressing, Axes, Builder, Centre, Coverage, Depth, Depths, LayerBuild, March, Occupancy,
+    Payload, Stop, Storage, Switch, Views,
+};
+
 /// A system the command can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -33,169 +38,6 @@ pub enum Preset {
     Robust,
     /// The paper's approximations included
     Published,
-}
-
-/// How a cell's fragments or triangles are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Storage {
-    /// One linked list per cell
-    Ll,
-    /// One doubly linked list per cell
-    Dll,
-    /// Linked list per depth bucket
-    Llb,
-    /// Doubly linked list per depth bucket
-    Dllb,
-    /// One behind the other, counted first
-    Sb,
-    /// One behind the other in cells of tile and depth slice, in bricks that say where nothing is
-    Bricks,
-    /// Pages of several, linked or one behind the other
-    Paged,
-}
-
-/// What a fragment carries.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Payload {
-    /// The primitive's index
-    Index,
-    /// Surface attributes, quantised as published
-    Attributes,
-}
-
-/// How a ray steps through cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum March {
-    /// A fixed number of samples along the ray
-    Samples,
-    /// A step for each cell of the longer axis
-    Dda,
-    /// Every cell that the ray crosses
-    Exact,
-}
-
-/// When a fragment is a hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Accept {
-    /// Its depth lies in the ray's half-open depth interval in the cell
-    Interval,
-    /// The same with a thickness behind the fragment
-    Thickness,
-    /// Its depth is within a fixed tolerance of the ray's depths in the cell
-    Tolerance,
-    /// The depths that its triangle takes within the cell meet those of the ray; needs the payload index
-    Slope,
-    /// The ray meets the plane of its triangle within the cell; needs the payload index
-    Plane,
-    /// An odd number of fragments lies before one point of the ray, and an even number before the next
-    Parity,
-}
-
-/// Which cells a triangle gets a fragment in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Coverage {
-    /// Centre of the cell inside, decided by the shared function
-    Exact,
-    /// The same, and cells it reaches into where nothing stands for it
-    Conservative,
-    /// Whatever the rasterizer covers
-    Hardware,
-}
-
-/// In which of the views along the axes a fragment is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Axes {
-    /// In all; a voxel is searched along the axis of its averaged normal
-    All,
-    /// In that of its voxel's averaged normal
-    Voxel,
-    /// In the one that its triangle faces most; a voxel is searched along the axes of all its triangles
-    Triangle,
-}
-
-/// Which projections are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Views {
-    /// Six faces around the centre
-    Cube,
-    /// The same, and what the camera sees, with cells of its own
-    #[value(name = "cube+camera")]
-    #[serde(rename = "cube+camera")]
-    CubeCamera,
-    /// What the camera sees and nothing else
-    Camera,
-    /// Three along the axes, which do not depend on the eye
-    Axes,
-}
-
-/// How a fragment keeps its depth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-pub enum Depth {
-    /// A half, as a share of the cube's side
-    #[value(name = "16")]
-    #[serde(rename = "16")]
-    Bits16,
-    /// A float
-    #[value(name = "32")]
-    #[serde(rename = "32")]
-    Bits32,
-}
-
-/// What a block of cells says of the depths in it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Occupancy {
-    /// The smallest and the largest
-    Bounds,
-    /// The same, and which of 64 slices of depth hold something
-    Slices,
-}
-
-/// How the layers of a depth cube are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum LayerBuild {
-    /// All in one pass, then sorted
-    Single,
-    /// One after the other, by depth peeling
-    Peel,
-}
-
-/// Who makes a structure, and how.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Builder {
-    /// A tree by the surface area heuristic, on the host
-    Sah,
-    /// A tree by Morton codes, on the device
-    Lbvh,
-}
-
-/// How shaders reach a structure's memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Addressing {
-    /// Storage buffers in a descriptor set
-    Descriptor,
-    /// 64-bit device addresses
-    Address,
-}
-
-/// A switch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Switch {
-    /// Yes
-    On,
-    /// No
-    Off,
 }
 
 /// What was asked of a structure; what is left out follows the system's preset.
@@ -283,10 +125,22 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65535))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
-    /// When a fragment is a hit
+    /// When what a ray meets is a hit
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accept: Option<Accept>,
+    /// Lists of triangles: where the search of a tile ends
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stop: Option<Stop>,
+    /// Lists of triangles: leap over blocks of tiles by their depth bounds
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pyramid: Option<Switch>,
+    /// Lists of triangles: what the depths of a triangle in a tile are
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depths: Option<Depths>,
     /// With --accept thickness: metres behind a fragment that count as its inside
     #[arg(long, value_name = "METRES", value_parser = crate::arguments::values::not_negative)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -299,7 +153,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth: Option<Depth>,
-    /// Which cells a triangle gets a fragment in
+    /// Which cells a triangle is kept in
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coverage: Option<Coverage>,
@@ -315,6 +169,10 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub views: Option<Views>,
+    /// Lists of triangles: where the faces of the cube meet
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre: Option<Centre>,
     /// Who makes the structure, and how
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -378,12 +236,15 @@ mod tests {
         same_words::<Payload>();
         same_words::<March>();
         same_words::<Accept>();
+        same_words::<Stop>();
+        same_words::<Depths>();
         same_words::<Coverage>();
         same_words::<Axes>();
         same_words::<Views>();
         same_words::<Depth>();
         same_words::<Occupancy>();
         same_words::<LayerBuild>();
+        same_words::<Centre>();
         same_words::<Builder>();
         same_words::<Addressing>();
         same_words::<Switch>();

@@ -234,16 +234,18 @@ mod tests {
         for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {
             for value in argument.get_possible_values() {
                 let option = argument.get_long().expect("every option has a name");
-                let takes = |system: &System, accept: &str| {
+                let takes = |system: &System, preset: &str, accept: &str| {
                     let options = [("accept", accept), (option, value.get_name())]
                         .into_iter()
                         .filter(|(name, _)| system.options.contains(name) || *name == option)
                         .map(|(name, word)| (name.to_owned(), word.to_owned()));
-                    Spec::new(system.name, "robust", options).is_ok()
+                    Spec::new(system.name, preset, options).is_ok()
                 };
-                // Planes are the only value that excludes others: attributes, and samples.
+                // Planes exclude attributes and samples, bricks of triangles the rules of a paper.
                 let accepted = SYSTEMS.iter().any(|system| {
-                    ["interval", "parity", "tolerance"].iter().any(|accept| takes(system, accept))
+                    let accepts = ["interval", "parity", "tolerance", "t"];
+                    let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));
+                    system.presets.iter().any(|preset| takes(preset.name()))
                 });
                 assert!(accepted, "no system takes --{option} {}", value.get_name());
                 tried += 1;

@@ -1,6 +1,8 @@
 //! DIRT: primitive lists with the paper's presets.
 
-use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
+use rasray_ads_primitive::{
+    Accept, Addressing, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
+};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -9,7 +11,7 @@ use crate::{Preset, Spec, System, SystemsError};
 pub(crate) const SYSTEM: System = System {
     name: "dirt",
     structure: "ads-primitive",
-    presets: &[Preset::Robust],
+    presets: &[Preset::Robust, Preset::Published],
     options: &OPTIONS,
     requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
     create: |spec, device, geometry, scene| {
@@ -19,14 +21,22 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 10] = [
+const OPTIONS: [&str; 18] = [
     "resolution",
     "tile",
     "buckets",
     "slices",
     "storage",
     "corners",
+    "coverage",
+    "accept",
+    "stop",
+    "depths",
+    "march",
     "skip",
+    "pyramid",
+    "builder",
+    "centre",
     "views",
     "addressing",
     "capacity",
@@ -35,13 +45,17 @@ const OPTIONS: [&str; 10] = [
 /// Pixels a side of a face where lists are asked for and nothing else is.
 const RESOLUTION: u32 = 256;
 
+/// Those of the paper's second table.
+const PUBLISHED_RESOLUTION: u32 = 512;
+
 /// The configuration that a spec stands for, for a geometry of that many triangles.
 fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
-    let mut config = Config::robust_for(triangles);
     let lists = Given::all(spec).any(|given| given.name == "storage" && given.is_not("bricks"));
-    if lists {
-        config.resolution = RESOLUTION;
-    }
+    let mut config = match spec.preset() {
+        Preset::Robust if lists => Config::robust(RESOLUTION),
+        Preset::Robust => Config::robust_for(triangles),
+        Preset::Published => Config::published(PUBLISHED_RESOLUTION),
+    };
     config.counters = spec.counters();
     for given in Given::all(spec) {
         match given.name {
@@ -58,6 +72,25 @@ fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
                     ("sb", Storage::Contiguous),
                     ("bricks", Storage::Bricks),
                 ])?;
+            }
+            "coverage" => {
+                config.coverage = given
+                    .choice(&[("conservative", Coverage::Conservative), ("hardware", Coverage::Hardware)])?;
+            }
+            "accept" => config.accept = given.choice(&[("t", Accept::T), ("tile", Accept::Tile)])?,
+            "stop" => config.stop = given.choice(&[("best", Stop::Best), ("bucket", Stop::Bucket)])?,
+            "depths" => {
+                config.depths =
+                    given.choice(&[("clipped", Depths::Clipped), ("corners", Depths::Corners)])?;
+            }
+            "march" => config.march = given.choice(&[("exact", March::Exact), ("jump", March::Jump)])?,
+            "pyramid" => config.pyramid = given.switch()?,
+            "centre" => {
+                config.centre = given.choice(&[("eye", Centre::Eye), ("scene", Centre::Scene)])?;
+            }
+            "builder" => {
+                let words = [("raster", Builder::Raster), ("binning", Builder::Binning)];
+                config.builder = Some(given.choice(&words)?);
             }
             // One word so far: a value is checked, and nothing else is chosen.
             "views" => given.choice(&[("cube", ())])?,

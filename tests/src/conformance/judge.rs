@@ -52,7 +52,7 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         }
         return faults;
     }
-    match row.demand {
+    let limit = match row.demand {
         Demand::Exact { .. } => {
             if let Some(deviation) = deviation {
                 let what =
@@ -70,19 +70,20 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
                 );
                 fault(what, Some(first));
             }
+            return faults;
         }
         Demand::Law { resolution, per_cell, laws, .. } => {
             let law = laws.iter().find(|law| law.case == case.id);
-            let general = per_cell / f64::from(resolution);
-            let limit = law.map_or(general, |law| law.limit(resolution));
-            if low > limit {
-                let what = format!(
-                    "the error rate is {rate:.4}, at least {low:.4}: more than {limit:.4}: {:?}",
-                    measured.confusion
-                );
-                fault(what, first_wrong);
-            }
+            law.map_or(per_cell / f64::from(resolution), |law| law.limit(resolution))
         }
+        Demand::Loss { share, .. } => share,
+    };
+    if low > limit {
+        let what = format!(
+            "the error rate is {rate:.4}, at least {low:.4}: more than {limit:.4}: {:?}",
+            measured.confusion
+        );
+        fault(what, first_wrong);
     }
     faults
 }

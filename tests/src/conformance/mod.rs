@@ -2,10 +2,11 @@
 //!
 //! A row says what is demanded of it: an exact answer, or a bound of its error rate. Where a row cannot
 //! meet its demand on a case, it carries a [`Deviation`] with the reason and the range that its error
-//! rate must lie in, so that an unexpected pass fails as well. Rows that find triangles may carry none.
+//! rate must lie in, so that an unexpected pass fails as well. Rows that find triangles without loss may
+//! carry none.
 //!
-//! Another structure needs one row in [`ROWS`], once its system is in the registry: a name, the system, the preset,
-//! options, and [`Demand::Exact`] or [`Demand::Law`]. The tests hold every row without being told; one of
+//! Another structure needs one row in a file of its own, listed in [`ROWS`], once its system is in the registry: a name,
+//! the system, the preset, options, and [`Demand::Exact`], [`Demand::Law`] or [`Demand::Loss`]. The tests hold every row without being told; one of
 //! them fails for a preset of the registry that no row stands for. A list of deviations starts empty: the first run
 //! reports every case whose rate is beyond the law, with the rate. `RASRAY_RATES=1` with `--nocapture` prints all rates.
 //!
@@ -13,16 +14,24 @@
 //! most [`FALSE_ALARM`] where every law holds, whatever the seed.
 
 mod deviations;
+mod deviations_dirt;
 mod deviations_ldc;
 mod deviations_voxel;
 mod judge;
 mod measure;
 mod prepare;
 mod rounds;
+mod row;
 mod rows;
+mod rows_bvh;
+mod rows_dirt;
+mod rows_ldc;
+mod rows_mmrt;
+mod rows_voxel;
 
 pub use judge::{FALSE_ALARM, confidence, judge};
 pub use measure::{Measured, compare, device_hit, measure};
 pub use prepare::{Prepared, loadable};
 pub use rounds::trace_in_rounds;
-pub use rows::{Cases, Curve, DEEP, Demand, Deviation, Law, ROWS, Row, Tier, comparisons};
+pub use row::{Cases, Curve, DEEP, Demand, Deviation, Law, Row, Tier};
+pub use rows::{ROWS, comparisons};

@@ -18,6 +18,8 @@ pub struct Law {
     pub option: &'static str,
     /// For structures that find triangles.
     pub primitive: Value,
+    /// For those that find triangles by rules that lose some.
+    pub lossy: Value,
     /// For structures that store fragments.
     pub fragment: Value,
     /// What is tried.
@@ -25,11 +27,20 @@ pub struct Law {
 }
 
 const fn same(option: &'static str, values: &'static [&'static str]) -> Law {
-    Law { option, primitive: Value::Same, fragment: Value::Same, values }
+    Law { option, primitive: Value::Same, lossy: Value::Same, fragment: Value::Same, values }
+}
+
+/// What decides how a ray meets lists matters where rules lose hits.
+const fn same_without_loss(option: &'static str, values: &'static [&'static str]) -> Law {
+    Law { lossy: Value::MayChange, ..same(option, values) }
 }
 
 const fn same_for_primitives(option: &'static str, values: &'static [&'static str]) -> Law {
-    Law { option, primitive: Value::Same, fragment: Value::MayChange, values }
+    Law { fragment: Value::MayChange, ..same_without_loss(option, values) }
+}
+
+const fn may_change(option: &'static str, values: &'static [&'static str]) -> Law {
+    Law { primitive: Value::MayChange, ..same_for_primitives(option, values) }
 }
 
 /// Every option of every system.
@@ -37,7 +48,7 @@ pub const LAWS: &[Law] = &[
     same("addressing", &["descriptor", "address"]),
     same("builder", &["raster", "binning", "sah", "lbvh"]),
     same("block", &["1", "4", "64"]),
-    same("buckets", &["1", "2", "8", "32"]),
+    same_without_loss("buckets", &["1", "2", "8", "32"]),
     same("corners", &["on", "off"]),
     same("inline", &["on", "off"]),
     same("leaf", &["1", "16"]),
@@ -46,10 +57,11 @@ pub const LAWS: &[Law] = &[
     same("levels", &["1", "2"]),
     same("occupancy", &["bounds", "slices"]),
     same("page", &["1", "2", "4", "8"]),
-    same("skip", &["on", "off"]),
+    same_without_loss("centre", &["eye", "scene"]),
+    same_without_loss("pyramid", &["on", "off"]),
+    same_without_loss("skip", &["on", "off"]),
     same("sort", &["on", "off"]),
     same("storage", &["ll", "dll", "llb", "dllb", "sb", "paged", "lists", "bricks"]),
-    same_for_primitives("coverage", &["exact", "hardware", "conservative"]),
     same_for_primitives("grid", &["8", "24"]),
     same_for_primitives("camera-resolution", &["12", "37"]),
     same_for_primitives("resolution", &["12", "37"]),
@@ -57,25 +69,24 @@ pub const LAWS: &[Law] = &[
     same_for_primitives("tile", &["1", "2", "4", "8"]),
     same_for_primitives("axes", &["all", "voxel", "triangle"]),
     same_for_primitives("views", &["cube", "cube+camera", "camera", "axes"]),
-    // What decides whether a fragment is a hit, or what it stands for.
+    // What decides whether something is a hit, or what a fragment stands for.
+    may_change("accept", &["interval", "slope", "plane", "parity", "t", "tile"]),
+    may_change("coverage", &["exact", "hardware", "conservative"]),
+    may_change("depth", &["16", "32"]),
+    may_change("depths", &["clipped", "corners"]),
+    may_change("march", &["samples", "dda", "exact", "jump"]),
+    same_for_primitives("payload", &["index"]),
+    may_change("samples", &["5"]),
+    may_change("stop", &["best", "bucket"]),
+    may_change("thickness", &["0.5"]),
+    may_change("tolerance", &["0.01"]),
     Law {
-        option: "accept",
-        primitive: Value::MayChange,
-        fragment: Value::MayChange,
-        values: &["interval", "slope", "plane", "parity"],
+        option: "capacity",
+        primitive: Value::Room,
+        lossy: Value::Room,
+        fragment: Value::Room,
+        values: &["0", "1", "1000"],
     },
-    Law { option: "depth", primitive: Value::MayChange, fragment: Value::MayChange, values: &["16", "32"] },
-    Law {
-        option: "march",
-        primitive: Value::MayChange,
-        fragment: Value::MayChange,
-        values: &["samples", "dda", "exact"],
-    },
-    Law { option: "payload", primitive: Value::Same, fragment: Value::MayChange, values: &["index"] },
-    Law { option: "samples", primitive: Value::MayChange, fragment: Value::MayChange, values: &["5"] },
-    Law { option: "thickness", primitive: Value::MayChange, fragment: Value::MayChange, values: &["0.5"] },
-    Law { option: "tolerance", primitive: Value::MayChange, fragment: Value::MayChange, values: &["0.01"] },
-    Law { option: "capacity", primitive: Value::Room, fragment: Value::Room, values: &["0", "1", "1000"] },
 ];
 
 /// The row of an option.
@@ -88,6 +99,7 @@ impl Law {
     pub fn of(&self, kind: StructureKind) -> Value {
         match kind {
             StructureKind::Primitive => self.primitive,
+            StructureKind::LossyPrimitive => self.lossy,
             StructureKind::Fragment => self.fragment,
         }
     }

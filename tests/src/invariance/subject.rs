@@ -91,7 +91,9 @@ impl Subject {
         let occluded = trace(TraceMode::Occluded);
         assert_eq!(structure.status().expect("the status is readable").corrupted, 0, "{}", self.name());
         let key = |hit: &Hit| match self.kind {
-            StructureKind::Primitive => [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()],
+            StructureKind::Primitive | StructureKind::LossyPrimitive => {
+                [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
+            }
             // a and b say where a fragment lies, which is not part of the answer.
             StructureKind::Fragment => [hit.t.to_bits(), hit.primitive, 0, 0],
         };

@@ -19,7 +19,7 @@ pub fn run(
 ) -> Run {
     let case = &prepared.case;
     let target = match structure.kind() {
-        StructureKind::Primitive => case.target.primitives,
+        StructureKind::Primitive | StructureKind::LossyPrimitive => case.target.primitives,
         StructureKind::Fragment => case.target.fragments,
     };
     let limit = row.limit(case.id);

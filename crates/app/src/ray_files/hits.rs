@@ -81,7 +81,7 @@ pub fn hits_to_npy(hits: &[Hit], kind: StructureKind) -> Vec<u8> {
     let fields = [("t", Kind::F4), ("primitive", Kind::U4), ("u", Kind::F4), ("v", Kind::F4)];
     let bytes = hits.iter().flat_map(|hit| {
         let hit = if hit.is_hit() { *hit } else { MISS };
-        let weight = |weight: f32| if kind == StructureKind::Primitive { weight } else { f32::NAN };
+        let weight = |weight: f32| if kind.finds_triangles() { weight } else { f32::NAN };
         [
             hit.t.to_le_bytes(),
             hit.primitive.to_le_bytes(),

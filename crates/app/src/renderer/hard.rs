@@ -163,7 +163,7 @@ const ROUNDING: f64 = 64.0 / 16_777_216.0;
 /// Counts what of the hits neither oracle nor statement allows.
 fn judged(case: &HardCase, kind: StructureKind, verdicts: &[Verdict], hits: &[Hit]) -> Judged {
     let tolerance = match kind {
-        StructureKind::Primitive => ROUNDING,
+        StructureKind::Primitive | StructureKind::LossyPrimitive => ROUNDING,
         StructureKind::Fragment => FRAGMENT_DEPTH,
     };
     let mut judged = Judged { rays: hits.len() as u64, ..Judged::default() };

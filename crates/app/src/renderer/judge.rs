@@ -31,7 +31,7 @@ pub(super) fn accuracy(
     hits: &[Option<DeviceHit>],
 ) -> Result<Accuracy, AppError> {
     let tolerance = match kind {
-        StructureKind::Primitive => 0.0,
+        StructureKind::Primitive | StructureKind::LossyPrimitive => 0.0,
         StructureKind::Fragment => FRAGMENT_TOLERANCE,
     };
     let confusion = HitConfusion::measure(verdicts, hits, tolerance).map_err(device_error)?;

@@ -1,6 +1,6 @@
-// What: the length of each cell's list; one invocation a record.
-// Reads: records, bricks. Writes: lists.
-// Source: not in the paper, whose lists are linked; count, scan, fill.
+// What: puts each triangle into the lists of its cells; one invocation a record.
+// Reads: records, bricks. Writes: lists, entries.
+// Source: DIRT section 3.2, fill primitives.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/brick_accessors.glsl"
@@ -20,10 +20,19 @@ void main() {
     uint tiles = PRIMITIVE_HEADER(primitive_built).tiles;
     uint slices = PRIMITIVE_HEADER(primitive_built).slices;
     uint cells = PRIMITIVE_HEADER(primitive_built).cell_capacity;
+    uint capacity = PRIMITIVE_HEADER(primitive_built).capacity;
+    BrickWords words;
     for (uint slice = record.first; slice <= record.last; slice++) {
-        uint list = brick_list(primitive_built, record.face, ivec3(record.x, record.y, slice), tiles, slices);
+        ivec3 cell = ivec3(record.x, record.y, slice);
+        if (slice == record.first || (slice & 3u) == 0u) {
+            words = brick_words(primitive_built, record.face, cell, tiles, slices);
+        }
+        uint list = brick_list(words, cell);
         if (list < cells) {
-            atomicAdd(PRIMITIVE_LISTS(primitive_built)[list], 1u);
+            uint entry = atomicAdd(PRIMITIVE_LISTS(primitive_built)[list], 1u);
+            if (entry < capacity) {
+                PRIMITIVE_ENTRIES(primitive_built)[entry] = record.primitive;
+            }
         }
     }
 }

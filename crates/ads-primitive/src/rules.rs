@@ -1,0 +1,49 @@
+//! The paper's rules, each beside the one that takes its place. Lists alone follow them.
+
+/// Which cells list a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
+    Conservative,
+    /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing): rays that pass
+    /// a listed triangle's neighbour are lost.
+    Hardware,
+}
+
+/// When a triangle that a ray meets is a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accept {
+    /// By its t, wherever it lies.
+    T,
+    /// Where the point projects into the tile that listed it (section 4.2.1): rounding at the tiles' borders loses hits, and
+    /// so does every tile that the march passes by.
+    Tile,
+}
+
+/// Where the search of a tile ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// At buckets behind the best hit.
+    Best,
+    /// After the first bucket with a hit (section 4.2.1): a nearer hit may stand in the next bucket alone.
+    Bucket,
+}
+
+/// What the depths of a triangle in a tile are, which choose its buckets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depths {
+    /// Those of all of it that lies in the tile.
+    Clipped,
+    /// Those of its plane at the tile's corners (section 4.1.1, as the authors' program clips): part of the triangle may lie
+    /// outside of them.
+    Corners,
+}
+
+/// How a ray goes on from a tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum March {
+    /// Over the boundary at which it leaves the tile.
+    Exact,
+    /// Half a pixel beyond that along the longer axis (the authors' program): tiles that are crossed in less are passed by.
+    Jump,
+}

@@ -1,0 +1,30 @@
+// What: files each triangle in the columns of each face that it reaches into, by drawing; the rasterizer proposes.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand.
+// Source: DIRT section 4.1; the same function decides as in the binning builder.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/brick_bin.glsl"
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+layout(location = 0) flat in uvec2 primitive_and_face;
+
+void main() {
+    ivec2 column = ivec2(gl_FragCoord.xy) - 1;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    BrickBin bin;
+    if (!bin_corners(primitive_built, primitive_and_face.x, a, b, c)
+        || !brick_bin_begin(primitive_grid(primitive_built), primitive_slices(primitive_built), primitive_and_face.x,
+            primitive_and_face.y, a, b, c, bin)
+        || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
+        return;
+    }
+    uint entries = brick_bin_columns(primitive_built, bin, column, column);
+    if (entries > 0u) {
+        atomicAdd(PRIMITIVE_HEADER(primitive_built).demand, entries);
+    }
+}

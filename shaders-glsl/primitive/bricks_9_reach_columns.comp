@@ -1,0 +1,42 @@
+// What: how far empty bricks reach towards lower and higher columns as well; one invocation a line of bricks along columns.
+// Reads: bricks. Writes: distances.
+// Source: not in the paper; ads/brick_distance.glsl.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/brick_accessors.glsl"
+#include "ads/brick_distance.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+void main() {
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint bricks = PRIMITIVE_HEADER(primitive_built).tiles >> 2;
+    uint deep = PRIMITIVE_HEADER(primitive_built).slices >> 2;
+    if (line >= VIEW_FACES * bricks * deep) {
+        return;
+    }
+    uint first = line / deep * bricks * deep + line % deep;
+    // Towards lower and higher slices.
+    uvec2 runs = uvec2(BRICK_RUNS_BEGIN);
+    for (uint x = 0u; x < bricks; x++) {
+        uint brick = first + x * deep;
+        uint word = PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)];
+        bool empty = brick_is_empty(word);
+        runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
+        runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
+        PRIMITIVE_DISTANCES(primitive_built)[brick] = brick_reach_of(runs.x) | brick_reach_of(runs.y) << 4;
+    }
+    runs = uvec2(BRICK_RUNS_BEGIN);
+    for (uint x = bricks; x-- > 0u;) {
+        uint brick = first + x * deep;
+        uint word = PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)];
+        bool empty = brick_is_empty(word);
+        runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
+        runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
+        PRIMITIVE_DISTANCES(primitive_built)[brick] |= brick_reach_of(runs.x) << 8 | brick_reach_of(runs.y) << 12;
+    }
+}

@@ -1,0 +1,55 @@
+// What: how far empty bricks reach towards all octants; one invocation a line of bricks along rows.
+// Reads: distances. Writes: bricks, of empty ones.
+// Source: not in the paper; ads/brick_distance.glsl.
+#version 460
+#include "contract/extensions.glsl"
+#include "primitive/brick_accessors.glsl"
+#include "ads/brick_distance.glsl"
+
+layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+// The runs of four octants with what a brick reaches towards each.
+void lengthen(inout uint runs[4], uint reaches) {
+    for (uint q = 0u; q < 4u; q++) {
+        runs[q] = brick_runs_with(runs[q], reaches >> (4u * q) & 15u);
+    }
+}
+
+uint reaches_of(uint runs[4]) {
+    return brick_reach_of(runs[0]) | brick_reach_of(runs[1]) << 4 | brick_reach_of(runs[2]) << 8 | brick_reach_of(runs[3]) << 12;
+}
+
+void main() {
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint bricks = PRIMITIVE_HEADER(primitive_built).tiles >> 2;
+    uint deep = PRIMITIVE_HEADER(primitive_built).slices >> 2;
+    if (line >= VIEW_FACES * bricks * deep) {
+        return;
+    }
+    uint stride = bricks * deep;
+    uint first = line / stride * bricks * stride + line % stride;
+    uint runs[4] = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    for (uint y = 0u; y < bricks; y++) {
+        uint brick = first + y * stride;
+        uint reaches = PRIMITIVE_DISTANCES(primitive_built)[brick];
+        lengthen(runs, reaches);
+        if (reaches != 0u) {
+            // Until the way back, the reaches towards lower rows.
+            PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
+        }
+    }
+    runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    for (uint y = bricks; y-- > 0u;) {
+        uint brick = first + y * stride;
+        uint reaches = PRIMITIVE_DISTANCES(primitive_built)[brick];
+        lengthen(runs, reaches);
+        if (reaches != 0u) {
+            uint lower = PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)] & 0xFFFFu;
+            PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+// What: the published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
+// Reads: header. Writes: nothing.
+// Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel are passed by.
+#ifndef PRIMITIVE_JUMP_GLSL
+#define PRIMITIVE_JUMP_GLSL
+
+#include "ads/march_leap.glsl"
+#include "primitive/header.glsl"
+
+// Half a pixel in x/z; a face is 2 wide.
+float primitive_half_pixel(PrimitiveRef s) {
+    return 1.0 / float(PRIMITIVE_HEADER(s).tiles * PRIMITIVE_HEADER(s).tile);
+}
+
+// Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the segment's end; false
+// behind it. A face takes at most two jumps a pixel and a step a tile.
+bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchLeap leap) {
+    m.neighbours = 0u;
+    if (!leap.step_x && !leap.step_y) {
+        return false;
+    }
+    precise vec2 ahead = m.direction.xy * m.origin.z;
+    precise vec2 behind = m.origin.xy * m.direction.z;
+    vec2 heading = abs(ahead - behind);
+    int axis = heading.x >= heading.y ? 0 : 1;
+    vec3 leaves = m.origin + leap.t_out * m.direction;
+    int way = m.step_direction[axis];
+    float landing = leaves[axis] / leaves.z + float(way) * primitive_half_pixel(s);
+    float error;
+    float t = march_crossing(landing, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
+    // Where rounding hides the half pixel the march is the exact one, so that every ray ends.
+    if (!(t > leap.t_out)) {
+        bool more = march_take_leap(m, leap);
+        m.neighbours = 0u;
+        return more;
+    }
+    // The paper marches up to the projection of the ray's end: its tile is the last.
+    if (!(t < m.t_end)) {
+        if (!(m.t_in < m.t_end) || m.t_end > 3.0e38) {
+            return false;
+        }
+        t = m.t_end;
+        error = 6.0e-8 * 16.0 * abs(t);
+    }
+    ivec2 cell = march_cell_at(m.origin, m.direction, t, m.resolution);
+    bvec2 up = greaterThan(m.step_direction, ivec2(0));
+    bvec2 still = equal(m.step_direction, ivec2(0));
+    // Never back.
+    m.cell = mix(mix(min(cell, m.cell), max(cell, m.cell), up), m.cell, still);
+    m.t_in = t;
+    m.error_in = error;
+    march_find_exit(m);
+    m.neighbours = 0u;
+    return true;
+}
+
+// Where the ray entered the tile it landed in, not before the segment.
+float primitive_jumped_entry(CellMarch m, float t_begin) {
+    float t_in = t_begin;
+    for (int axis = 0; axis < 2; axis++) {
+        int way = m.step_direction[axis];
+        if (way != 0) {
+            float error;
+            float side = cell_boundary(m.cell[axis] + (way > 0 ? 0 : 1), m.resolution);
+            float t = march_crossing(side, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
+            t_in = t < m.t_in ? max(t_in, t) : t_in;
+        }
+    }
+    return t_in;
+}
+
+#endif

@@ -1,0 +1,45 @@
+// What: the published rules of a ray in a tile: a hit must lie in the tile that listed it.
+// Reads: geometry. Writes: nothing.
+// Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding takes hits beside a border to the other tile, which may not
+// list the triangle or be passed by.
+#ifndef PRIMITIVE_RULES_GLSL
+#define PRIMITIVE_RULES_GLSL
+
+#include "ads/judge.glsl"
+#include "primitive/lists.glsl"
+
+// A tile of a face, and the ray in the face's space.
+struct PrimitiveTile {
+    vec3 origin;
+    vec3 direction;
+    ivec2 cell;
+};
+
+// Whether the point of the ray at t projects into the tile.
+bool primitive_in_tile(PrimitiveRef s, PrimitiveTile tile, float t) {
+    vec3 point = tile.origin + t * tile.direction;
+    vec2 place = (point.xy / point.z * 0.5 + 0.5) * float(PRIMITIVE_HEADER(s).tiles);
+    return point.z > 0.0 && all(equal(floor(place), vec2(tile.cell)));
+}
+
+// Tests a candidate that a tile lists. True if it became the best hit.
+bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, Ray ray, inout TraceState state) {
+    float infinity = uintBitsToFloat(0x7F800000u);
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    state.tests++;
+    uint verdict = judge_triangle(ray, state.best, primitive, -infinity, infinity, t, barycentrics, t_error);
+    if (verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
+        verdict = TEST_OUTSIDE_CELL;
+    }
+    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    if (verdict != TEST_ACCEPTED) {
+        return false;
+    }
+    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+    state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    return true;
+}
+
+#endif

@@ -1,0 +1,220 @@
+use rasray_ads::{Geometry, Structure, StructureKind};
+use rasray_systems::{Preset, Spec};
+
+use crate::harness::Bench;
+
+/// What is demanded of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Demand {
+    /// Every unambiguous ray finds its triangle at a t within the oracle's bounds of rounding, give or
+    /// take `rounding` (relative); ambiguous rays get an admissible answer.
+    Exact {
+        /// Relative to t.
+        rounding: f64,
+    },
+    /// The share of missed, false and (by `depth_tolerance`) wrong hits falls with the size of a cell: it is at
+    /// most `per_cell / resolution`, or what `laws` says for the case.
+    Law {
+        /// Cells a side of a face.
+        resolution: u32,
+        /// Of the unambiguous rays, times the resolution.
+        per_cell: f64,
+        /// |dt| / t that counts as right.
+        depth_tolerance: f64,
+        /// Cases with a factor of their own.
+        laws: &'static [Law],
+    },
+    /// Rules of a paper lose hits of a structure that finds triangles: the share of missed, false and wrong hits is at
+    /// most `share`, whatever the size of a cell.
+    Loss {
+        /// Of the unambiguous rays.
+        share: f64,
+        /// Of a hit that is right, relative to t.
+        rounding: f64,
+    },
+}
+
+impl Demand {
+    /// Which structures it is made of.
+    pub fn kind(&self) -> StructureKind {
+        match self {
+            Self::Exact { .. } => StructureKind::Primitive,
+            Self::Law { .. } => StructureKind::Fragment,
+            Self::Loss { .. } => StructureKind::LossyPrimitive,
+        }
+    }
+}
+
+/// A case whose errors fall with the size of a cell as well, from a higher start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// Id of the case.
+    pub case: &'static str,
+    /// Why it has more errors than others.
+    pub reason: &'static str,
+    /// Of the unambiguous rays, times the resolution.
+    pub per_cell: f64,
+    /// How the limit falls.
+    pub curve: Curve,
+}
+
+/// How the largest rate of a law falls with the resolution N.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Curve {
+    /// `per_cell / N`: each ray meets one border, whose share of the rays is as wide as a cell.
+    Line,
+    /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance that is
+    /// as wide as a cell and does not depend on the others.
+    Chances,
+}
+
+impl Law {
+    /// The largest rate at a resolution.
+    pub fn limit(&self, resolution: u32) -> f64 {
+        let width = self.per_cell / f64::from(resolution);
+        match self.curve {
+            Curve::Line => width,
+            Curve::Chances => -(-width).exp_m1(),
+        }
+    }
+}
+
+/// A case on which a row does not meet its demand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// Id of the case.
+    pub case: &'static str,
+    /// Why.
+    pub reason: &'static str,
+    /// The error rate is at least this: less is an unexpected pass.
+    pub at_least_rate: f64,
+    /// The error rate is at most this.
+    pub at_most_rate: f64,
+}
+
+/// Which cases a row is held against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cases {
+    /// All of them.
+    All,
+    /// All but [`DEEP`].
+    Shallow,
+    /// Only [`DEEP`].
+    Deep,
+}
+
+/// Cases whose hundreds of layers fill every cell: fragment structures meet them at a low resolution, since
+/// millions of fragments would show nothing else.
+pub const DEEP: &[&str] = &["C10", "Z6", "Z6-pixel", "Z7"];
+
+impl Cases {
+    /// Whether the case with this id is among them.
+    pub fn contain(self, id: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Shallow => !DEEP.contains(&id),
+            Self::Deep => DEEP.contains(&id),
+        }
+    }
+}
+
+/// When a row is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Tier {
+    /// In every run.
+    Quick,
+    /// Only where `RASRAY_FULL` is 1.
+    Full,
+}
+
+/// A system of the registry with a preset and options.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Unique; failures are reported under it.
+    pub name: &'static str,
+    /// Name of the system.
+    pub system: &'static str,
+    /// Its preset.
+    pub preset: Preset,
+    /// Options over the preset, by name.
+    pub options: &'static [(&'static str, &'static str)],
+    /// When it is held.
+    pub tier: Tier,
+    /// Against which cases.
+    pub cases: Cases,
+    /// What every case demands.
+    pub demand: Demand,
+    /// The cases that are known not to meet it. None may be listed for [`Demand::Exact`].
+    pub deviations: &'static [Deviation],
+}
+
+impl Row {
+    /// Makes the structure; its geometry is replaced for each case.
+    ///
+    /// # Panics
+    /// If the registry does not know the row's words, or the device refuses.
+    pub fn make(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
+        let options = self.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Spec::new(self.system, self.preset.name(), options)
+            .and_then(|spec| spec.create(bench.device(), geometry, None))
+            .unwrap_or_else(|error| panic!("row {} cannot be made: {error}", self.name))
+    }
+
+    /// How deep hits may be off in the error rate, and how far t may be beyond the oracle's bounds.
+    pub fn tolerances(&self) -> (f64, f64) {
+        match self.demand {
+            Demand::Exact { rounding } => (0.0, rounding),
+            Demand::Law { depth_tolerance, .. } => (depth_tolerance, 0.0),
+            Demand::Loss { rounding, .. } => (rounding, rounding),
+        }
+    }
+
+    /// Whether it has no views but the camera's, so that only what that sees is judged.
+    pub fn only_camera(&self) -> bool {
+        self.options.contains(&("views", "camera"))
+    }
+
+    /// Whether every answer must be right.
+    pub fn is_exact(&self) -> bool {
+        matches!(self.demand, Demand::Exact { .. })
+    }
+
+    /// What bounds its answers on a case, in words.
+    pub fn limit(&self, case: &str) -> String {
+        let deviation = self.deviations.iter().find(|deviation| deviation.case == case);
+        match (self.demand, deviation) {
+            (Demand::Exact { rounding }, _) => format!("t within {rounding:.1e} of the oracle's bounds"),
+            (_, Some(Deviation { reason, at_least_rate, at_most_rate, .. })) => {
+                format!("a deviation between {at_least_rate} and {at_most_rate}: {reason}")
+            }
+            (Demand::Law { resolution, per_cell, laws, .. }, None) => {
+                let law = laws.iter().find(|law| law.case == case);
+                let general = per_cell / f64::from(resolution);
+                let limit = law.map_or(general, |law| law.limit(resolution));
+                let reason = law.map_or_else(String::new, |law| format!(": {}", law.reason));
+                format!("at most {limit:.4} with {resolution} cells a side{reason}")
+            }
+            (Demand::Loss { share, .. }, None) => format!("at most {share}"),
+        }
+    }
+
+    /// The command that traces one ray of a case with this row's system and prints what it did.
+    pub fn replay_command(&self, case: &str, seed: u64, ray: usize) -> String {
+        let options: String =
+            self.options.iter().map(|(name, value)| format!(" {}.{name}={value}", self.system)).collect();
+        format!(
+            "rasray compare hard:{case} --systems {} --presets {} --seed {seed} --replay {ray}{options}",
+            self.system,
+            self.preset.name()
+        )
+    }
+}
+
+/// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test itself.
+pub(super) const ROUNDING: f64 = 64.0 / 16_777_216.0;
+
+/// What the published presets of fragment structures are held to.
+pub(super) const fn published_law(resolution: u32) -> Demand {
+    // A fragment is a depth at its cell's centre: surfaces that lean by 45 degrees are off by half a cell.
+    Demand::Law { resolution, per_cell: 1.92, depth_tolerance: 2e-2, laws: &[] }
+}

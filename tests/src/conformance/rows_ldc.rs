@@ -1,0 +1,47 @@
+//! Rows of the layered depth cube.
+
+use rasray_systems::Preset;
+
+use super::deviations_ldc;
+use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
+
+const fn ldc_law(resolution: u32) -> Demand {
+    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_ldc::ROBUST_LAWS }
+}
+
+const fn ldc(
+    name: &'static str,
+    preset: Preset,
+    options: &'static [(&'static str, &'static str)],
+    cases: Cases,
+    demand: Demand,
+    deviations: &'static [Deviation],
+) -> Row {
+    Row { name, system: "ldc", preset, options, tier: Tier::Quick, cases, demand, deviations }
+}
+
+/// All of them.
+pub(super) const ROWS: &[Row] = &[
+    ldc("ldc-robust-16", Preset::Robust, &[("resolution", "16")], Cases::Deep, ldc_law(16), &[]),
+    ldc("ldc-robust-64", Preset::Robust, &[("resolution", "64")], Cases::Shallow, ldc_law(64), &[]),
+    Row {
+        tier: Tier::Full,
+        ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
+    },
+    ldc(
+        "ldc-published-16",
+        Preset::Published,
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_ldc::PUBLISHED_16,
+    ),
+    ldc(
+        "ldc-published-64",
+        Preset::Published,
+        &[("resolution", "64")],
+        Cases::Shallow,
+        published_law(64),
+        deviations_ldc::PUBLISHED_64,
+    ),
+];

@@ -1,0 +1,89 @@
+//! Rows of Hu and of the selective variant.
+
+use rasray_systems::Preset;
+
+use super::deviations_voxel;
+use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
+
+const fn voxel_law(resolution: u32) -> Demand {
+    Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_voxel::LAWS }
+}
+
+const fn voxel(
+    name: &'static str,
+    (system, preset): (&'static str, Preset),
+    options: &'static [(&'static str, &'static str)],
+    cases: Cases,
+    demand: Demand,
+    deviations: &'static [Deviation],
+) -> Row {
+    Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
+}
+
+/// All of them.
+pub(super) const ROWS: &[Row] = &[
+    voxel(
+        "hu-robust-16",
+        ("hu", Preset::Robust),
+        &[("resolution", "16")],
+        Cases::Deep,
+        voxel_law(16),
+        deviations_voxel::ROBUST_16,
+    ),
+    voxel(
+        "hu-robust-64",
+        ("hu", Preset::Robust),
+        &[("resolution", "64")],
+        Cases::Shallow,
+        voxel_law(64),
+        deviations_voxel::ROBUST_64,
+    ),
+    voxel(
+        "hu-robust-128",
+        ("hu", Preset::Robust),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        voxel_law(128),
+        deviations_voxel::ROBUST_128,
+    ),
+    voxel(
+        "hu-published-16",
+        ("hu", Preset::Published),
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_voxel::HU_16,
+    ),
+    voxel(
+        "hu-published-128",
+        ("hu", Preset::Published),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        published_law(128),
+        deviations_voxel::HU_128,
+    ),
+    voxel(
+        "selective-robust-16",
+        ("selective", Preset::Robust),
+        &[("resolution", "16")],
+        Cases::Deep,
+        voxel_law(16),
+        deviations_voxel::ROBUST_16,
+    ),
+    voxel(
+        "selective-published-16",
+        ("selective", Preset::Published),
+        &[("resolution", "16")],
+        Cases::Deep,
+        published_law(16),
+        deviations_voxel::SELECTIVE_16,
+    ),
+    voxel(
+        "selective-published-128",
+        ("selective", Preset::Published),
+        &[("resolution", "128")],
+        Cases::Shallow,
+        published_law(128),
+        deviations_voxel::SELECTIVE_128,
+    ),
+];

@@ -1,0 +1,29 @@
+//! Records of A-buffers.
+
+use rasray_abuffer::Header;
+use rasray_shaders_glsl as shaders;
+
+#[test]
+fn records_of_the_abuffer() {
+    let modules = [
+        &shaders::ABUFFER_BUILD_1_NEAR,
+        &shaders::ABUFFER_BUILD_RASTER,
+        &shaders::ABUFFER_BUILD_2_BOUNDS,
+        &shaders::ABUFFER_BUILD_3_SCALE,
+        &shaders::ABUFFER_BUILD_4_COUNT,
+        &shaders::ABUFFER_BUILD_5_SCAN_BLOCKS,
+        &shaders::ABUFFER_BUILD_5_SCAN_SUMS,
+        &shaders::ABUFFER_BUILD_5_SCAN_PLACES,
+        &shaders::ABUFFER_BUILD_6_STORE,
+        &shaders::ABUFFER_BUILD_7_REORDER,
+        &shaders::ABUFFER_BUILD_8_REORDER_LONG,
+        &shaders::ABUFFER_BUILD_9_STATUS,
+        &shaders::ABUFFER_TRACE_CLOSEST,
+    ];
+    check_layout!(modules, Header as "AbufferHeader" {
+        status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
+        thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_resolution,
+        camera_x, camera_y, camera_z,
+        bounds_address, lists_address, nodes_address, data_address, near_address, sums_address, long_address,
+    });
+}

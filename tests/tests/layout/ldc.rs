@@ -1,0 +1,33 @@
+//! Records of layered depth cubes.
+
+use rasray_shaders_glsl as shaders;
+
+use crate::reader::read_by_us;
+
+#[test]
+fn records_of_layered_depth_cubes() {
+    let modules = [
+        &shaders::LDC_BUILD_RASTER,
+        &shaders::LDC_BUILD_RASTER_FRINGE,
+        &shaders::LDC_BUILD_1_COUNT,
+        &shaders::LDC_BUILD_2_SCAN_BLOCKS,
+        &shaders::LDC_BUILD_2_SCAN_SUMS,
+        &shaders::LDC_BUILD_2_SCAN_PLACES,
+        &shaders::LDC_BUILD_3_STORE,
+        &shaders::LDC_BUILD_3_PEEL,
+        &shaders::LDC_BUILD_4_SORT,
+        &shaders::LDC_BUILD_5_SORT_LONG,
+        &shaders::LDC_BUILD_6_FRINGE,
+        &shaders::LDC_BUILD_7_STATUS,
+        &shaders::LDC_TRACE_CLOSEST,
+        &shaders::LDC_TRACE_OCCLUDED,
+    ];
+    check_layout!(modules, rasray_ldc::Header as "LdcHeader" {
+        status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
+        tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
+        depths_address, primitives_address, blocks_address, heads_address, fringe_address, scratch_address,
+        layer_capacity, layer_limit, beyond, spare,
+    });
+    let by_address = &read_by_us(&shaders::LDC_TRACE_CLOSEST_ADDRESS)["LdcHeader"];
+    assert_eq!(*by_address, read_by_us(&shaders::LDC_TRACE_CLOSEST)["LdcHeader"]);
+}
