@@ -5,7 +5,6 @@
 #define LDC_ACCESSORS_GLSL
 
 #include "ads/axis_views.glsl"
-#include "ads/bucket.glsl"
 #include "ads/constants.glsl"
 #include "ldc/header.glsl"
 
@@ -53,45 +52,6 @@ uint ldc_cell(LdcRef s, uint axis, ivec2 cell) {
     return axis_cell_index(axis, cell, LDC_HEADER(s).resolution);
 }
 
-// Cells a side of a block of a level.
-uint ldc_block_cells(uint level) {
-    return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
-}
-
-// Blocks of a level a side of a view; the last ones may reach beyond its cells.
-uint ldc_blocks_a_side(LdcRef s, uint level) {
-    return (LDC_HEADER(s).resolution + ldc_block_cells(level) - 1u) / ldc_block_cells(level);
-}
-
-// Running index of a block; those of the second level follow the others.
-uint ldc_block(LdcRef s, uint level, uint axis, ivec2 block) {
-    uint side = ldc_blocks_a_side(s, 0u);
-    uint before = level == 0u ? 0u : AXIS_VIEWS * side * side;
-    return before + axis_cell_index(axis, block, ldc_blocks_a_side(s, level));
-}
-
-// Words of a block.
-uint ldc_block_stride() {
-    return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
-}
-
-// Bits of the slices that depths from low to high lie in. The slice of a depth is monotone, so that no depth between
-// lies beside them.
-uvec2 ldc_slices(LdcRef s, float z_low, float z_high) {
-    float scale = LDC_HEADER(s).slices_a_metre;
-    int first = int(bucket_of(z_low, 0.0, scale, LDC_SLICES));
-    int last = int(bucket_of(z_high, 0.0, scale, LDC_SLICES));
-    uvec2 bits = uvec2(0u);
-    for (int word = 0; word < 2; word++) {
-        int from = max(first - 32 * word, 0);
-        int to = min(last - 32 * word, 31);
-        if (from <= to) {
-            bits[word] = 0xFFFFFFFFu << uint(from) & 0xFFFFFFFFu >> uint(31 - to);
-        }
-    }
-    return bits;
-}
-
 bool ldc_fragments_fit(LdcRef s) {
     return LDC_HEADER(s).demand <= LDC_HEADER(s).capacity;
 }
@@ -101,11 +61,16 @@ uint ldc_aligned(uint place) {
     return LDC_DEPTH_BITS == 16u ? (place + 1u) & ~1u : place;
 }
 
-// Places of a cell's list: first, and one past the last. A list that leaves the pool is counted and empty.
-uvec2 ldc_list(LdcRef s, uint cell) {
+// Places that hold fragments.
+uint ldc_places(LdcRef s) {
+    return min(LDC_HEADER(s).capacity, LDC_HEADER(s).demand);
+}
+
+// Places of a cell's list: first, and one past the last. A list that leaves the `places` there are is counted and empty.
+uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     uint begin = cell == 0u ? 0u : ldc_aligned(LDC_LISTS(s)[cell - 1u]);
     uint end = LDC_LISTS(s)[cell];
-    if (begin > end || end > min(LDC_HEADER(s).capacity, LDC_HEADER(s).demand)) {
+    if (begin > end || end > places) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
         return uvec2(0u);
     }
@@ -182,33 +147,6 @@ void ldc_set_bits(LdcRef s, uint place, uint bits) {
     } else {
         LDC_DEPTHS(s)[place] = bits;
     }
-}
-
-// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so that a cleared
-// block is empty and both ends are maxima; depths are not negative, and order like their bits. Words only grow and most
-// fragments find theirs as large: reading first spares atomics.
-void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
-    uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
-    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(s, z_low, z_high) : uvec2(0u);
-    for (uint level = 0u; level < LDC_LEVELS; level++) {
-        uint word = ldc_block_stride() * ldc_block(s, level, axis, cell / int(ldc_block_cells(level)));
-        for (uint side = 0u; side < 2u; side++) {
-            if (LDC_BLOCKS(s)[word + side] < ends[side]) {
-                atomicMax(LDC_BLOCKS(s)[word + side], ends[side]);
-            }
-            if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && (slices[side] & ~LDC_BLOCKS(s)[word + 2u + side]) != 0u) {
-                atomicOr(LDC_BLOCKS(s)[word + 2u + side], slices[side]);
-            }
-        }
-    }
-}
-
-LdcBlock ldc_block_depths(LdcRef s, uint level, uint axis, ivec2 block) {
-    uint word = ldc_block_stride() * ldc_block(s, level, axis, block);
-    uint low = LDC_BLOCKS(s)[word];
-    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES
-        ? uvec2(LDC_BLOCKS(s)[word + 2u], LDC_BLOCKS(s)[word + 3u]) : uvec2(0xFFFFFFFFu);
-    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]), slices);
 }
 
 // Puts a triangle into a cell's fringe, or counts that there was no room for it. Links are node number + 1; 0

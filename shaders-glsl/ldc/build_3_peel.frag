@@ -4,7 +4,7 @@
 // Source: Bürger et al. section 1.2, depth peeling; triangles tell equal depths apart, so that none is lost.
 #version 460
 #include "contract/extensions.glsl"
-#include "ldc/accessors.glsl"
+#include "ldc/blocks.glsl"
 #include "ldc/raster.glsl"
 #include "contract/alpha.glsl"
 

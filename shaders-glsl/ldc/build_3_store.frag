@@ -3,7 +3,7 @@
 // Source: Bürger et al. sections 1.2 and 1.3: all layers in one pass instead of one a layer.
 #version 460
 #include "contract/extensions.glsl"
-#include "ldc/accessors.glsl"
+#include "ldc/blocks.glsl"
 #include "ldc/raster.glsl"
 #include "contract/alpha.glsl"
 

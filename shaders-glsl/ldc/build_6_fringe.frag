@@ -5,14 +5,14 @@
 // Source: not in the paper, whose rays pass between the views' cells there.
 #version 460
 #include "contract/extensions.glsl"
-#include "ldc/accessors.glsl"
+#include "ldc/blocks.glsl"
 #include "ldc/raster.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
 // Whether the plane of a fragment of the cell passes within `close` metres of this point of the triangle, in the view.
 bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
-    uvec2 list = ldc_list(ldc_built, cell);
+    uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
     if (list.y - list.x > LDC_FRINGE_LIMIT) {
         return false;
     }

@@ -12,8 +12,19 @@
 // Lists at least this long are entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
 
+// What every step needs of the header, read once.
+struct LdcSizes {
+    uint resolution;      // cells a side
+    uint places;          // that hold fragments
+    float cell;           // metres: side of a cell
+    float slices_a_metre;
+    float margin;         // metres: see ldc_margin
+    float slack;          // t by which a fragment can be hit before or behind its stretch
+};
+
 // One search, able to stop between two entries.
 struct LdcSearch {
+    LdcSizes sizes;
     uint axis;
     ivec2 cell;
     float t_low;          // the ray's stretch in the cell, widened by its rounding
@@ -40,6 +51,11 @@ float ldc_slack(LdcRef s, Ray ray) {
     return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
 }
 
+LdcSizes ldc_sizes(LdcRef s, Ray ray) {
+    return LdcSizes(LDC_HEADER(s).resolution, ldc_places(s), LDC_HEADER(s).cell, LDC_HEADER(s).slices_a_metre, ldc_margin(s),
+        ldc_slack(s, ray));
+}
+
 // Depths that the ray has between two t, widened by their rounding.
 vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_high) {
     float z_in = z_origin + t_low * z_direction;
@@ -60,8 +76,8 @@ void ldc_test(LdcRef s, Ray ray, LdcSearch search, uint primitive, bool plane, i
     Hit rival = state.best;
     rival.primitive = rival.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
     if (plane) {
-        float cell = LDC_HEADER(s).cell;
-        float slack = ldc_slack(s, ray);
+        float cell = search.sizes.cell;
+        float slack = search.sizes.slack;
         verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
             search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
         // A surface that the ray leaves is met close to its origin, if at all.
@@ -91,12 +107,12 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 normal = triangle_permute(cross(b - a, c - a), search.axis);
     float rise = 0.5 * (abs(normal.x) + abs(normal.y)) / max(abs(normal.z), 1.0e-30);
     float last_place = LDC_DEPTH_BITS == 16u ? ldc_depth_rounding(s) : 1.2e-7 * z;
-    return max(min(rise, 1.0) * LDC_HEADER(s).cell, 2.0 * last_place);
+    return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
 // Judges a fragment by its depth: the hit is where the ray passes it, within the cell.
 void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint primitive, float z, inout TraceState state) {
-    float tolerance = LDC_ACCEPT == LDC_ACCEPT_TOLERANCE ? LDC_HEADER(s).tolerance
+    float tolerance = LDC_ACCEPT == LDC_ACCEPT_TOLERANCE ? search.sizes.margin
         : ldc_slope_tolerance(s, search, primitive, z);
     float t = search.z_direction == 0.0 ? search.t_low
         : clamp((z - search.z_origin) / search.z_direction, search.t_low, search.t_high);
@@ -159,12 +175,11 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
 
 // Searches a cell; true if the work budget ended first.
 bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout TraceState state, inout uint work) {
-    uint cell = ldc_cell(s, search.axis, search.cell);
+    uint cell = axis_cell_index(search.axis, search.cell, search.sizes.resolution);
     if (!search.in_fringe) {
-        uvec2 list = ldc_list(s, cell);
+        uvec2 list = ldc_list(s, cell, search.sizes.places);
         vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
-        float margin = ldc_margin(s);
-        vec2 wanted = vec2(depths.x - margin, depths.y + margin);
+        vec2 wanted = vec2(depths.x - search.sizes.margin, depths.y + search.sizes.margin);
         if (!search.begun) {
             trace_log(STEP_LIST, 0u, list.x, 0u, wanted.x, wanted.y);
             search.begun = true;

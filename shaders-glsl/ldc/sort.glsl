@@ -33,7 +33,7 @@ void sort_swap(uint i, uint j) {
 }
 
 uint sort_begin(LdcRef s, uint cell) {
-    uvec2 list = ldc_list(s, cell);
+    uvec2 list = ldc_list(s, cell, ldc_places(s));
     sorted_structure = s;
     sorted_from = list.x;
     return list.y - list.x;

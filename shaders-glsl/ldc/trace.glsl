@@ -15,8 +15,9 @@
 #define LDC_CURSOR_IN_FRINGE 8u
 #define LDC_CURSOR_IN_UPPER 64u
 
+// A column without rows may stand at row -1.
 uint ldc_pack_cell(ivec2 cell) {
-    return uint(cell.x) | uint(cell.y) << 16;
+    return (uint(cell.x) & 0xFFFFu) | uint(cell.y) << 16;
 }
 
 ivec2 ldc_unpack_cell(uint word) {
@@ -34,7 +35,7 @@ void ldc_save(LdcWalk walk, uint turn, LdcSearch search, inout TraceState state)
     state.cursor[4] = search.place;
 }
 
-void ldc_restore(LdcRef s, TraceState state, inout LdcWalk walk, inout LdcSearch search) {
+void ldc_restore(TraceState state, inout LdcWalk walk, inout LdcSearch search) {
     uint flags = state.cursor[0];
     vec2 stretch = vec2(walk.t_begin, walk.t_end);
     ivec2 square = ivec2(0);
@@ -43,21 +44,21 @@ void ldc_restore(LdcRef s, TraceState state, inout LdcWalk walk, inout LdcSearch
     walk.in_block = (flags & LDC_CURSOR_IN_BLOCK) != 0u;
     // Each walk has begun before, so it begins.
     if (LDC_SKIP != 0u && LDC_LEVELS == 2u) {
-        ldc_begin_level(s, walk, 1u, false, square, stretch, walk.upper);
+        ldc_begin_level(walk, 1u, false, square, stretch, walk.upper);
         square = ldc_unpack_cell(state.cursor[1]);
         ldc_march_resume(walk.flat_ray, square, walk.upper);
         stretch = ldc_block_stretch(walk, 1u, square);
         within = true;
     }
     if (LDC_SKIP != 0u && walk.in_upper) {
-        ldc_begin_level(s, walk, 0u, within, square, stretch, walk.blocks);
+        ldc_begin_level(walk, 0u, within, square, stretch, walk.blocks);
         square = ldc_unpack_cell(state.cursor[2]);
         ldc_march_resume(walk.flat_ray, square, walk.blocks);
         stretch = ldc_block_stretch(walk, 0u, square);
         within = true;
     }
     if (walk.in_block) {
-        ldc_begin_level(s, walk, 2u, within, square, stretch, walk.cells);
+        ldc_begin_level(walk, 2u, within, square, stretch, walk.cells);
         ldc_march_resume(walk.flat_ray, ldc_unpack_cell(state.cursor[3]), walk.cells);
     }
     search.begun = (flags & LDC_CURSOR_BEGUN) != 0u;
@@ -87,16 +88,16 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
 }
 
 // Begins the walk through a view; false where the ray does not meet it.
-bool ldc_begin_view(LdcRef s, vec2 clip, inout LdcWalk walk) {
+bool ldc_begin_view(vec2 clip, inout LdcWalk walk) {
     if (LDC_SKIP == 0u) {
         walk.in_upper = true;
-        walk.in_block = ldc_begin_level(s, walk, 2u, false, ivec2(0), clip, walk.cells);
+        walk.in_block = ldc_begin_level(walk, 2u, false, ivec2(0), clip, walk.cells);
         return walk.in_block;
     }
     if (LDC_LEVELS == 2u) {
-        return ldc_begin_level(s, walk, 1u, false, ivec2(0), clip, walk.upper);
+        return ldc_begin_level(walk, 1u, false, ivec2(0), clip, walk.upper);
     }
-    walk.in_upper = ldc_begin_level(s, walk, 0u, false, ivec2(0), clip, walk.blocks);
+    walk.in_upper = ldc_begin_level(walk, 0u, false, ivec2(0), clip, walk.blocks);
     return walk.in_upper;
 }
 
@@ -113,52 +114,50 @@ bool ldc_next_block(inout LdcWalk walk) {
     return LDC_LEVELS == 2u && ldc_march_next(walk.flat_ray, walk.upper);
 }
 
-// Enters the block that the walk is at, of either level, or goes to the next; false at the end of the view.
-bool ldc_enter_block(LdcRef s, inout LdcWalk walk, inout TraceState state, inout uint work) {
+// What becomes of a square of blocks.
+#define LDC_PASSED_OVER 0u
+#define LDC_MET 1u
+#define LDC_BEHIND 2u
+
+// Looks at the block that a walk over a level is at, and begins the walk over the level within it where it is met.
+uint ldc_look(LdcRef s, LdcWalk walk, uint level, uint inner, LdcMarch march, inout LdcMarch within, inout TraceState state,
+    inout uint work) {
     work++;
-    uint level = walk.in_upper ? 0u : 1u;
-    LdcMarch march = walk.upper;
-    if (walk.in_upper) {
-        march = walk.blocks;
-    }
-    if (march.rows <= 0) {
-        return ldc_next_block(walk);
-    }
     ivec2 block = ldc_march_square(walk.flat_ray, march);
     vec2 stretch = ldc_block_stretch(walk, level, block);
-    if (!(stretch.x <= stretch.y)) {
-        return ldc_next_block(walk);
+    if (march.rows <= 0 || !(stretch.x <= stretch.y)) {
+        return LDC_PASSED_OVER;
     }
     if (ldc_is_behind(walk, stretch.x, state.best.t)) {
         trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
-        return false;
+        return LDC_BEHIND;
     }
     state.entries++;
     bool met = ldc_block_is_met(s, walk, level, block, stretch)
-        && ldc_begin_level(s, walk, level == 1u ? 0u : 2u, true, block, stretch, march);
-    if (!met) {
-        return ldc_next_block(walk);
-    }
-    if (level == 1u) {
-        walk.blocks = march;
-        walk.in_upper = true;
-    } else {
-        walk.cells = march;
-        walk.in_block = true;
-    }
-    return true;
+        && ldc_begin_level(walk, inner, true, block, stretch, within);
+    return met ? LDC_MET : LDC_PASSED_OVER;
 }
 
-// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Blocks and cells have a
-// loop each: invocations that run side by side pay for all that one of them does in a turn.
+// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Every level has a loop
+// of its own: invocations that run side by side pay for all that one of them does in a turn.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcWalk walk, inout LdcSearch search,
     inout TraceState state, inout uint work) {
     while (more) {
-        while (more && !walk.in_block) {
+        while (more && !walk.in_upper) {
             if (work >= WORK_BUDGET) {
                 return true;
             }
-            more = ldc_enter_block(s, walk, state, work);
+            uint found = ldc_look(s, walk, 1u, 0u, walk.upper, walk.blocks, state, work);
+            walk.in_upper = found == LDC_MET;
+            more = walk.in_upper || (found == LDC_PASSED_OVER && ldc_march_next(walk.flat_ray, walk.upper));
+        }
+        while (more && walk.in_upper && !walk.in_block) {
+            if (work >= WORK_BUDGET) {
+                return true;
+            }
+            uint found = ldc_look(s, walk, 0u, 2u, walk.blocks, walk.cells, state, work);
+            walk.in_block = found == LDC_MET;
+            more = walk.in_block || (found == LDC_PASSED_OVER && ldc_next_block(walk));
         }
         while (more && walk.in_block) {
             if (work >= WORK_BUDGET) {
@@ -199,6 +198,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
         return TRACE_MISS;
     }
     bool ordered = LDC_HEADER(s).unsorted == 0u;
+    LdcSizes sizes = ldc_sizes(s, ray);
     vec2 clip = ldc_clip(s, ray);
     if (!(clip.x <= clip.y)) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, clip.x, clip.y);
@@ -210,8 +210,9 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint first_axis = triangle_major_axis(ray.direction);
     for (uint turn = restored ? (state.cursor[0] >> 4) & 3u : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;
-        LdcWalk walk = ldc_begin_walk(s, ray, axis, clip.x, clip.y);
+        LdcWalk walk = ldc_begin_walk(s, ray, sizes, axis, clip.x, clip.y);
         LdcSearch search;
+        search.sizes = sizes;
         search.axis = axis;
         search.z_origin = walk.z_origin;
         search.z_direction = walk.z_direction;
@@ -220,11 +221,11 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
         search.place = 0u;
         bool more = true;
         if (restored) {
-            ldc_restore(s, state, walk, search);
+            ldc_restore(state, walk, search);
             restored = false;
         } else {
             trace_log(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
-            more = ldc_begin_view(s, clip, walk);
+            more = ldc_begin_view(clip, walk);
         }
         if (ldc_trace_view(s, ray, any_hit, ordered, more, walk, search, state, work)) {
             ldc_save(walk, turn, search, state);

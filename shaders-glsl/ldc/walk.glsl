@@ -7,10 +7,12 @@
 #define LDC_WALK_GLSL
 
 #include "contract/trace_log.glsl"
+#include "ldc/blocks.glsl"
 #include "ldc/march.glsl"
 #include "ldc/search.glsl"
 
 struct LdcWalk {
+    LdcSizes sizes;
     uint axis;
     float t_begin;        // where the ray is within the geometry's bounds
     float t_end;
@@ -20,7 +22,6 @@ struct LdcWalk {
     float z_origin;       // metres
     float z_direction;
     float shift;          // bound of |origin / direction|
-    float slack;          // t by which a fragment can be hit before its stretch
     LdcFlatRay flat_ray;
     LdcMarch upper;       // blocks of blocks, with two levels only
     LdcMarch blocks;
@@ -29,8 +30,9 @@ struct LdcWalk {
     bool in_block;
 };
 
-LdcWalk ldc_begin_walk(LdcRef s, Ray ray, uint axis, float t_begin, float t_end) {
+LdcWalk ldc_begin_walk(LdcRef s, Ray ray, LdcSizes sizes, uint axis, float t_begin, float t_end) {
     LdcWalk walk;
+    walk.sizes = sizes;
     AxisView view = ldc_view(s, axis);
     float per_metre = 1.0 / view.cell;
     vec3 scale = vec3(per_metre, per_metre, per_metre / float(view.resolution));
@@ -45,7 +47,6 @@ LdcWalk ldc_begin_walk(LdcRef s, Ray ray, uint axis, float t_begin, float t_end)
     walk.direction = direction * scale;
     walk.inverse = vec2(0.0);
     walk.shift = 0.0;
-    walk.slack = ldc_slack(s, ray);
     for (int side = 0; side < 2; side++) {
         float inverse = 1.0 / walk.direction[side];
         // Comparisons with infinity and NaN are false.
@@ -87,15 +88,15 @@ vec2 ldc_block_stretch(LdcWalk walk, uint level, ivec2 block) {
 // Whether nothing in a stretch that begins at t_low, or later on the way, can be nearer than the best hit. What comes
 // later may begin earlier by as much as a stretch is widened for its rounding.
 bool ldc_is_behind(LdcWalk walk, float t_low, float best_t) {
-    return t_low - walk.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * walk.shift) > best_t;
+    return t_low - walk.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * walk.shift) > best_t;
 }
 
 // Begins the walk over the blocks of a level, or over cells (level 2), in a block of the level above or in all of the view;
 // false where the stretch has none. What it touches beside the block belongs to blocks that are walked over as well.
-bool ldc_begin_level(LdcRef s, LdcWalk walk, uint level, bool within, ivec2 block, vec2 stretch, out LdcMarch march) {
+bool ldc_begin_level(LdcWalk walk, uint level, bool within, ivec2 block, vec2 stretch, out LdcMarch march) {
     int width = level == 2u ? 1 : int(ldc_block_cells(level));
     ivec2 first = ivec2(0);
-    ivec2 last = ivec2(int(level == 2u ? LDC_HEADER(s).resolution : ldc_blocks_a_side(s, level)) - 1);
+    ivec2 last = ivec2(int(level == 2u ? walk.sizes.resolution : ldc_blocks_a_side(walk.sizes.resolution, level)) - 1);
     if (within) {
         int inside = int(level == 2u ? LDC_BLOCK : LDC_LEVEL_BLOCKS);
         first = block * inside;
@@ -107,8 +108,9 @@ bool ldc_begin_level(LdcRef s, LdcWalk walk, uint level, bool within, ivec2 bloc
 
 // Whether a block holds depths that the ray has in its stretch.
 bool ldc_block_is_met(LdcRef s, LdcWalk walk, uint level, ivec2 block, vec2 stretch) {
-    LdcBlock held = ldc_block_depths(s, level, walk.axis, block);
-    float margin = ldc_margin(s);
+    uint place = ldc_block(walk.sizes.resolution, level, walk.axis, block);
+    LdcBlock held = ldc_block_depths(s, place);
+    float margin = walk.sizes.margin;
     vec2 depths = ldc_depths_between(walk.z_origin, walk.z_direction, stretch.x, stretch.y);
     // The depths of a cell round differently.
     float rounding = 4.8e-7 * (abs(walk.z_origin) + max(abs(stretch.x), abs(stretch.y)) * abs(walk.z_direction));
@@ -116,9 +118,9 @@ bool ldc_block_is_met(LdcRef s, LdcWalk walk, uint level, ivec2 block, vec2 stre
     float high = depths.y + margin + rounding;
     bool met = !held.empty && low <= held.z_max && high >= held.z_min;
     if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && met) {
-        met = any(notEqual(ldc_slices(s, low, high) & held.slices, uvec2(0u)));
+        met = any(notEqual(ldc_slices(walk.sizes.slices_a_metre, low, high) & held.slices, uvec2(0u)));
     }
-    trace_log(STEP_NODE, ldc_block(s, level, walk.axis, block), 0u, 0u, stretch.x, stretch.y);
+    trace_log(STEP_NODE, place, 0u, 0u, stretch.x, stretch.y);
     if (!met) {
         trace_log(STEP_SKIP, held.empty ? SKIP_EMPTY : SKIP_OUTSIDE, 0u, 0u, depths.x, depths.y);
     }

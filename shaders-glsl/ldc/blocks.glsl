@@ -1,0 +1,76 @@
+// What: the blocks of a layered depth cube, of both levels: which there are, and what depths they hold.
+// Reads, writes: header, blocks.
+// Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not in the paper.
+#ifndef LDC_BLOCKS_GLSL
+#define LDC_BLOCKS_GLSL
+
+#include "ads/bucket.glsl"
+#include "ldc/accessors.glsl"
+
+// Cells a side of a block of a level.
+uint ldc_block_cells(uint level) {
+    return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
+}
+
+// Blocks of a level a side of a view; the last ones may reach beyond its cells.
+uint ldc_blocks_a_side(uint resolution, uint level) {
+    return (resolution + ldc_block_cells(level) - 1u) / ldc_block_cells(level);
+}
+
+// Running index of a block; those of the second level follow the others.
+uint ldc_block(uint resolution, uint level, uint axis, ivec2 block) {
+    uint side = ldc_blocks_a_side(resolution, 0u);
+    uint before = level == 0u ? 0u : AXIS_VIEWS * side * side;
+    return before + axis_cell_index(axis, block, ldc_blocks_a_side(resolution, level));
+}
+
+// Words of a block.
+uint ldc_block_stride() {
+    return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
+}
+
+// Bits of the slices that depths from low to high lie in. The slice of a depth is monotone, so that no depth between
+// lies beside them.
+uvec2 ldc_slices(float slices_a_metre, float z_low, float z_high) {
+    int first = int(bucket_of(z_low, 0.0, slices_a_metre, LDC_SLICES));
+    int last = int(bucket_of(z_high, 0.0, slices_a_metre, LDC_SLICES));
+    uvec2 bits = uvec2(0u);
+    for (int word = 0; word < 2; word++) {
+        int from = max(first - 32 * word, 0);
+        int to = min(last - 32 * word, 31);
+        if (from <= to) {
+            bits[word] = 0xFFFFFFFFu << uint(from) & 0xFFFFFFFFu >> uint(31 - to);
+        }
+    }
+    return bits;
+}
+
+// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so that a cleared
+// block is empty and both ends are maxima; depths are not negative, and order like their bits. Words only grow and most
+// fragments find theirs as large: reading first spares atomics.
+void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
+    uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
+    uint resolution = LDC_HEADER(s).resolution;
+    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(LDC_HEADER(s).slices_a_metre, z_low, z_high) : uvec2(0u);
+    for (uint level = 0u; level < LDC_LEVELS; level++) {
+        uint word = ldc_block_stride() * ldc_block(resolution, level, axis, cell / int(ldc_block_cells(level)));
+        for (uint side = 0u; side < 2u; side++) {
+            if (LDC_BLOCKS(s)[word + side] < ends[side]) {
+                atomicMax(LDC_BLOCKS(s)[word + side], ends[side]);
+            }
+            if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && (slices[side] & ~LDC_BLOCKS(s)[word + 2u + side]) != 0u) {
+                atomicOr(LDC_BLOCKS(s)[word + 2u + side], slices[side]);
+            }
+        }
+    }
+}
+
+LdcBlock ldc_block_depths(LdcRef s, uint block) {
+    uint word = ldc_block_stride() * block;
+    uint low = LDC_BLOCKS(s)[word];
+    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES
+        ? uvec2(LDC_BLOCKS(s)[word + 2u], LDC_BLOCKS(s)[word + 3u]) : uvec2(0xFFFFFFFFu);
+    return LdcBlock(low == 0u, uintBitsToFloat(~low), uintBitsToFloat(LDC_BLOCKS(s)[word + 1u]), slices);
+}
+
+#endif
