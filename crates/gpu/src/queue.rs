@@ -39,13 +39,19 @@ pub struct Submitted<R> {
 }
 
 impl Device {
-    /// Records commands, submits them and waits up to 60 seconds.
+    /// How long [`Device::submit`] and [`Device::submit_passes`] wait: 60 seconds, and ten minutes on a software driver,
+    /// whose passes take hundreds of times as long and hold up no display.
+    pub fn timeout(&self) -> Duration {
+        Duration::from_secs(if self.is_software() { 600 } else { 60 })
+    }
+
+    /// Records commands, submits them and waits up to [`Device::timeout`].
     ///
     /// # Errors
     /// The first mistake of the recording, [`GpuError::Timeout`], [`GpuError::DeviceLost`],
     /// [`GpuError::Abandoned`], or what the driver reports.
     pub fn submit<R>(&self, record: impl FnOnce(&mut Recorder<'_>) -> R) -> Result<Submitted<R>> {
-        self.submit_with(&SubmitOptions::default(), record)
+        self.submit_passes(Timing::None, record)
     }
 
     /// As [`Device::submit`], with times of the passes.
@@ -58,7 +64,7 @@ impl Device {
         timing: Timing,
         record: impl FnOnce(&mut Recorder<'_>) -> R,
     ) -> Result<Submitted<R>> {
-        self.submit_with(&SubmitOptions { timing, ..SubmitOptions::default() }, record)
+        self.submit_with(&SubmitOptions { timing, timeout: self.timeout() }, record)
     }
 
     /// As [`Device::submit`], with options.
