@@ -109,6 +109,15 @@ ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
 }
 
+// A square as one word: 16 bits a side. A column without rows may stand at row -1, or one past the last.
+uint ldc_march_pack(ivec2 square) {
+    return (uint(square.x) & 0xFFFFu) | uint(square.y) << 16;
+}
+
+ivec2 ldc_march_unpack(uint word) {
+    return ivec2(int(word << 16) >> 16, int(word) >> 16);
+}
+
 // Takes a walk that has begun to the square where another one of the same ray stood.
 void ldc_march_resume(LdcFlatRay ray, ivec2 square, inout LdcMarch march) {
     ivec2 place = ray.turned ? square.yx : square;

@@ -1,70 +1,12 @@
 // What: follows a ray through the three views, one after the other; each can only bring the end of the ray nearer.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4.
-// cursor: 0 flags and view, 1 block of the second level, 2 block, 3 cell, 4 place within what is being searched.
 #ifndef LDC_TRACE_GLSL
 #define LDC_TRACE_GLSL
 
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
-#include "ldc/walk.glsl"
-
-#define LDC_CURSOR_STARTED 1u
-#define LDC_CURSOR_IN_BLOCK 2u
-#define LDC_CURSOR_BEGUN 4u
-#define LDC_CURSOR_IN_FRINGE 8u
-#define LDC_CURSOR_IN_UPPER 64u
-
-// A column without rows may stand at row -1.
-uint ldc_pack_cell(ivec2 cell) {
-    return (uint(cell.x) & 0xFFFFu) | uint(cell.y) << 16;
-}
-
-ivec2 ldc_unpack_cell(uint word) {
-    return ivec2(word & 0xFFFFu, word >> 16);
-}
-
-// Bits 4 and 5 of the flags are the turn of the view.
-void ldc_save(LdcWalk walk, uint turn, LdcSearch search, inout TraceState state) {
-    state.cursor[0] = LDC_CURSOR_STARTED | (walk.in_upper ? LDC_CURSOR_IN_UPPER : 0u)
-        | (walk.in_block ? LDC_CURSOR_IN_BLOCK : 0u) | (search.begun ? LDC_CURSOR_BEGUN : 0u)
-        | (search.in_fringe ? LDC_CURSOR_IN_FRINGE : 0u) | turn << 4;
-    state.cursor[1] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.upper));
-    state.cursor[2] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.blocks));
-    state.cursor[3] = ldc_pack_cell(ldc_march_square(walk.flat_ray, walk.cells));
-    state.cursor[4] = search.place;
-}
-
-void ldc_restore(TraceState state, inout LdcWalk walk, inout LdcSearch search) {
-    uint flags = state.cursor[0];
-    vec2 stretch = vec2(walk.t_begin, walk.t_end);
-    ivec2 square = ivec2(0);
-    bool within = false;
-    walk.in_upper = (flags & LDC_CURSOR_IN_UPPER) != 0u;
-    walk.in_block = (flags & LDC_CURSOR_IN_BLOCK) != 0u;
-    // Each walk has begun before, so it begins.
-    if (LDC_SKIP != 0u && LDC_LEVELS == 2u) {
-        ldc_begin_level(walk, 1u, false, square, stretch, walk.upper);
-        square = ldc_unpack_cell(state.cursor[1]);
-        ldc_march_resume(walk.flat_ray, square, walk.upper);
-        stretch = ldc_block_stretch(walk, 1u, square);
-        within = true;
-    }
-    if (LDC_SKIP != 0u && walk.in_upper) {
-        ldc_begin_level(walk, 0u, within, square, stretch, walk.blocks);
-        square = ldc_unpack_cell(state.cursor[2]);
-        ldc_march_resume(walk.flat_ray, square, walk.blocks);
-        stretch = ldc_block_stretch(walk, 0u, square);
-        within = true;
-    }
-    if (walk.in_block) {
-        ldc_begin_level(walk, 2u, within, square, stretch, walk.cells);
-        ldc_march_resume(walk.flat_ray, ldc_unpack_cell(state.cursor[3]), walk.cells);
-    }
-    search.begun = (flags & LDC_CURSOR_BEGUN) != 0u;
-    search.in_fringe = (flags & LDC_CURSOR_IN_FRINGE) != 0u;
-    search.place = state.cursor[4];
-}
+#include "ldc/pause.glsl"
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
 vec2 ldc_clip(LdcRef s, Ray ray) {

@@ -1,0 +1,48 @@
+// What: lists the squares that a walk over a flat grid comes to, for tests: once in one go, and once stopped and resumed
+// at every square.
+// Reads: rays in units of cells. Writes: visits (square, rows left), counts.
+#version 460
+#include "contract/extensions.glsl"
+#include "contract/types.glsl"
+#include "ldc/march.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
+layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
+layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
+
+layout(push_constant, scalar) uniform Constants {
+    uint ray_count;
+    int first;            // squares of the area, the same along both sides
+    int last;
+    uint limit;           // visits a walk
+};
+
+void walk(uint index, Ray ray, bool stopped) {
+    LdcFlatRay flat_ray = ldc_flat_ray(ray.origin.xy, ray.direction.xy);
+    LdcArea area = ldc_area(flat_ray, 1.0, ivec2(first), ivec2(last));
+    vec2 t = vec2(ray.t_min, ray.t_max);
+    LdcMarch march;
+    bool more = ldc_march_begin(flat_ray, area, t, march);
+    while (more) {
+        if (stopped) {
+            uint kept = ldc_march_pack(ldc_march_square(flat_ray, march));
+            ldc_march_begin(flat_ray, area, t, march);
+            ldc_march_resume(flat_ray, ldc_march_unpack(kept), march);
+        }
+        uint place = counts[index]++;
+        if (place < limit) {
+            visits[index * limit + place] = ivec3(ldc_march_square(flat_ray, march), march.rows);
+        }
+        more = ldc_march_next(flat_ray, march);
+    }
+}
+
+void main() {
+    uint index = gl_GlobalInvocationID.x;
+    if (index < ray_count) {
+        walk(2u * index, rays[index], false);
+        walk(2u * index + 1u, rays[index], true);
+    }
+}
