@@ -52,6 +52,27 @@ pub struct Module<'a> {
 /// The entry cannot be read, its name has no stage, or the GLSL is wrong; the message then names
 /// file and line.
 pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileError> {
+    let (source, kind) = entry(root, module)?;
+    let artifact = compiler()?
+        .compile_into_spirv(&source, kind, module.entry, "main", Some(&options(root, module)?))
+        .map_err(|error| CompileError::Glsl(error.to_string()))?;
+    Ok(artifact.as_binary().to_vec())
+}
+
+/// The text of a module with includes and macros expanded: all that its SPIR-V depends on, at a fraction of the cost of
+/// compiling it.
+///
+/// # Errors
+/// As [`compile`], as far as directives go.
+pub fn preprocess(root: &Path, module: &Module<'_>) -> Result<String, CompileError> {
+    let (source, _) = entry(root, module)?;
+    let artifact = compiler()?
+        .preprocess(&source, module.entry, "main", Some(&options(root, module)?))
+        .map_err(|error| CompileError::Glsl(error.to_string()))?;
+    Ok(artifact.as_text())
+}
+
+fn entry(root: &Path, module: &Module<'_>) -> Result<(String, ShaderKind), CompileError> {
     let path = root.join(module.entry);
     let kind = match path.extension().and_then(|e| e.to_str()) {
         Some("comp") => ShaderKind::Compute,
@@ -59,9 +80,15 @@ pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileErro
         Some("frag") => ShaderKind::Fragment,
         _ => return Err(CompileError::Stage { path }),
     };
-    let source =
-        std::fs::read_to_string(&path).map_err(|source| CompileError::Read { path: path.clone(), source })?;
-    let compiler = Compiler::new().map_err(|e| CompileError::Shaderc(e.to_string()))?;
+    let source = std::fs::read_to_string(&path).map_err(|source| CompileError::Read { path, source })?;
+    Ok((source, kind))
+}
+
+fn compiler() -> Result<Compiler, CompileError> {
+    Compiler::new().map_err(|e| CompileError::Shaderc(e.to_string()))
+}
+
+fn options(root: &Path, module: &Module<'_>) -> Result<CompileOptions<'static>, CompileError> {
     let mut options = CompileOptions::new().map_err(|e| CompileError::Shaderc(e.to_string()))?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_2 as u32);
@@ -79,10 +106,7 @@ pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileErro
             .map_err(|error| format!("{from}: cannot include {requested}: {error}"))?;
         Ok(ResolvedInclude { resolved_name: requested.to_owned(), content })
     });
-    let artifact = compiler
-        .compile_into_spirv(&source, kind, module.entry, "main", Some(&options))
-        .map_err(|error| CompileError::Glsl(error.to_string()))?;
-    Ok(artifact.as_binary().to_vec())
+    Ok(options)
 }
 
 /// A line of the permutation list.
