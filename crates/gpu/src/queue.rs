@@ -13,20 +13,13 @@ use crate::recorder::Recorder;
 use crate::timers::{PassTiming, Timing};
 
 /// How work is submitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct SubmitOptions {
     /// Whether and how passes are timed.
     pub timing: Timing,
-    /// How long to wait for the device, at most an hour: every wait has an end. With [`Timing::Host`] it holds for each
-    /// pass by itself.
-    pub timeout: Duration,
-}
-
-impl Default for SubmitOptions {
-    /// No timing, 60 seconds.
-    fn default() -> Self {
-        Self { timing: Timing::None, timeout: Duration::from_secs(60) }
-    }
+    /// How long to wait for the device, at most an hour: every wait has an end. [`Device::timeout`] where absent. With
+    /// [`Timing::Host`] it holds for each pass by itself.
+    pub timeout: Option<Duration>,
 }
 
 /// What a finished submission returns.
@@ -39,7 +32,7 @@ pub struct Submitted<R> {
 }
 
 impl Device {
-    /// How long [`Device::submit`] and [`Device::submit_passes`] wait: 60 seconds, and ten minutes on a software driver,
+    /// How long submissions wait unless told: 60 seconds, and ten minutes on a software driver,
     /// whose passes take hundreds of times as long and hold up no display.
     pub fn timeout(&self) -> Duration {
         Duration::from_secs(if self.is_software() { 600 } else { 60 })
@@ -64,7 +57,7 @@ impl Device {
         timing: Timing,
         record: impl FnOnce(&mut Recorder<'_>) -> R,
     ) -> Result<Submitted<R>> {
-        self.submit_with(&SubmitOptions { timing, timeout: self.timeout() }, record)
+        self.submit_with(&SubmitOptions { timing, timeout: None }, record)
     }
 
     /// As [`Device::submit`], with options.
@@ -84,7 +77,7 @@ impl Device {
             Timing::Device => Some(self.create_timers(TIMED_PASSES)?),
             Timing::None | Timing::Host => None,
         };
-        let work = OneTime::create(self, options.timeout)?;
+        let work = OneTime::create(self, options.timeout.unwrap_or_else(|| self.timeout()))?;
         work.begin(self)?;
         let split = options.timing == Timing::Host;
         let mut recorder = Recorder::for_submission(self, &work, timers.clone(), split);

@@ -197,7 +197,7 @@ fn a_timeout_names_the_pass_and_abandons_the_device() {
             constants: &[],
         })
         .expect("pipeline");
-    let options = SubmitOptions { timeout: Duration::from_millis(1), ..SubmitOptions::default() };
+    let options = SubmitOptions { timeout: Some(Duration::from_millis(1)), ..SubmitOptions::default() };
     let submitted = device.submit_with(&options, |recorder| {
         recorder.begin_pass("endless");
         recorder.bind_compute(&pipeline);
