@@ -22,6 +22,11 @@ fn ray_count() -> usize {
     if is_full() { 2000 } else { 400 }
 }
 
+/// Rays for each value and each pair of values of options: structures that promise every hit are held to it on more.
+fn option_rays(kind: StructureKind) -> usize {
+    if is_full() && kind == StructureKind::Primitive { 100_000 } else { ray_count() }
+}
+
 /// Scattered layers, a sphere, and a room around them. `twins` adds triangles that coincide with others.
 fn scene(twins: bool) -> Vec<Triangle> {
     let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
@@ -106,9 +111,17 @@ fn every_option_of_every_system_has_a_law_and_a_value() {
 #[test]
 fn one_option_at_a_time_changes_no_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(true), rays(ray_count()));
+    let triangles = scene(true);
+    let every_triangle =
+        Subject::all(&bench).into_iter().find(|subject| subject.name() == "brute-force robust");
+    let every_triangle = every_triangle.expect("the registry has brute force");
+    let every_hit = every_triangle.answers(&bench, EYE, &triangles, &rays(option_rays(every_triangle.kind)));
     for subject in Subject::all(&bench) {
+        let rays = rays(option_rays(subject.kind));
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
+        if subject.kind == StructureKind::Primitive {
+            assert_same(&format!("{}: the structure", subject.name()), &rays, &every_hit, &expected);
+        }
         let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
         assert!(hit > rays.len() / 4 && hit < rays.len(), "{}: {hit} rays hit", subject.name());
         for (ray, (closest, occluded)) in expected.closest.iter().zip(&expected.occluded).enumerate() {
@@ -130,8 +143,9 @@ fn one_option_at_a_time_changes_no_hit() {
 #[test]
 fn options_in_pairs_change_no_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(true), rays(ray_count()));
+    let triangles = scene(true);
     for subject in Subject::all(&bench) {
+        let rays = rays(option_rays(subject.kind));
         let options = speed_options(&subject);
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
         let mut rows = pairwise(&options.iter().map(|(_, values)| values.len()).collect::<Vec<_>>());
@@ -139,6 +153,7 @@ fn options_in_pairs_change_no_hit() {
             // The full tier holds them all.
             rows.truncate(6);
         }
+        let mut tried = 0;
         for row in rows {
             let chosen: Vec<_> =
                 options.iter().zip(row).map(|((option, values), index)| (*option, values[index])).collect();
@@ -146,8 +161,10 @@ fn options_in_pairs_change_no_hit() {
             if let Some(changed) = subject.with(&chosen) {
                 let found = changed.answers(&bench, EYE, &triangles, &rays);
                 assert_same(&format!("{}: {chosen:?}", subject.name()), &rays, &expected, &found);
+                tried += 1;
             }
         }
+        println!("{}: {tried} rows of pairs, {} rays each", subject.name(), rays.len());
     }
 }
 
