@@ -25,7 +25,7 @@ Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
     uvec4 words = uvec4(abuffer_data(s, link, 0u), abuffer_data(s, link, 1u), abuffer_data(s, link, 2u),
         abuffer_data(s, link, 3u));
     vec3 position = ray.origin + hit.t * ray.direction;
-    return attributes_surface(words, ray, hit.t, abuffer_footprint(s, position));
+    return abuffer_attributes_surface(words, ray, hit.t, abuffer_footprint(s, position));
 }
 
 #endif

@@ -1,6 +1,6 @@
 // What: the pools of a layered depth cube, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, lists, depths, primitives, blocks, heads, fringe, scratch. Every access checks the capacity.
+// Reads, writes: header, lists, depths, payload, blocks, heads, fringe, scratch. Every access checks the capacity.
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL
 
@@ -12,7 +12,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddress { uint words[]; };
 #define LDC_LISTS(s) LdcWordAddress(LDC_HEADER(s).lists_address).words
 #define LDC_DEPTHS(s) LdcWordAddress(LDC_HEADER(s).depths_address).words
-#define LDC_PRIMITIVES(s) LdcWordAddress(LDC_HEADER(s).primitives_address).words
+#define LDC_PAYLOAD_WORDS(s) LdcWordAddress(LDC_HEADER(s).payload_address).words
 #define LDC_BLOCKS(s) LdcWordAddress(LDC_HEADER(s).blocks_address).words
 #define LDC_HEADS(s) LdcWordAddress(LDC_HEADER(s).heads_address).words
 #define LDC_FRINGE(s) LdcWordAddress(LDC_HEADER(s).fringe_address).words
@@ -20,14 +20,14 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddre
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer LdcListsBuffer { uint ldc_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer LdcDepthsBuffer { uint ldc_depth_words[]; };
-layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPrimitivesBuffer { uint ldc_primitive_words[]; };
+layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPayloadBuffer { uint ldc_payload_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer LdcBlocksBuffer { uint ldc_block_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer LdcHeadsBuffer { uint ldc_head_words[]; };
 layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcFringeBuffer { uint ldc_fringe_words[]; };
 layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcScratchBuffer { uint ldc_scratch_words[]; };
 #define LDC_LISTS(s) ldc_list_words
 #define LDC_DEPTHS(s) ldc_depth_words
-#define LDC_PRIMITIVES(s) ldc_primitive_words
+#define LDC_PAYLOAD_WORDS(s) ldc_payload_words
 #define LDC_BLOCKS(s) ldc_block_words
 #define LDC_HEADS(s) ldc_head_words
 #define LDC_FRINGE(s) ldc_fringe_words
@@ -75,6 +75,40 @@ uvec2 ldc_list(LdcRef s, uint cell, uint places) {
         return uvec2(0u);
     }
     return uvec2(begin, end);
+}
+
+// Words of a fragment's payload. With attributes its first word holds the triangle until all that goes by triangles is done.
+uint ldc_payload_stride() {
+    return LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u;
+}
+
+// The triangle of a fragment; of attributes during the build only.
+uint ldc_primitive(LdcRef s, uint place) {
+    return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place];
+}
+
+void ldc_set_primitive(LdcRef s, uint place, uint primitive) {
+    LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place] = primitive;
+}
+
+// Lowers the triangle at a place whose bits start out as ones.
+void ldc_lower_primitive(LdcRef s, uint place, uint primitive) {
+    atomicMin(LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place], primitive);
+}
+
+// Colour and normal of a fragment. A place that holds none is counted.
+uvec2 ldc_attributes(LdcRef s, uint place) {
+    if (place >= ldc_places(s)) {
+        atomicAdd(LDC_HEADER(s).corrupted, 1u);
+        return uvec2(0u);
+    }
+    return uvec2(LDC_PAYLOAD_WORDS(s)[2u * place], LDC_PAYLOAD_WORDS(s)[2u * place + 1u]);
+}
+
+// Puts colour and normal of a fragment in place of its triangle.
+void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
+    LDC_PAYLOAD_WORDS(s)[2u * place] = words.x;
+    LDC_PAYLOAD_WORDS(s)[2u * place + 1u] = words.y;
 }
 
 // Depth of a fragment as stored, metres: with 16 bits a share of the cube's side.

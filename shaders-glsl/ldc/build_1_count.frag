@@ -11,11 +11,11 @@
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
 void main() {
-    ivec2 cell;
+    ivec2 cell = ldc_cell_at(gl_FragCoord);
     float z;
     vec2 barycentrics;
     AxisView view = ldc_built_view(primitive_and_axis.y);
-    if (ldc_fragment(view, primitive_and_axis.x, gl_FragCoord, cell, z, barycentrics)
+    if (ldc_fragment(view, primitive_and_axis.x, cell, z, barycentrics)
         && alpha_accepts(primitive_and_axis.x, barycentrics)) {
         uint layer = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, view.axis, cell)], 1u);
         if (LDC_BUILD == LDC_BUILD_PEEL && build_step == 0u) {

@@ -1,5 +1,5 @@
 // What: sorts each list, and names those that are too long for one dispatch.
-// Reads: lists, depths, primitives. Writes: depths, primitives, scratch, header.long_demand.
+// Reads: lists, depths, payload. Writes: depths, payload, scratch, header.long_demand.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.
 #version 460
 #include "contract/extensions.glsl"

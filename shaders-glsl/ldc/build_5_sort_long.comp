@@ -1,5 +1,5 @@
 // What: sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
-// Reads: lists, depths, primitives, scratch. Writes: depths, primitives, scratch, header.unsorted.
+// Reads: lists, depths, payload, scratch. Writes: depths, payload, scratch, header.unsorted.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,6 +1,6 @@
 // What: keeps the triangle in cells that it reaches into without covering their centre, where no fragment stands for
 // it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a cell.
-// Reads: geometry, header, lists, depths, primitives. Writes: heads, fringe, blocks, header.fringe_demand. Conservative
+// Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand. Conservative
 // coverage only.
 // Source: not in the paper, whose rays pass between the views' cells there.
 #version 460
@@ -25,7 +25,7 @@ bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_c
         vec3 a;
         vec3 b;
         vec3 c;
-        ldc_view_vertices(view, LDC_PRIMITIVES(ldc_built)[place], a, b, c);
+        ldc_view_vertices(view, ldc_primitive(ldc_built, place), a, b, c);
         if (abs(axis_plane_depth(a, b, c, point) - z_point) <= close) {
             return true;
         }
@@ -40,7 +40,7 @@ void main() {
     }
     AxisView view = ldc_built_view(primitive_and_axis.y);
     uint primitive = primitive_and_axis.x;
-    ivec2 place = ivec2(gl_FragCoord.xy) - 1;
+    ivec2 place = ldc_cell_at(gl_FragCoord);
     if (!axis_has_cell(view.resolution, place)) {
         return;
     }

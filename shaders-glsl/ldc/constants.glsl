@@ -16,6 +16,10 @@
 #define LDC_OCCUPANCY_BOUNDS 0u
 #define LDC_OCCUPANCY_SLICES 1u
 
+// What a fragment carries: its triangle, or colour and normal of what is shaded there.
+#define LDC_PAYLOAD_INDEX 0u
+#define LDC_PAYLOAD_ATTRIBUTES 1u
+
 // How layers are made: all in one pass and then sorted, or one a pass by peeling.
 #define LDC_BUILD_SINGLE 0u
 #define LDC_BUILD_PEEL 1u

@@ -25,9 +25,13 @@ void ldc_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, ou
     c = axis_from_world(view, c);
 }
 
-// Depth and barycentrics of a triangle at the centre of the fragment's cell; false where it gets no fragment there.
-bool ldc_fragment(AxisView view, uint primitive, vec4 frag_coord, out ivec2 cell, out float z, out vec2 barycentrics) {
-    cell = ivec2(frag_coord.xy) - 1;
+// The cell of a fragment invocation: the viewport has a border of one.
+ivec2 ldc_cell_at(vec4 frag_coord) {
+    return ivec2(frag_coord.xy) - 1;
+}
+
+// Depth and barycentrics of a triangle at a cell's centre; false where it gets no fragment there.
+bool ldc_fragment(AxisView view, uint primitive, ivec2 cell, out float z, out vec2 barycentrics) {
     if (!axis_has_cell(view.resolution, cell)) {
         return false;
     }

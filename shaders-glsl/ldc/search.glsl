@@ -1,5 +1,5 @@
 // What: searches one cell for the nearest fragment that a ray hits within it.
-// Reads: lists, depths, primitives, heads, fringe, geometry. Writes: header.corrupted.
+// Reads: lists, depths, payload, heads, fringe, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4. The order of a list only skips fragments that the acceptance would refuse, so hits do
 // not depend on it. The nearest along the ray is taken, whichever layer it is.
 #ifndef LDC_SEARCH_GLSL
@@ -110,29 +110,45 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
+// Whether a fragment without an id replaces a best hit that is as near: not one on a triangle, and of fragments the one
+// whose words come first, so that the answer does not depend on where they are stored.
+bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
+    if (best.primitive != PRIMITIVE_UNKNOWN) {
+        return false;
+    }
+    uvec2 held = ldc_attributes(s, floatBitsToUint(best.a));
+    uvec2 words = ldc_attributes(s, place);
+    return words.x < held.x || (words.x == held.x && words.y < held.y);
+}
+
 // Judges a fragment by its depth: the hit is where the ray passes it, within the cell.
-void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint primitive, float z, inout TraceState state) {
+void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
+    bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
+    uint primitive = known ? ldc_primitive(s, place) : PRIMITIVE_UNKNOWN;
     float tolerance = LDC_ACCEPT == LDC_ACCEPT_TOLERANCE ? search.sizes.margin
         : ldc_slope_tolerance(s, search, primitive, z);
     float t = search.z_direction == 0.0 ? search.t_low
         : clamp((z - search.z_origin) / search.z_direction, search.t_low, search.t_high);
     bool near = z >= depths.x - tolerance && z <= depths.y + tolerance;
-    uint verdict = primitive == ray.exclude_primitive ? TEST_EXCLUDED : (!near ? TEST_OUTSIDE_CELL
+    // A fragment without an id cannot be the triangle that is excluded.
+    uint verdict = known && primitive == ray.exclude_primitive ? TEST_EXCLUDED : (!near ? TEST_OUTSIDE_CELL
         : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
         : (t <= state.best.t ? TEST_ACCEPTED : TEST_NOT_BETTER))));
-    vec2 barycentrics = vec2(0.0);
-    if (verdict == TEST_ACCEPTED) {
+    vec2 found = vec2(uintBitsToFloat(place), 0.0);
+    if (verdict == TEST_ACCEPTED && known) {
         vec3 a;
         vec3 b;
         vec3 c;
         geometry_vertices(primitive, a, b, c);
-        barycentrics = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
-        verdict = plane_is_better(state.best, t, primitive, barycentrics) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+        found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        verdict = plane_is_better(state.best, t, primitive, found) ? TEST_ACCEPTED : TEST_NOT_BETTER;
+    } else if (verdict == TEST_ACCEPTED && t == state.best.t) {
+        verdict = ldc_replaces_as_near(s, state.best, place) ? TEST_ACCEPTED : TEST_NOT_BETTER;
     }
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
     if (verdict == TEST_ACCEPTED) {
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
-        state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+        state.best = Hit(t, primitive, found.x, found.y);
     }
 }
 
@@ -205,11 +221,10 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                 }
                 continue;
             }
-            uint primitive = LDC_PRIMITIVES(s)[place];
             if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
-                ldc_test(s, ray, search, primitive, true, state);
+                ldc_test(s, ray, search, ldc_primitive(s, place), true, state);
             } else {
-                ldc_judge_depth(s, ray, search, depths, primitive, z, state);
+                ldc_judge_depth(s, ray, search, depths, place, z, state);
             }
         }
         search.in_fringe = true;

@@ -1,6 +1,6 @@
 // What: the elements of a list for the shared sort: by depth, ties by triangle. Entry k of a sorted list is layer k of
 // its cell.
-// Reads, writes: lists, depths, primitives, scratch, header.long_demand, header.unsorted.
+// Reads, writes: lists, depths, payload, scratch, header.long_demand, header.unsorted.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.
 #ifndef LDC_SORT_GLSL
 #define LDC_SORT_GLSL
@@ -18,18 +18,18 @@ bool sort_before(uint i, uint j) {
     uint left = ldc_bits_at(sorted_structure, sorted_from + i);
     uint right = ldc_bits_at(sorted_structure, sorted_from + j);
     return left < right || (left == right
-        && LDC_PRIMITIVES(sorted_structure)[sorted_from + i] < LDC_PRIMITIVES(sorted_structure)[sorted_from + j]);
+        && ldc_primitive(sorted_structure, sorted_from + i) < ldc_primitive(sorted_structure, sorted_from + j));
 }
 
 void sort_swap(uint i, uint j) {
     uint left = sorted_from + i;
     uint right = sorted_from + j;
     uint bits = ldc_bits_at(sorted_structure, left);
-    uint primitive = LDC_PRIMITIVES(sorted_structure)[left];
+    uint primitive = ldc_primitive(sorted_structure, left);
     ldc_set_bits(sorted_structure, left, ldc_bits_at(sorted_structure, right));
-    LDC_PRIMITIVES(sorted_structure)[left] = LDC_PRIMITIVES(sorted_structure)[right];
+    ldc_set_primitive(sorted_structure, left, ldc_primitive(sorted_structure, right));
     ldc_set_bits(sorted_structure, right, bits);
-    LDC_PRIMITIVES(sorted_structure)[right] = primitive;
+    ldc_set_primitive(sorted_structure, right, primitive);
 }
 
 uint sort_begin(LdcRef s, uint cell) {

@@ -17,6 +17,7 @@ layout(constant_id = 54) const uint LDC_BLOCK = 8u;
 layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
 layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
+layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 
 // State and sizes of one value. 168 bytes.
 struct LdcHeader {
@@ -40,7 +41,7 @@ struct LdcHeader {
     float slices_a_metre; // of depth, LDC_OCCUPANCY_SLICES only
     uvec2 lists_address;  // device addresses of the pools, zero where descriptors are used
     uvec2 depths_address;
-    uvec2 primitives_address;
+    uvec2 payload_address;
     uvec2 blocks_address;
     uvec2 heads_address;
     uvec2 fringe_address;

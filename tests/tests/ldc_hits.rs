@@ -2,7 +2,7 @@
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
-use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube, Occupancy, well_formed};
+use rasray_ldc::{Accept, Config, Coverage, Depth, LayeredDepthCube, Occupancy, Payload, well_formed};
 use rasray_shaders_glsl::constants::ads::SHORT_LIST_LIMIT;
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 use rasray_tests::conformance::trace_in_rounds;
@@ -208,7 +208,7 @@ fn pauses_change_no_hit() {
     let robust = Config::robust(24);
     for config in [
         robust,
-        Config::published(24),
+        Config { payload: Payload::Index, ..Config::published(24) },
         Config { skip: false, ..robust },
         // Nine blocks of the second level.
         Config { block: 1, occupancy: Occupancy::Bounds, ..robust },

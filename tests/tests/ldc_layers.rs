@@ -43,7 +43,7 @@ fn layers(contents: &Contents) -> Layers {
     let cells = 0..contents.lists.len();
     let list = |cell| {
         let places = contents.list(cell).expect("well formed");
-        places.map(|place| (contents.depth_bits(place), contents.primitives[place as usize])).collect()
+        places.map(|place| (contents.depth_bits(place), contents.payload[place as usize])).collect()
     };
     let fringe = |cell| {
         let mut found = contents.fringe_of(cell).expect("well formed");

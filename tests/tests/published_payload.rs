@@ -1,19 +1,51 @@
-//! The published payload carries no triangle ids: secondary rays must meet its fragments all the same.
+//! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays meet
+//! fragments that do not say which triangle they are of.
 
-use rasray_abuffer::{ABuffer, Config, Payload};
-use rasray_ads::Structure;
+use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, waves};
+use rasray_scene::builtin::builtin;
+use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
 use rasray_tracer::build_until_complete;
 
 const SIZE: u32 = 32;
 
+/// Systems whose published fragments carry attributes.
+const SYSTEMS: [&str; 2] = ["mmrt", "ldc"];
+
+fn stage(bench: &Bench, name: &str) -> GpuScene {
+    let scene = builtin(name).expect("it is built in").expect("it needs no parameters");
+    let camera = scene.cameras[0].clone();
+    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
+    let view = View { camera, width: SIZE, height: SIZE, seed: 1 };
+    GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
+}
+
+/// A published structure with a payload, built around the scene.
+fn made(bench: &Bench, scene: &GpuScene, system: &str, options: &[(&str, &str)]) -> Box<dyn Structure> {
+    let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    let spec = Spec::new(system, "published", options).expect("the options are valid");
+    let mut structure =
+        spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("pipelines are made");
+    build_until_complete(bench.device(), structure.as_mut(), scene.eye(), Timing::None)
+        .expect("the build completes");
+    let report = structure.report().expect("the header is readable");
+    let slack = report.bytes_by_part.iter().find(|part| part.0 == "slack").map_or(0, |part| part.1);
+    assert_eq!(
+        report.formula_bytes,
+        report.bytes() - slack,
+        "{system}: what is stored is what the formula says"
+    );
+    structure
+}
+
 /// Mean ambient occlusion of an image.
 fn mean(bench: &Bench, scene: &GpuScene, structure: &mut dyn Structure) -> f32 {
     let device = bench.device();
-    build_until_complete(device, structure, scene.eye(), Timing::None).expect("the build completes");
     let film = Film::new(device, SIZE, SIZE).expect("a small film fits");
     let desc = IntegratorDesc::new(device, scene, &film);
     let integrator = AmbientOcclusion::new(&desc, f32::INFINITY).expect("the range is valid");
@@ -31,22 +63,128 @@ fn mean(bench: &Bench, scene: &GpuScene, structure: &mut dyn Structure) -> f32 {
 #[test]
 fn secondary_rays_meet_fragments_without_ids() {
     let bench = Bench::new();
-    let scene = rasray_scene::builtin::cornell();
-    let camera = scene.cameras[0].clone();
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
-    let view = View { camera, width: SIZE, height: SIZE, seed: 1 };
-    let scene = GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits");
+    let scene = stage(&bench, "cornell");
+    for system in SYSTEMS {
+        let mean_of = |payload| {
+            let options = [("resolution", "256"), ("payload", payload)];
+            mean(&bench, &scene, made(&bench, &scene, system, &options).as_mut())
+        };
+        // The same rules with and without ids: rays start a little apart, so a few meet something else.
+        let (with_ids, without_ids) = (mean_of("index"), mean_of("attributes"));
+        println!("{system}: {with_ids} with ids, {without_ids} without");
+        assert!(with_ids < 0.9, "{system}: walls occlude: {with_ids}");
+        assert!(
+            (with_ids - without_ids).abs() < 0.02,
+            "{system}: {with_ids} with ids, {without_ids} without"
+        );
+    }
+}
 
-    let mean_of = |payload| {
-        let config = Config { payload, ..Config::published(256) };
-        let mut structure = ABuffer::new(bench.device(), config, scene.geometry(), Some(scene.binding()))
-            .expect("pipelines are made");
-        mean(&bench, &scene, &mut structure)
+/// What rays meet, and what is shaded there.
+fn surfaces(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<(Hit, Surface)> {
+    let device = bench.device();
+    let count = rays.len() as u32;
+    let queue = RayQueue::new(device, "surfaces", count, true).expect("a queue fits");
+    device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
+    device.upload_slice(queue.rays(), 0, rays).expect("the device works");
+    let submitted = device.submit(|recorder| {
+        structure.record_trace(recorder, &queue, count, TraceMode::Closest, structure.rounds());
+        structure.record_surfaces(recorder, &queue, count)
+    });
+    submitted.expect("the device works").value.expect("the scene has surfaces");
+    let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
+    let surfaces = device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
+    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+    hits.into_iter().zip(surfaces).collect()
+}
+
+fn rays(scene: &GpuScene, count: usize) -> Vec<Ray> {
+    let [lower, upper] = scene.geometry().bounds();
+    let mut random = Random::new(0x7061_796C);
+    let mut inside = |axis: usize| {
+        let share = random.between(0.2, 0.8);
+        lower[axis] + share * (upper[axis] - lower[axis])
     };
-    // The same rules with and without ids: rays start a little apart, so a few meet something else.
-    let with_ids = mean_of(Payload::Index);
-    let without_ids = mean_of(Payload::Attributes);
-    assert!(with_ids < 0.9, "walls occlude: {with_ids}");
-    assert!((with_ids - without_ids).abs() < 0.02, "{with_ids} with ids, {without_ids} without");
+    let origins: Vec<[f32; 3]> = (0..count).map(|_| [inside(0), inside(1), inside(2)]).collect();
+    origins.into_iter().map(|origin| Ray::new(origin, random.direction())).collect()
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    (0..3).map(|axis| a[axis] * b[axis]).sum()
+}
+
+/// Metallic, roughness and specular that fragments of a system keep of a triangle's, or the defaults of those they do not.
+fn terms(system: &str, of_triangle: &Surface) -> [f32; 3] {
+    match system {
+        "mmrt" => [of_triangle.metallic, of_triangle.roughness, of_triangle.specular],
+        _ => [0.0, 1.0, 0.0],
+    }
+}
+
+/// Largest difference of eight bits' shares.
+fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
+    (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
+}
+
+/// Rays meet fragments where they would if those named their triangles, and see their colours and normals, but for the
+/// quantisation, and what a fragment has of its material beside these.
+#[test]
+fn stored_surfaces_are_those_of_the_triangles() {
+    const HALF_A_STEP: f32 = 0.51 / 255.0;
+    let bench = Bench::new();
+    // Flat walls of several colours; a sphere whose normals are interpolated; metals and glazes.
+    for (name, resolution, largest_turn) in
+        [("cornell", "64", 1.0e-3), ("furnace", "128", 0.04), ("spheres:10k", "128", 0.4)]
+    {
+        let scene = stage(&bench, name);
+        let rays = rays(&scene, 4000);
+        for system in SYSTEMS {
+            let found = |payload, addressing| {
+                let options = [("resolution", resolution), ("payload", payload), ("addressing", addressing)];
+                surfaces(&bench, made(&bench, &scene, system, &options).as_ref(), &rays)
+            };
+            let (named, stored) = (found("index", "descriptor"), found("attributes", "descriptor"));
+            if name == "cornell" {
+                let by_address = found("attributes", "address");
+                // A miss has no surface.
+                let key = |(hit, surface): &(Hit, Surface)| {
+                    let met = hit.is_hit().then_some((surface.base_color, surface.normal));
+                    (hit.t.to_bits(), surface.primitive, met)
+                };
+                assert!(stored.iter().map(key).eq(by_address.iter().map(key)), "{system} by address");
+            }
+            let (mut met, mut turned, mut other) = (0, 0.0_f32, 0);
+            for (ray, ((hit, expected), (stored_hit, surface))) in named.iter().zip(&stored).enumerate() {
+                assert_eq!(hit.t.to_bits(), stored_hit.t.to_bits(), "{system}, {name}, ray {ray}");
+                assert_eq!(hit.is_hit(), stored_hit.is_hit());
+                if !hit.is_hit() || surface.material != PRIMITIVE_NONE {
+                    // Triangles close to the eye are known whatever fragments carry.
+                    assert_eq!(hit.primitive, stored_hit.primitive);
+                    continue;
+                }
+                met += 1;
+                let ids = (stored_hit.primitive, surface.primitive);
+                assert_eq!(ids, (PRIMITIVE_UNKNOWN, PRIMITIVE_UNKNOWN), "{system}, {name}, ray {ray}");
+                assert!(dot(surface.normal, rays[ray].direction) <= 1.0e-6, "normals face the ray");
+                assert!(surface.position_error > 0.0 && surface.t.to_bits() == hit.t.to_bits());
+                let of_surface = [surface.metallic, surface.roughness, surface.specular];
+                let cosine = dot(surface.normal, expected.normal).abs();
+                let same = difference(surface.base_color, expected.base_color) <= HALF_A_STEP
+                    && difference(of_surface, terms(system, expected)) <= HALF_A_STEP;
+                if same && cosine > 0.5 {
+                    turned += 1.0 - cosine;
+                } else {
+                    other += 1;
+                }
+            }
+            // Twice 1 - cos is about the square of the angle.
+            let turn = (2.0 * turned / met as f32).max(0.0).sqrt();
+            println!("{system}, {name}: {met} fragments, turned by {turn}, {other} of another surface");
+            assert!(met > rays.len() / 8, "{system}, {name}: {met} fragments");
+            assert!(turn < largest_turn, "{system}, {name}: normals turned by {turn}");
+            // Of fragments at one t ids take another one than words do: in corners, where a ray enters a cell within the
+            // tolerance of both walls.
+            assert!(other <= met / 1000, "{system}, {name}: {other} of {met} see another surface");
+        }
+    }
 }

@@ -111,6 +111,7 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
             rasray_ldc::Config {
                 counters,
                 work_budget: Some(60),
+                payload: rasray_ldc::Payload::Index,
                 ..rasray_ldc::Config::published(RESOLUTION)
             },
         ),

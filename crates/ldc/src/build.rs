@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, long_capacity};
-use crate::{Config, Coverage, Depth, Making};
+use crate::{Config, Coverage, Depth, Making, Payload};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
 const DRAWS: u32 = 1;
@@ -18,6 +18,7 @@ pub(crate) struct Build {
     scan: Scan,
     layers: Layers,
     fringe: Option<RasterPipeline>,
+    attributes: Option<ComputePipeline>,
     status: ComputePipeline,
 }
 
@@ -29,12 +30,22 @@ enum Layers {
 }
 
 impl Build {
+    /// # Errors
+    /// The configuration needs the scene's shaders and there is no scene, or the device refuses a pipeline.
     pub(crate) fn new(
         pipelines: &BuildPipelines<'_>,
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
+        let stored = config.payload == Payload::Attributes;
+        if stored && scene.is_none() {
+            return Err(AdsError::Option {
+                option: "payload",
+                value: "attributes".to_owned(),
+                expected: "attributes are read from a scene; without one use `index`",
+            });
+        }
         let (count, store, peel) = if alpha {
             ("build_1_count.alpha", "build_3_store.alpha", "build_3_peel.alpha")
         } else {
@@ -54,7 +65,8 @@ impl Build {
             scan: Scan::new(pipelines, "build_2_scan")?,
             layers,
             fringe: kept.then(|| pipelines.raster("build_raster.fringe", "build_6_fringe")).transpose()?,
-            status: pipelines.compute("build_7_status")?,
+            attributes: stored.then(|| pipelines.compute("build_7_attributes")).transpose()?,
+            status: pipelines.compute("build_8_status")?,
         })
     }
 
@@ -90,7 +102,11 @@ impl Build {
         if let Some(fringe) = &self.fringe {
             target.raster_pass(recorder, "ldc/build_6_fringe", fringe, side, DRAWS);
         }
-        target.status_pass(recorder, "ldc/build_7_status", &self.status);
+        if let Some(attributes) = &self.attributes {
+            let groups = target.pools.sizes().elements("payload").div_ceil(u64::from(LDC_GROUP_SIZE));
+            target.compute_pass(recorder, "ldc/build_7_attributes", attributes, groups, 0, shaders);
+        }
+        target.status_pass(recorder, "ldc/build_8_status", &self.status);
     }
 
     /// Two draws a layer, and one in which lists grow to where they end.
@@ -105,7 +121,7 @@ impl Build {
         let shaders = Access::COMPUTE | Access::FRAGMENT;
         recorder.begin_pass("ldc/build_3_peel");
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-        for pool in ["depths", "primitives"].map(|name| target.pools.pool(name)) {
+        for pool in ["depths", "payload"].map(|name| target.pools.pool(name)) {
             recorder.fill(pool, 0, pool.size(), u32::MAX);
         }
         recorder.barrier(Access::TRANSFER_WRITE, shaders);

@@ -53,6 +53,16 @@ pub enum Making {
     Peel,
 }
 
+/// What a fragment carries beside its depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Payload {
+    /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
+    Index,
+    /// Colour and opacity 8:8:8:8 and normal 16:16: 8 bytes, read from a scene. Surfaces come from these, and what else a
+    /// surface has takes its default. Needs [`Accept::Tolerance`]: the others ask the triangle.
+    Attributes,
+}
+
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
@@ -76,6 +86,8 @@ pub struct Config {
     pub coverage: Coverage,
     /// How depths are kept.
     pub depth: Depth,
+    /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
+    pub payload: Payload,
     /// Skip blocks and parts of lists that the ray's depths cannot meet. Changes no hit.
     pub skip: bool,
     /// How pools are reached. Changes no hit.
@@ -102,6 +114,7 @@ impl Config {
             tolerance: 0.001,
             coverage: Coverage::Conservative,
             depth: Depth::Bits32,
+            payload: Payload::Index,
             skip: true,
             addressing: Addressing::Descriptor,
             fragments: None,
@@ -110,8 +123,8 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, the rasterizer's own coverage, one level of
-    /// blocks with their smallest and largest depth.
+    /// The paper's approximations: a tolerance of a thousandth, 16-bit depths, colour and normal in each fragment, the
+    /// rasterizer's own coverage, one level of blocks with their smallest and largest depth.
     pub fn published(resolution: u32) -> Self {
         Self {
             levels: 1,
@@ -119,14 +132,15 @@ impl Config {
             accept: Accept::Tolerance,
             coverage: Coverage::Hardware,
             depth: Depth::Bits16,
+            payload: Payload::Attributes,
             ..Self::robust(resolution)
         }
     }
 
-    /// Checks ranges.
+    /// Checks ranges and combinations.
     ///
     /// # Errors
-    /// The first option out of range.
+    /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         if !(1..=8192).contains(&self.resolution) {
@@ -143,6 +157,13 @@ impl Config {
         }
         if !(0.0..=1.0).contains(&self.tolerance) {
             return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
+        }
+        if self.payload == Payload::Attributes && self.accept != Accept::Tolerance {
+            return refused(
+                "accept",
+                format!("{:?}", self.accept).to_lowercase(),
+                "the acceptances plane and slope need the payload `index`, which names the triangle",
+            );
         }
         match self.work_budget {
             // A dispatch that resumes a search counts its cell before it reads an entry.
@@ -175,6 +196,10 @@ impl Config {
             Making::Single => numbers::LDC_BUILD_SINGLE,
             Making::Peel => numbers::LDC_BUILD_PEEL,
         };
+        let payload = match self.payload {
+            Payload::Index => numbers::LDC_PAYLOAD_INDEX,
+            Payload::Attributes => numbers::LDC_PAYLOAD_ATTRIBUTES,
+        };
         vec![
             (50, accept),
             (51, coverage),
@@ -184,6 +209,7 @@ impl Config {
             (55, occupancy),
             (56, self.levels),
             (57, making),
+            (58, payload),
         ]
     }
 
@@ -199,7 +225,7 @@ impl Config {
             ("build", lower(&self.making)),
             ("accept", lower(&self.accept)),
             ("depth", self.depth.bits().to_string()),
-            ("payload", "index".to_owned()),
+            ("payload", lower(&self.payload)),
             ("views", "axes".to_owned()),
             ("skip", if self.skip { "on" } else { "off" }.to_owned()),
         ];
@@ -219,6 +245,16 @@ impl Config {
             ("coverage", format!("{:?}", self.coverage).to_lowercase()),
             ("addressing", self.addressing.name().to_owned()),
         ]
+    }
+}
+
+impl Payload {
+    /// Bytes of a fragment's payload.
+    pub fn bytes(self) -> u64 {
+        match self {
+            Self::Index => 4,
+            Self::Attributes => 8,
+        }
     }
 }
 

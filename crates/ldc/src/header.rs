@@ -46,8 +46,8 @@ pub struct Header {
     pub lists_address: [u32; 2],
     /// Device address of the depths.
     pub depths_address: [u32; 2],
-    /// Device address of the triangles of fragments.
-    pub primitives_address: [u32; 2],
+    /// Device address of what fragments carry beside their depth.
+    pub payload_address: [u32; 2],
     /// Device address of the blocks.
     pub blocks_address: [u32; 2],
     /// Device address of the heads of the fringe.

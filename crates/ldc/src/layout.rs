@@ -4,11 +4,11 @@ use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Config, Coverage, Depth, Header, Making, Occupancy};
+use crate::{Config, Coverage, Depth, Header, Making, Occupancy, Payload};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
-    ["header", "lists", "depths", "primitives", "blocks", "heads", "fringe", "scratch"];
+    ["header", "lists", "depths", "payload", "blocks", "heads", "fringe", "scratch"];
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -58,7 +58,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (1, size_of::<Header>() as u64),
         (cells, 4),
         (depth_words, 4),
-        (demand.fragments, 4),
+        (demand.fragments, config.payload.bytes()),
         (block_count(config), block_bytes),
         (heads, 4),
         (fringe, 8),
@@ -118,7 +118,7 @@ pub struct FormulaBytes {
     pub cells: u64,
     /// Per block: smallest and largest depth 8, and slices 8 where it keeps them.
     pub blocks: u64,
-    /// Per place: triangle 4 and depth 2 or 4.
+    /// Per place: triangle 4, or colour and normal 8; and depth 2 or 4.
     pub fragments: u64,
     /// Per triangle beside a centre: triangle and link 8.
     pub fringe: u64,
@@ -144,10 +144,11 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let kept = config.coverage == Coverage::Conservative;
     // Depths of 16 bits fill whole words.
     let depths = if config.depth == Depth::Bits16 { 4 * fragments.div_ceil(2) } else { 4 * fragments };
+    let payload = if config.payload == Payload::Attributes { 8 } else { 4 };
     FormulaBytes {
         cells: cells * if kept { 8 } else { 4 },
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
-        fragments: 4 * fragments + depths,
+        fragments: payload * fragments + depths,
         fringe: if kept { 8 * fringe } else { 0 },
         rest: 168
             + 4 * cells.div_ceil(1024)
@@ -158,6 +159,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Accept;
 
     #[test]
     fn plan_equals_formula() {
@@ -172,7 +174,11 @@ mod tests {
             {
                 let robust = Config::robust(resolution);
                 let config = Config { block, depth, coverage, occupancy, levels, making, ..robust };
-                for fragments in [0, 12_344, 12_345] {
+                let stored = Config { payload: Payload::Attributes, accept: Accept::Tolerance, ..config };
+                for (config, fragments) in [config, stored]
+                    .into_iter()
+                    .flat_map(|config| [0, 12_344, 12_345].map(|fragments| (config, fragments)))
+                {
                     let demand = Demand { fragments, fringe: 77, long_lists: 3, layers: 5 };
                     let sizes = plan(&config, demand).expect("options are in range");
                     assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total(), "{config:?}");
@@ -191,6 +197,8 @@ mod tests {
         assert!(refused(Config { layers: 1025, ..Config::robust(64) }).contains("layers is 1025"));
         assert!(refused(Config { tolerance: f32::NAN, ..Config::robust(64) }).contains("tolerance"));
         assert!(refused(Config { work_budget: Some(1), ..Config::robust(64) }).contains("work budget"));
+        let nameless = refused(Config { payload: Payload::Attributes, ..Config::robust(64) });
+        assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let asked = |demand| plan(&Config::robust(64), demand).expect_err("refused").to_string();
         assert!(asked(Demand { fragments: 1 << 32, ..Demand::default() }).contains("depths"));
         assert!(asked(Demand { fringe: 1 << 31, ..Demand::default() }).contains("fringe"));

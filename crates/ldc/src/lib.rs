@@ -13,7 +13,7 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy};
+pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
 pub use rasray_ads::Addressing;

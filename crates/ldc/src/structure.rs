@@ -25,11 +25,11 @@ pub struct LayeredDepthCube {
 }
 
 impl LayeredDepthCube {
-    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks and surfaces.
+    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and attributes.
     ///
     /// # Errors
-    /// An option is out of range or needs what the device does not provide; out of memory; a pool exceeds
-    /// what one binding can hold (then use device addresses).
+    /// An option is out of range or needs what the device or the caller does not provide; out of memory; a pool
+    /// exceeds what one binding can hold (then use device addresses).
     pub fn new(
         device: &Device,
         config: Config,
@@ -83,7 +83,7 @@ impl LayeredDepthCube {
         // Where all geometry is one point its cells have a size all the same.
         let size = (extent + 4.0 * rounding).max(1.0e-30);
         Header {
-            capacity: self.pools.sizes().elements("primitives") as u32,
+            capacity: self.pools.sizes().elements("payload") as u32,
             fringe_capacity: self.pools.sizes().elements("fringe") as u32,
             long_capacity: long_capacity(&self.config, self.pools.sizes()) as u32,
             layer_capacity: layer_capacity(&self.config, self.pools.sizes()) as u32,
@@ -98,7 +98,7 @@ impl LayeredDepthCube {
             upper: upper.map(|x| x + rounding),
             lists_address: self.pools.address_of("lists"),
             depths_address: self.pools.address_of("depths"),
-            primitives_address: self.pools.address_of("primitives"),
+            payload_address: self.pools.address_of("payload"),
             blocks_address: self.pools.address_of("blocks"),
             heads_address: self.pools.address_of("heads"),
             fringe_address: self.pools.address_of("fringe"),
@@ -126,7 +126,7 @@ impl LayeredDepthCube {
             header: device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0],
             lists: words("lists")?,
             depths: words("depths")?,
-            primitives: words("primitives")?,
+            payload: words("payload")?,
             blocks: words("blocks")?,
             heads: words("heads")?,
             fringe: words("fringe")?,
@@ -142,7 +142,7 @@ impl LayeredDepthCube {
         device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
         device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
         device.upload_slice(self.pools.pool("depths"), 0, &contents.depths)?;
-        device.upload_slice(self.pools.pool("primitives"), 0, &contents.primitives)?;
+        device.upload_slice(self.pools.pool("payload"), 0, &contents.payload)?;
         device.upload_slice(self.pools.pool("blocks"), 0, &contents.blocks)?;
         device.upload_slice(self.pools.pool("heads"), 0, &contents.heads)?;
         device.upload_slice(self.pools.pool("fringe"), 0, &contents.fringe)
@@ -232,7 +232,7 @@ impl Structure for LayeredDepthCube {
         }
         let room = |pool| self.pools.sizes().elements(pool);
         let demand = Demand {
-            fragments: demand("fragments").max(room("primitives")),
+            fragments: demand("fragments").max(room("payload")),
             fringe: demand("fringe").max(room("fringe")),
             long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
             layers: demand("layers").max(layer_capacity(&self.config, self.pools.sizes())),
@@ -284,7 +284,7 @@ impl Structure for LayeredDepthCube {
         let depth_words = demand.fragments.div_ceil(u64::from(32 / self.config.depth.bits()));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "depths" => depth_words,
-            "primitives" => demand.fragments,
+            "payload" => demand.fragments,
             "fringe" => demand.fringe,
             "scratch" => scratch_words(&self.config, demand),
             _ => pool.elements,

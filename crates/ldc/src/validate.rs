@@ -2,7 +2,7 @@
 
 use rasray_shaders_glsl::constants::ldc::{LDC_LEVEL_BLOCKS, LDC_SLICES};
 
-use crate::{Config, Coverage, Depth, Header, Occupancy, cell_count};
+use crate::{Config, Coverage, Depth, Header, Occupancy, Payload, cell_count};
 
 /// All pools as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -15,8 +15,8 @@ pub struct Contents {
     pub lists: Vec<u32>,
     /// Depths of fragments.
     pub depths: Vec<u32>,
-    /// Triangles of fragments.
-    pub primitives: Vec<u32>,
+    /// Triangles of fragments, or two words of each: colour and normal.
+    pub payload: Vec<u32>,
     /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the second level
     /// follows the first.
     pub blocks: Vec<u32>,
@@ -174,30 +174,33 @@ fn half(bits: u32) -> f32 {
 }
 
 /// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they should be,
-/// that depths lie within those of their blocks, and that every node of the fringe is in exactly one list.
+/// that depths lie within those of their blocks, that fragments which name triangles name some that exist, and that every
+/// node of the fringe is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.
 pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let sorted = contents.header.unsorted == 0;
+    let named = contents.config.payload == Payload::Index;
     let (mut listed, mut nodes) = (0, 0);
     for cell in 0..cell_count(contents.config.resolution) as usize {
         let list = contents.list(cell)?;
-        let mut previous = None;
+        let mut previous: Option<(u32, u32)> = None;
         for place in list.clone() {
-            let primitive = contents.primitives[place as usize];
-            if primitive >= triangles {
+            // Without a name fragments of one depth may stand in any order.
+            let primitive = if named { contents.payload[place as usize] } else { 0 };
+            if named && primitive >= triangles {
                 return Err(Fault::Primitive { cell, primitive });
             }
             let z = contents.depth(place);
             if !contents.blocks_hold(cell, z) {
                 return Err(Fault::Depth { cell, place, z: z.to_string() });
             }
-            let key = Some((contents.depth_bits(place), primitive));
-            if sorted && key <= previous {
+            let key = (contents.depth_bits(place), primitive);
+            if sorted && previous.is_some_and(|before| key < before || (named && key == before)) {
                 return Err(Fault::Order { cell, place });
             }
-            previous = key;
+            previous = Some(key);
         }
         listed = list.end as usize;
         let fringe = contents.fringe_of(cell)?;

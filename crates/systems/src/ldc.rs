@@ -1,6 +1,6 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy};
+use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -63,8 +63,11 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "skip" => config.skip = given.switch()?,
             // One word each so far: a value is checked, and nothing else is chosen.
             "storage" => given.choice(&[("sb", ())])?,
-            "payload" => given.choice(&[("index", ())])?,
             "views" => given.choice(&[("axes", ())])?,
+            "payload" => {
+                config.payload =
+                    given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
+            }
             "depth" => config.depth = given.choice(&[("16", Depth::Bits16), ("32", Depth::Bits32)])?,
             "accept" => {
                 config.accept = given.choice(&[

@@ -28,10 +28,11 @@ pub(super) const ROWS: &[Row] = &[
         tier: Tier::Full,
         ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
     },
+    // Triangle ids instead of attributes, which need a scene.
     ldc(
         "ldc-published-16",
         Preset::Published,
-        &[("resolution", "16")],
+        &[("resolution", "16"), ("payload", "index")],
         Cases::Deep,
         published_law(16),
         deviations_ldc::PUBLISHED_16,
@@ -39,7 +40,7 @@ pub(super) const ROWS: &[Row] = &[
     ldc(
         "ldc-published-64",
         Preset::Published,
-        &[("resolution", "64")],
+        &[("resolution", "64"), ("payload", "index")],
         Cases::Shallow,
         published_law(64),
         deviations_ldc::PUBLISHED_64,

@@ -18,14 +18,15 @@ fn records_of_layered_depth_cubes() {
         &shaders::LDC_BUILD_4_SORT,
         &shaders::LDC_BUILD_5_SORT_LONG,
         &shaders::LDC_BUILD_6_FRINGE,
-        &shaders::LDC_BUILD_7_STATUS,
+        &shaders::LDC_BUILD_7_ATTRIBUTES,
+        &shaders::LDC_BUILD_8_STATUS,
         &shaders::LDC_TRACE_CLOSEST,
         &shaders::LDC_TRACE_OCCLUDED,
     ];
     check_layout!(modules, rasray_ldc::Header as "LdcHeader" {
         status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
         tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
-        depths_address, primitives_address, blocks_address, heads_address, fringe_address, scratch_address,
+        depths_address, payload_address, blocks_address, heads_address, fringe_address, scratch_address,
         layer_capacity, layer_limit, beyond, spare,
     });
     let by_address = &read_by_us(&shaders::LDC_TRACE_CLOSEST_ADDRESS)["LdcHeader"];
