@@ -11,22 +11,21 @@
 
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWordAddress { uint words[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelFragmentAddress { VoxelFragment fragments[]; };
 #define VOXEL_VOXELS(s) VoxelWordAddress(VOXEL_HEADER(s).voxels_address).words
 #define VOXEL_NORMALS(s) VoxelWordAddress(VOXEL_HEADER(s).normals_address).words
 #define VOXEL_LISTS(s) VoxelWordAddress(VOXEL_HEADER(s).lists_address).words
-#define VOXEL_FRAGMENTS(s) VoxelFragmentAddress(VOXEL_HEADER(s).fragments_address).fragments
+#define VOXEL_FRAGMENTS(s) VoxelWordAddress(VOXEL_HEADER(s).fragments_address).words
 #define VOXEL_SCRATCH(s) VoxelWordAddress(VOXEL_HEADER(s).scratch_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer VoxelVoxelsBuffer { uint voxel_voxel_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer VoxelNormalsBuffer { uint voxel_normal_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer VoxelListsBuffer { uint voxel_list_words[]; };
-layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { VoxelFragment voxel_fragments[]; };
+layout(set = STRUCTURE_SET, binding = 4, scalar) buffer VoxelFragmentsBuffer { uint voxel_fragment_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer VoxelScratchBuffer { uint voxel_scratch_words[]; };
 #define VOXEL_VOXELS(s) voxel_voxel_words
 #define VOXEL_NORMALS(s) voxel_normal_words
 #define VOXEL_LISTS(s) voxel_list_words
-#define VOXEL_FRAGMENTS(s) voxel_fragments
+#define VOXEL_FRAGMENTS(s) voxel_fragment_words
 #define VOXEL_SCRATCH(s) voxel_scratch_words
 #endif
 
@@ -109,11 +108,62 @@ void voxel_list_count_one(VoxelRef s, uint list) {
     atomicAdd(VOXEL_LISTS(s)[list], 1u);
 }
 
-// Puts a fragment into a list, whose word holds where the next one goes. What has no room has been counted.
-void voxel_list_store(VoxelRef s, uint list, VoxelFragment fragment) {
+// Words of a fragment: its depth, a word of payload, and with attributes colour and normal.
+uint voxel_stride() {
+    return VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u;
+}
+
+uint voxel_word(VoxelRef s, uint place, uint word) {
+    return VOXEL_FRAGMENTS(s)[voxel_stride() * place + word];
+}
+
+void voxel_set_word(VoxelRef s, uint place, uint word, uint value) {
+    VOXEL_FRAGMENTS(s)[voxel_stride() * place + word] = value;
+}
+
+// Depth at the cell's centre, metres from the lower side of the cube.
+float voxel_z(VoxelRef s, uint place) {
+    return uintBitsToFloat(voxel_word(s, place, 0u));
+}
+
+// The triangle of a fragment, where it says which: PRIMITIVE_UNKNOWN where it holds terms of a material instead.
+uint voxel_primitive(VoxelRef s, uint place) {
+    return VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL ? PRIMITIVE_UNKNOWN : voxel_word(s, place, 1u);
+}
+
+// Whether of two fragments of one depth the left one comes first: by its triangle, or by what it carries.
+bool voxel_comes_first(VoxelRef s, uint left, uint right) {
+    uvec2 first = uvec2(voxel_word(s, left, 1u), voxel_word(s, right, 1u));
+    if (VOXEL_PAYLOAD != VOXEL_PAYLOAD_MATERIAL || first.x != first.y) {
+        return first.x < first.y;
+    }
+    uvec2 second = uvec2(voxel_word(s, left, 2u), voxel_word(s, right, 2u));
+    return second.x < second.y || (second.x == second.y && voxel_word(s, left, 3u) < voxel_word(s, right, 3u));
+}
+
+// Exchanges a word of two fragments.
+void voxel_swap_word(VoxelRef s, uint left, uint right, uint word) {
+    uint of_left = voxel_word(s, left, word);
+    voxel_set_word(s, left, word, voxel_word(s, right, word));
+    voxel_set_word(s, right, word, of_left);
+}
+
+// Exchanges two fragments. No loop: a sort has none to spare.
+void voxel_swap(VoxelRef s, uint left, uint right) {
+    voxel_swap_word(s, left, right, 0u);
+    voxel_swap_word(s, left, right, 1u);
+    if (VOXEL_PAYLOAD != VOXEL_PAYLOAD_INDEX) {
+        voxel_swap_word(s, left, right, 2u);
+        voxel_swap_word(s, left, right, 3u);
+    }
+}
+
+// Puts a triangle into a list, whose word holds where the next one goes. What has no room has been counted.
+void voxel_list_store(VoxelRef s, uint list, float z, uint primitive) {
     uint place = atomicAdd(VOXEL_LISTS(s)[list], 1u);
     if (place < VOXEL_HEADER(s).capacity) {
-        VOXEL_FRAGMENTS(s)[place] = fragment;
+        voxel_set_word(s, place, 0u, floatBitsToUint(z));
+        voxel_set_word(s, place, 1u, primitive);
     }
 }
 

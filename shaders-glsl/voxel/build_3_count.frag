@@ -12,7 +12,7 @@ void main() {
     uint primitive = primitive_and_axis.x;
     uint axis = primitive_and_axis.y;
     VoxelFound found;
-    if (!voxel_fragment(primitive, axis, gl_FragCoord, found) || !alpha_accepts(primitive, found.barycentrics)) {
+    if (!voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found) || !alpha_accepts(primitive, found.barycentrics)) {
         return;
     }
     if (VOXEL_AXES == VOXEL_AXES_ALL) {

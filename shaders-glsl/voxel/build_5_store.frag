@@ -12,8 +12,8 @@ void main() {
     uint primitive = primitive_and_axis.x;
     uint axis = primitive_and_axis.y;
     VoxelFound found;
-    if (voxel_fragment(primitive, axis, gl_FragCoord, found) && alpha_accepts(primitive, found.barycentrics)
+    if (voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found) && alpha_accepts(primitive, found.barycentrics)
         && voxel_keeps(voxel_built, found.voxel, axis)) {
-        voxel_list_store(voxel_built, found.list, VoxelFragment(found.z, primitive));
+        voxel_list_store(voxel_built, found.list, found.z, primitive);
     }
 }

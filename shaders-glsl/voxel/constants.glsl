@@ -18,6 +18,12 @@
 #define VOXEL_ACCEPT_PARITY 0u
 #define VOXEL_ACCEPT_PLANE 1u
 
+// What a fragment carries beside its depth: its triangle; Hu's colour, normal and terms of the material; or Selective's
+// colour, reflectivity, normal and triangle.
+#define VOXEL_PAYLOAD_INDEX 0u
+#define VOXEL_PAYLOAD_MATERIAL 1u
+#define VOXEL_PAYLOAD_MIRROR 2u
+
 // Who decides that a cell is covered.
 #define VOXEL_COVERAGE_HARDWARE 0u
 #define VOXEL_COVERAGE_EXACT 1u

@@ -25,7 +25,7 @@ ivec2 voxel_cell_at(VoxelRef s, VoxelWalk walk, float t) {
 uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint place = voxel_bisect(s, list, depth, state, work);
     for (uint k = 0u; k < VOXEL_BISECT_FROM && place < list.y; k++) {
-        float z = VOXEL_FRAGMENTS(s)[place].z;
+        float z = voxel_z(s, place);
         state.entries++;
         work++;
         trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
@@ -51,7 +51,7 @@ VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout Tr
     } else {
         // No list is longer than VOXEL_PARITY_LIMIT here, or the build would not be complete.
         for (uint place = point.list.x; place < point.list.y; place++) {
-            float z = VOXEL_FRAGMENTS(s)[place].z;
+            float z = voxel_z(s, place);
             state.entries++;
             work++;
             trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
@@ -62,39 +62,55 @@ VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell, inout Tr
     return point;
 }
 
-// The fragment nearest in depth to a point, the lowest triangle of equals; PRIMITIVE_NONE in an empty cell.
+// Stands for no place.
+#define VOXEL_NO_PLACE 0xFFFFFFFFu
+
+// Whether a fragment is to be taken instead of one on the same side of a point: nearer to it, of equals the one that comes
+// first.
+bool voxel_is_nearer(VoxelRef s, uint place, float away, uint held, float held_away) {
+    return held == VOXEL_NO_PLACE || away < held_away || (away == held_away && voxel_comes_first(s, place, held));
+}
+
+// The place of the fragment nearest in depth to a point, of equals the one that comes first; VOXEL_NO_PLACE in an empty cell.
 uint voxel_nearest(VoxelRef s, VoxelPoint point, inout TraceState state, inout uint work) {
-    // The last before the point and the first that is not, of equals the lowest triangle.
-    VoxelFragment before = VoxelFragment(-uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
-    VoxelFragment behind = VoxelFragment(uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE);
+    // The last before the point and the first that is not.
+    uint before = VOXEL_NO_PLACE;
+    uint behind = VOXEL_NO_PLACE;
+    float before_z = -uintBitsToFloat(0x7F800000u);
+    float behind_z = uintBitsToFloat(0x7F800000u);
     uvec2 list = point.list;
     if (voxel_lists_sorted(s) && list.x < list.y) {
         uint first = voxel_first_from(s, list, point.depth, state, work);
         if (first > list.x) {
-            before = VOXEL_FRAGMENTS(s)[first - 1u];
+            before_z = voxel_z(s, first - 1u);
             state.entries++;
             work++;
-            trace_log(STEP_ENTRY, first - 1u, 0u, 0u, before.z, before.z);
-            before = VOXEL_FRAGMENTS(s)[voxel_first_from(s, uvec2(list.x, first), before.z, state, work)];
+            trace_log(STEP_ENTRY, first - 1u, 0u, 0u, before_z, before_z);
+            before = voxel_first_from(s, uvec2(list.x, first), before_z, state, work);
         }
         list = uvec2(first, min(first + 1u, list.y));
     }
     for (uint place = list.x; place < list.y; place++) {
-        VoxelFragment fragment = VOXEL_FRAGMENTS(s)[place];
+        float z = voxel_z(s, place);
         state.entries++;
         work++;
-        trace_log(STEP_ENTRY, place, 0u, 0u, fragment.z, fragment.z);
-        if (fragment.z < point.depth) {
-            bool nearer = fragment.z > before.z || (fragment.z == before.z && fragment.primitive < before.primitive);
-            before = nearer ? fragment : before;
+        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+        if (z < point.depth) {
+            bool nearer = voxel_is_nearer(s, place, -z, before, -before_z);
+            before = nearer ? place : before;
+            before_z = nearer ? z : before_z;
         } else {
-            bool nearer = fragment.z < behind.z || (fragment.z == behind.z && fragment.primitive < behind.primitive);
-            behind = nearer ? fragment : behind;
+            bool nearer = voxel_is_nearer(s, place, z, behind, behind_z);
+            behind = nearer ? place : behind;
+            behind_z = nearer ? z : behind_z;
         }
     }
-    float back = point.depth - before.z;
-    float ahead = behind.z - point.depth;
-    return ahead < back || (ahead == back && behind.primitive < before.primitive) ? behind.primitive : before.primitive;
+    if (before == VOXEL_NO_PLACE || behind == VOXEL_NO_PLACE) {
+        return min(before, behind);
+    }
+    float back = point.depth - before_z;
+    float ahead = behind_z - point.depth;
+    return ahead < back || (ahead == back && voxel_comes_first(s, behind, before)) ? behind : before;
 }
 
 // Bisects between a point on one side and one on the other, and lets the triangle there become the best hit.
@@ -111,23 +127,29 @@ void voxel_refine(VoxelRef s, Ray ray, VoxelWalk walk, float t_before, float t_a
             after = middle;
         }
     }
-    uint primitive = voxel_nearest(s, after, state, work);
-    if (primitive == PRIMITIVE_NONE) {
+    uint place = voxel_nearest(s, after, state, work);
+    if (place == VOXEL_NO_PLACE) {
         // Only the cell before holds anything.
         VoxelPoint before = voxel_point(s, walk, t_before, voxel_cell_at(s, walk, t_before), state, work);
-        primitive = voxel_nearest(s, before, state, work);
+        place = voxel_nearest(s, before, state, work);
     }
+    uint primitive = place == VOXEL_NO_PLACE ? PRIMITIVE_NONE : voxel_primitive(s, place);
     float t = 0.5 * (t_before + t_after);
-    uint verdict = primitive == PRIMITIVE_NONE ? TEST_BESIDE : (primitive == ray.exclude_primitive ? TEST_EXCLUDED
+    // A fragment without an id cannot be the triangle that is excluded.
+    bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
+    uint verdict = primitive == PRIMITIVE_NONE ? TEST_BESIDE : (excluded ? TEST_EXCLUDED
         : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
         : (hit_is_better(state.best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER))));
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, after.depth);
     if (verdict == TEST_ACCEPTED) {
-        vec3 a;
-        vec3 b;
-        vec3 c;
-        geometry_vertices(primitive, a, b, c);
-        vec2 found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        vec2 found = vec2(uintBitsToFloat(place), 0.0);
+        if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX) {
+            vec3 a;
+            vec3 b;
+            vec3 c;
+            geometry_vertices(primitive, a, b, c);
+            found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        }
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         state.best = Hit(t, primitive, found.x, found.y);
     }

@@ -36,10 +36,14 @@ struct VoxelFound {
     vec2 barycentrics;
 };
 
+// The cell of a fragment invocation: the viewport has a border of one.
+ivec2 voxel_cell_at_fragment(vec4 frag_coord) {
+    return ivec2(frag_coord.xy) - 1;
+}
+
 // False where the triangle leaves no fragment in the cell.
-bool voxel_fragment(uint primitive, uint axis, vec4 frag_coord, out VoxelFound found) {
+bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found) {
     AxisView view = voxel_view(voxel_built, axis);
-    ivec2 cell = ivec2(frag_coord.xy) - 1;
     vec3 a;
     vec3 b;
     vec3 c;

@@ -18,7 +18,7 @@ uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, i
     // Each step halves what is left.
     for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
         uint middle = list.x + (list.y - list.x) / 2u;
-        float z = VOXEL_FRAGMENTS(s)[middle].z;
+        float z = voxel_z(s, middle);
         state.entries++;
         work++;
         trace_log(STEP_ENTRY, middle, 0u, 0u, z, z);
@@ -61,18 +61,19 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
         }
         work++;
         state.entries++;
-        VoxelFragment fragment = VOXEL_FRAGMENTS(s)[place];
-        trace_log(STEP_ENTRY, place, 0u, 0u, fragment.z, fragment.z);
-        if (fragment.z > high && sorted) {
+        float z = voxel_z(s, place);
+        trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+        if (z > high && sorted) {
             trace_log(STEP_SKIP, SKIP_PAST, 0u, 0u, low, high);
             return false;
         }
-        if (fragment.z < low || fragment.z > high) {
-            trace_log(STEP_FRAGMENT, fragment.primitive, TEST_OUTSIDE_CELL, 0u, 0.0, fragment.z);
+        uint primitive = voxel_primitive(s, place);
+        if (z < low || z > high) {
+            trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
             continue;
         }
         state.tests++;
-        test_plane(plane_cell, ray, fragment.primitive, stretch.x, stretch.y, state.best);
+        test_plane(plane_cell, ray, primitive, stretch.x, stretch.y, state.best);
     }
     return false;
 }

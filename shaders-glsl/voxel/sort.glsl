@@ -1,4 +1,4 @@
-// What: the elements of a list for the shared sort: fragments by depth, ties by triangle.
+// What: the elements of a list for the shared sort: fragments by depth, ties by triangle or by what else they carry.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
 #ifndef VOXEL_SORT_GLSL
@@ -14,15 +14,13 @@ VoxelRef sorted_structure;
 uint sorted_from;
 
 bool sort_before(uint i, uint j) {
-    VoxelFragment left = VOXEL_FRAGMENTS(sorted_structure)[sorted_from + i];
-    VoxelFragment right = VOXEL_FRAGMENTS(sorted_structure)[sorted_from + j];
-    return left.z < right.z || (left.z == right.z && left.primitive < right.primitive);
+    float left = voxel_z(sorted_structure, sorted_from + i);
+    float right = voxel_z(sorted_structure, sorted_from + j);
+    return left < right || (left == right && voxel_comes_first(sorted_structure, sorted_from + i, sorted_from + j));
 }
 
 void sort_swap(uint i, uint j) {
-    VoxelFragment left = VOXEL_FRAGMENTS(sorted_structure)[sorted_from + i];
-    VOXEL_FRAGMENTS(sorted_structure)[sorted_from + i] = VOXEL_FRAGMENTS(sorted_structure)[sorted_from + j];
-    VOXEL_FRAGMENTS(sorted_structure)[sorted_from + j] = left;
+    voxel_swap(sorted_structure, sorted_from + i, sorted_from + j);
 }
 
 uint sort_begin(VoxelRef s, uint list) {

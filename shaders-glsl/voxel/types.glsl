@@ -14,6 +14,7 @@ layout(constant_id = 72) const uint VOXEL_ACCEPT = VOXEL_ACCEPT_PLANE;
 layout(constant_id = 73) const uint VOXEL_COVERAGE = VOXEL_COVERAGE_EXACT;
 layout(constant_id = 74) const uint VOXEL_PAGE = 1u;
 layout(constant_id = 75) const uint VOXEL_SORT = 1u;
+layout(constant_id = 76) const uint VOXEL_PAYLOAD = VOXEL_PAYLOAD_INDEX;
 
 // State and sizes of one value. 112 bytes.
 struct VoxelHeader {
@@ -38,12 +39,6 @@ struct VoxelHeader {
     uvec2 lists_address;
     uvec2 fragments_address;
     uvec2 scratch_address;
-};
-
-// A fragment: 8 bytes.
-struct VoxelFragment {
-    float z;              // depth at the cell's centre, metres from the lower side of the cube
-    uint primitive;
 };
 
 #endif

@@ -28,7 +28,9 @@ const STRUCTURES: [(&str, Make); 5] = [
         voxels(bench, geometry, rasray_voxel::Config::robust(64), counters)
     }),
     ("voxels, published", |bench, geometry, counters| {
-        voxels(bench, geometry, rasray_voxel::Config::published_hu(64), counters)
+        let payload = rasray_voxel::Payload::Index;
+        let config = rasray_voxel::Config { payload, ..rasray_voxel::Config::published_hu(64) };
+        voxels(bench, geometry, config, counters)
     }),
 ];
 

@@ -98,7 +98,12 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         voxels(
             bench,
             geometry,
-            VoxelConfig { counters, work_budget, ..VoxelConfig::published_hu(RESOLUTION) },
+            VoxelConfig {
+                counters,
+                work_budget,
+                payload: rasray_voxel::Payload::Index,
+                ..VoxelConfig::published_hu(RESOLUTION)
+            },
         ),
         cube(
             bench,

@@ -8,7 +8,8 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
 use rasray_voxel::{
-    Accept, Addressing, Config, Contents, Demand, Fault, Storage, Voxels, formula_bytes, plan, well_formed,
+    Accept, Addressing, Config, Contents, Demand, Fault, Payload, Storage, Voxels, formula_bytes, plan,
+    well_formed,
 };
 
 /// Layers, and a room around them.
@@ -21,6 +22,15 @@ fn scene() -> Vec<Triangle> {
 fn rays() -> Vec<Ray> {
     let mut random = Random::new(3);
     (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
+}
+
+/// The published rules of both papers with triangles in the fragments: attributes need a scene.
+fn hu(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_hu(resolution) }
+}
+
+fn selective(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_selective(resolution) }
 }
 
 /// Builds once, with the pools as they are.
@@ -98,18 +108,18 @@ fn every_edge_capacity_of_one_view_a_triangle() {
 
 #[test]
 fn every_edge_capacity_of_all_views() {
-    every_edge_capacity(Config::published_hu(32));
+    every_edge_capacity(hu(32));
 }
 
 #[test]
 fn every_edge_capacity_of_pages() {
-    every_edge_capacity(Config::published_selective(32));
+    every_edge_capacity(selective(32));
 }
 
 #[test]
 fn every_edge_capacity_by_address() {
     every_edge_capacity(Config { addressing: Addressing::Address, ..Config::robust(32) });
-    every_edge_capacity(Config { addressing: Addressing::Address, ..Config::published_selective(32) });
+    every_edge_capacity(Config { addressing: Addressing::Address, ..selective(32) });
 }
 
 /// What is allocated after the exact demand has been met is what the formula says.
@@ -119,8 +129,8 @@ fn bytes_are_those_of_the_formula() {
     let triangles = scene();
     for config in [
         Config { sort: false, ..Config::robust(16) },
-        Config { grid: Some(9), ..Config::published_hu(33) },
-        Config::published_selective(50),
+        Config { grid: Some(9), ..hu(33) },
+        selective(50),
         Config { storage: Storage::Paged, page: 8, ..Config::robust(40) },
     ] {
         let mut structure = made(&bench, config, &triangles);
@@ -165,7 +175,7 @@ fn lists_of_ten_thousand_are_sorted() {
         })
         .collect();
     let base = Config { fragments: Some(1 << 16), ..Config::robust(2) };
-    let published = Config { fragments: Some(1 << 16), ..Config::published_hu(2) };
+    let published = Config { fragments: Some(1 << 16), ..hu(2) };
     for config in [base, Config { storage: Storage::Paged, ..base }, published] {
         let mut structure = made(&bench, config, &triangles);
         let status = build(&bench, &mut structure);
@@ -202,7 +212,7 @@ fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
     let triangles = scene();
     let count = triangles.len() as u32;
-    for config in [Config::robust(16), Config::published_selective(16)] {
+    for config in [Config::robust(16), selective(16)] {
         let mut structure = made(&bench, Config { fragments: Some(1 << 16), ..config }, &triangles);
         assert!(build(&bench, &mut structure).complete);
         let good = structure.download(bench.device()).expect("the device works");

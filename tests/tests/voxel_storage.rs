@@ -7,7 +7,16 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
-use rasray_voxel::{Axes, Config, Contents, Coverage, March, Storage, Voxels};
+use rasray_voxel::{Axes, Config, Contents, Coverage, March, Payload, Storage, Voxels};
+
+/// The published rules of both papers with triangles in the fragments: attributes need a scene.
+fn hu(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_hu(resolution) }
+}
+
+fn selective(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_selective(resolution) }
+}
 
 fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     let geometry = bench.geometry(triangles);
@@ -170,7 +179,7 @@ fn builds_repeat_to_the_bit() {
     let mut triangles = sphere([0.3, 0.1, -0.2], 1.0, 16);
     triangles.extend(triangles.clone());
     triangles.extend(tilted(&closed_box([-0.5; 3], [0.5; 3])));
-    for config in [Config::robust(64), Config::published_hu(64), Config::published_selective(64)] {
+    for config in [Config::robust(64), hu(64), selective(64)] {
         let first = contents(&bench, &built(&bench, config, &triangles));
         for _ in 0..3 {
             let again = contents(&bench, &built(&bench, config, &triangles));
@@ -217,8 +226,8 @@ fn budgets_change_no_hit() {
         Config::robust(32),
         Config { sort: false, ..Config::robust(32) },
         Config { axes: Axes::All, ..Config::robust(32) },
-        Config::published_hu(32),
-        Config { march: March::Exact, ..Config::published_selective(32) },
+        hu(32),
+        Config { march: March::Exact, ..selective(32) },
     ] {
         let whole = built(&bench, config, &triangles);
         let expected = bench.trace(&whole, &rays).hits;

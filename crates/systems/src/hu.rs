@@ -1,6 +1,6 @@
 //! Hu et al.: voxels with axis A-buffers, with the paper's presets.
 
-use rasray_voxel::{Config, Voxels};
+use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::{Preset, Spec, System, SystemsError, voxel};
 
@@ -22,5 +22,5 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         Preset::Robust => Config::robust(voxel::RESOLUTION),
         Preset::Published => Config::published_hu(voxel::RESOLUTION),
     };
-    voxel::config(spec, preset)
+    voxel::config(spec, preset, Payload::Material)
 }

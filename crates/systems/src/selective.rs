@@ -1,6 +1,6 @@
 //! Selective reflections: voxels first, then each fragment in one of the axis A-buffers, with the paper's presets.
 
-use rasray_voxel::{Config, Storage, Voxels};
+use rasray_voxel::{Config, Payload, Storage, Voxels};
 
 use crate::{Preset, Spec, System, SystemsError, voxel};
 
@@ -22,5 +22,5 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         Preset::Robust => Config { storage: Storage::Paged, ..Config::robust(voxel::RESOLUTION) },
         Preset::Published => Config::published_selective(voxel::RESOLUTION),
     };
-    voxel::config(spec, preset)
+    voxel::config(spec, preset, Payload::Mirror)
 }

@@ -1,12 +1,12 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Addressing, Axes, Config, Coverage, March, Storage};
+use rasray_voxel::{Accept, Addressing, Axes, Config, Coverage, March, Payload, Storage};
 
 use crate::option::Given;
 use crate::{Spec, SystemsError};
 
 /// Options by their names on the command line.
-pub(crate) const OPTIONS: [&str; 12] = [
+pub(crate) const OPTIONS: [&str; 13] = [
     "resolution",
     "grid",
     "axes",
@@ -15,6 +15,7 @@ pub(crate) const OPTIONS: [&str; 12] = [
     "accept",
     "coverage",
     "storage",
+    "payload",
     "page",
     "sort",
     "addressing",
@@ -24,8 +25,8 @@ pub(crate) const OPTIONS: [&str; 12] = [
 /// Cells a side of a view where nothing else is asked for.
 pub(crate) const RESOLUTION: u32 = 512;
 
-/// The configuration that a spec stands for over a preset.
-pub(crate) fn config(spec: &Spec, preset: Config) -> Result<Config, SystemsError> {
+/// The configuration that a spec stands for over a preset. `attributes` is the payload of the system's paper.
+pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result<Config, SystemsError> {
     let mut config = Config { counters: spec.counters(), ..preset };
     for given in Given::all(spec) {
         match given.name {
@@ -47,6 +48,9 @@ pub(crate) fn config(spec: &Spec, preset: Config) -> Result<Config, SystemsError
             }
             "accept" => {
                 config.accept = given.choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])?;
+            }
+            "payload" => {
+                config.payload = given.choice(&[("index", Payload::Index), ("attributes", attributes)])?;
             }
             "coverage" => {
                 config.coverage =

@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Config};
+use crate::{Axes, Config, Payload};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -16,18 +16,29 @@ pub(crate) struct Build {
     count: RasterPipeline,
     scan: Scan,
     store: RasterPipeline,
+    attributes: Option<ComputePipeline>,
     sort: ComputePipeline,
     sort_long: ComputePipeline,
     status: ComputePipeline,
 }
 
 impl Build {
+    /// # Errors
+    /// The configuration needs the scene's shaders and there is no scene, or the device refuses a pipeline.
     pub(crate) fn new(
         pipelines: &BuildPipelines<'_>,
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
+        let stored = config.payload != Payload::Index;
+        if stored && scene.is_none() {
+            return Err(AdsError::Option {
+                option: "payload",
+                value: "attributes".to_owned(),
+                expected: "attributes are read from a scene; without one use `index`",
+            });
+        }
         let [count, store] = if alpha {
             ["build_3_count.alpha", "build_5_store.alpha"]
         } else {
@@ -40,9 +51,10 @@ impl Build {
             count: pipelines.raster("build_raster", count)?,
             scan: Scan::new(pipelines, "build_4_scan")?,
             store: pipelines.raster("build_raster", store)?,
-            sort: pipelines.compute("build_6_sort")?,
-            sort_long: pipelines.compute("build_7_sort_long")?,
-            status: pipelines.compute("build_8_status")?,
+            attributes: stored.then(|| pipelines.compute("build_6_attributes")).transpose()?,
+            sort: pipelines.compute("build_7_sort")?,
+            sort_long: pipelines.compute("build_8_sort_long")?,
+            status: pipelines.compute("build_9_status")?,
         })
     }
 
@@ -79,17 +91,21 @@ impl Build {
         }
         self.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
         target.raster_pass(recorder, "voxel/build_5_store", &self.store, side, views);
+        if let Some(attributes) = &self.attributes {
+            let groups = target.pools.sizes().elements("fragments").div_ceil(group);
+            target.compute_pass(recorder, "voxel/build_6_attributes", attributes, groups, 0, shaders);
+        }
         target.compute_pass(
             recorder,
-            "voxel/build_6_sort",
+            "voxel/build_7_sort",
             &self.sort,
             lists.div_ceil(group),
             0,
             Access::COMPUTE,
         );
         let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
-        let (label, rounds) = ("voxel/build_7_sort_long", LONG_LIST_ROUNDS);
+        let (label, rounds) = ("voxel/build_8_sort_long", LONG_LIST_ROUNDS);
         target.rounds_pass(recorder, label, &self.sort_long, long, rounds, Access::COMPUTE);
-        target.status_pass(recorder, "voxel/build_8_status", &self.status);
+        target.status_pass(recorder, "voxel/build_9_status", &self.status);
     }
 }

@@ -50,6 +50,18 @@ pub enum Storage {
     Paged,
 }
 
+/// What a fragment carries beside its depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Payload {
+    /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
+    Index,
+    /// Hu's: colour and opacity, normal, terms of the material; 12 bytes, read from a scene. Hits do not name their
+    /// triangle and cannot be excluded. Needs [`Accept::Parity`], as the next.
+    Material,
+    /// Selective's: colour and reflectivity, normal, triangle; 12 bytes, read from a scene.
+    Mirror,
+}
+
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
@@ -67,6 +79,8 @@ pub struct Config {
     pub accept: Accept,
     /// Who decides coverage.
     pub coverage: Coverage,
+    /// What a fragment carries.
+    pub payload: Payload,
     /// How lists are kept.
     pub storage: Storage,
     /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
@@ -94,6 +108,7 @@ impl Config {
             samples: 3,
             accept: Accept::Plane,
             coverage: Coverage::Exact,
+            payload: Payload::Index,
             storage: Storage::Contiguous,
             page: 4,
             sort: true,
@@ -104,20 +119,26 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, three steps in a voxel, and parities.
+    /// Hu et al.: everything in all views, what is shaded in each fragment, three steps in a voxel, and parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,
             march: March::Samples,
             accept: Accept::Parity,
             coverage: Coverage::Hardware,
+            payload: Payload::Material,
             ..Self::robust(resolution)
         }
     }
 
     /// Frid Kastrati and Goswami: voxels first, then each fragment in the view of its voxel, in pages of four.
     pub fn published_selective(resolution: u32) -> Self {
-        Self { axes: Axes::Voxel, storage: Storage::Paged, ..Self::published_hu(resolution) }
+        Self {
+            axes: Axes::Voxel,
+            payload: Payload::Mirror,
+            storage: Storage::Paged,
+            ..Self::published_hu(resolution)
+        }
     }
 
     /// Voxels a side.
@@ -159,6 +180,13 @@ impl Config {
                 expected: "plane acceptance needs the march `exact`, since samples are points and planes count in a cell",
             });
         }
+        if self.accept == Accept::Plane && self.payload != Payload::Index {
+            return Err(AdsError::Option {
+                option: "accept",
+                value: "plane".to_owned(),
+                expected: "plane acceptance needs the payload `index`, which leaves surfaces to the triangle",
+            });
+        }
         Ok(())
     }
 
@@ -181,6 +209,11 @@ impl Config {
             Coverage::Hardware => numbers::VOXEL_COVERAGE_HARDWARE,
             Coverage::Exact => numbers::VOXEL_COVERAGE_EXACT,
         };
+        let payload = match self.payload {
+            Payload::Index => numbers::VOXEL_PAYLOAD_INDEX,
+            Payload::Material => numbers::VOXEL_PAYLOAD_MATERIAL,
+            Payload::Mirror => numbers::VOXEL_PAYLOAD_MIRROR,
+        };
         vec![
             (70, axes),
             (71, march),
@@ -188,6 +221,7 @@ impl Config {
             (73, coverage),
             (74, self.page()),
             (75, u32::from(self.sort)),
+            (76, payload),
         ]
     }
 
@@ -198,6 +232,7 @@ impl Config {
             Storage::Contiguous => "sb",
             Storage::Paged => "paged",
         };
+        let payload = if self.payload == Payload::Index { "index" } else { "attributes" };
         let mut options = vec![
             ("storage", storage.to_owned()),
             ("resolution", self.resolution.to_string()),
@@ -205,6 +240,7 @@ impl Config {
             ("axes", lower(&self.axes)),
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
+            ("payload", payload.to_owned()),
             ("sort", if self.sort { "on" } else { "off" }.to_owned()),
         ];
         if self.storage == Storage::Paged {
@@ -224,6 +260,16 @@ impl Config {
             ("coverage", lower(&self.coverage)),
             ("addressing", self.addressing.name().to_owned()),
         ]
+    }
+}
+
+impl Payload {
+    /// Bytes of a fragment with its depth.
+    pub fn fragment_bytes(self) -> u64 {
+        match self {
+            Self::Index => 8,
+            Self::Material | Self::Mirror => 16,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
-use crate::{Axes, Config, Header};
+use crate::{Axes, Config, Header, Payload};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "scratch"];
@@ -35,7 +35,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (voxels.div_ceil(8), 4),
         (normals, 12),
         (lists, 4),
-        (demand.entries, 8),
+        (demand.entries, config.payload.fragment_bytes()),
         (scratch_words(config, demand.long_lists), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
@@ -92,7 +92,7 @@ pub struct FormulaBytes {
     pub voxels: u64,
     /// Per cell of three views: 4.
     pub lists: u64,
-    /// Per entry: 8.
+    /// Per entry: 8, or 16 with attributes.
     pub fragments: u64,
     /// Header; a sum of 4 per 1024 lists for the scan; 8 per long list.
     pub rest: u64,
@@ -113,7 +113,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
-        fragments: demand.entries * 8,
+        fragments: demand.entries * if config.payload == Payload::Index { 8 } else { 16 },
         rest: 112 + cells.div_ceil(1024) * 4 + demand.long_lists * 8,
     }
 }
@@ -129,6 +129,7 @@ mod tests {
             for config in [
                 Config { grid, ..Config::robust(resolution) },
                 Config { grid, ..Config::published_hu(resolution) },
+                Config { grid, payload: Payload::Index, ..Config::published_hu(resolution) },
                 Config { grid, ..Config::published_selective(resolution) },
             ] {
                 let demand = Demand { entries: 12_345, long_lists: 3 };
@@ -150,6 +151,8 @@ mod tests {
         assert!(message(Config { page: 9, ..Config::robust(64) }).contains("page is 9"));
         assert!(message(Config { work_budget: Some(0), ..Config::robust(64) }).contains("work budget is 0"));
         assert!(message(Config { accept: Accept::Plane, ..Config::published_hu(64) }).contains("march"));
+        let nameless = message(Config { payload: Payload::Material, ..Config::robust(64) });
+        assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, long_lists: 0 };
         assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
     }

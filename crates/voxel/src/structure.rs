@@ -24,11 +24,11 @@ pub struct Voxels {
 }
 
 impl Voxels {
-    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks and surfaces.
+    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and attributes.
     ///
     /// # Errors
-    /// An option is out of range or needs what the device does not provide; out of memory; a pool exceeds
-    /// what one binding can hold (then use device addresses).
+    /// An option is out of range or needs what the device or the caller does not provide; out of memory; a pool
+    /// exceeds what one binding can hold (then use device addresses).
     pub fn new(
         device: &Device,
         config: Config,

@@ -1,6 +1,6 @@
 //! Checks the contents of built voxels and axis A-buffers.
 
-use crate::{Config, Header, list_count};
+use crate::{Config, Header, Payload, list_count};
 
 /// What rays read, as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub struct Contents {
     pub voxels: Vec<u32>,
     /// Where the fragments of each cell end.
     pub lists: Vec<u32>,
-    /// Depth and triangle of each fragment.
+    /// Depth and triangle of each fragment; or depth, triangle or terms of the material, colour and normal.
     pub fragments: Vec<u32>,
 }
 
@@ -22,7 +22,7 @@ pub struct Contents {
 pub struct Fragment {
     /// Depth at the cell's centre, metres from the lower side of the cube.
     pub z: f32,
-    /// Global triangle id.
+    /// Global triangle id; 0 where fragments do not say.
     pub primitive: u32,
 }
 
@@ -93,16 +93,18 @@ impl Contents {
         if begin > end || end > stored {
             return Err(Fault::Dangling { list, end });
         }
-        let words = &self.fragments[2 * begin as usize..2 * end as usize];
+        let stride = self.config.payload.fragment_bytes() as usize / 4;
+        let named = self.config.payload != Payload::Material;
+        let words = &self.fragments[stride * begin as usize..stride * end as usize];
         Ok(words
-            .chunks_exact(2)
-            .map(|node| Fragment { z: f32::from_bits(node[0]), primitive: node[1] })
+            .chunks_exact(stride)
+            .map(|node| Fragment { z: f32::from_bits(node[0]), primitive: if named { node[1] } else { 0 } })
             .collect())
     }
 }
 
-/// Checks that every counted fragment is in one list, has a depth within the cube and names one of `triangles`
-/// triangles, that lists are sorted where they should be, and that voxels are searched iff something lies in them.
+/// Checks that every counted fragment is in one list, has a depth within the cube and, where it names a triangle, names
+/// one of `triangles`, that lists are sorted where they should be, and that voxels are searched iff something lies in them.
 ///
 /// # Errors
 /// The first fault found.
@@ -110,6 +112,8 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let stored = contents.header.fragments as usize;
     let sorted = contents.config.sort && contents.header.unsorted == 0;
     let side = contents.header.cell * contents.header.resolution as f32 * 1.0001;
+    // Without a name fragments of one depth may stand in any order.
+    let named = contents.config.payload != Payload::Material;
     let mut listed = 0;
     for list in 0..list_count(contents.config.resolution) as usize {
         let fragments = contents.list(list)?;
@@ -122,7 +126,10 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
                 return Err(Fault::Depth { list, z: fragment.z.to_string() });
             }
             let before = index.checked_sub(1).map(|before| fragments[before]);
-            if sorted && before.is_some_and(|b| (b.z, b.primitive) >= (fragment.z, fragment.primitive)) {
+            let key = |fragment: &Fragment| (fragment.z, fragment.primitive);
+            let disorder =
+                |before: Fragment| key(&before) > key(fragment) || (named && key(&before) == key(fragment));
+            if sorted && before.is_some_and(disorder) {
                 return Err(Fault::Order { list, fragment: *fragment });
             }
         }

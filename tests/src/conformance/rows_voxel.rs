@@ -20,7 +20,7 @@ const fn voxel(
     Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
-/// All of them.
+/// All of them. Those of published rules have triangle ids instead of attributes, which need a scene.
 pub(super) const ROWS: &[Row] = &[
     voxel(
         "hu-robust-16",
@@ -49,7 +49,7 @@ pub(super) const ROWS: &[Row] = &[
     voxel(
         "hu-published-16",
         ("hu", Preset::Published),
-        &[("resolution", "16")],
+        &[("resolution", "16"), ("payload", "index")],
         Cases::Deep,
         published_law(16),
         deviations_voxel::HU_16,
@@ -57,7 +57,7 @@ pub(super) const ROWS: &[Row] = &[
     voxel(
         "hu-published-128",
         ("hu", Preset::Published),
-        &[("resolution", "128")],
+        &[("resolution", "128"), ("payload", "index")],
         Cases::Shallow,
         published_law(128),
         deviations_voxel::HU_128,
@@ -73,7 +73,7 @@ pub(super) const ROWS: &[Row] = &[
     voxel(
         "selective-published-16",
         ("selective", Preset::Published),
-        &[("resolution", "16")],
+        &[("resolution", "16"), ("payload", "index")],
         Cases::Deep,
         published_law(16),
         deviations_voxel::SELECTIVE_16,
@@ -81,7 +81,7 @@ pub(super) const ROWS: &[Row] = &[
     voxel(
         "selective-published-128",
         ("selective", Preset::Published),
-        &[("resolution", "128")],
+        &[("resolution", "128"), ("payload", "index")],
         Cases::Shallow,
         published_law(128),
         deviations_voxel::SELECTIVE_128,

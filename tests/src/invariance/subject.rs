@@ -15,6 +15,8 @@ pub const SUBJECTS: &[Row] = &[
     ("mmrt", "robust", &[("resolution", "24"), ("capacity", "40000")]),
     // Attributes come from a scene's materials, which plain triangles lack.
     ("mmrt", "published", &[("resolution", "24"), ("capacity", "40000"), ("payload", "index")]),
+    ("hu", "published", &[("resolution", "24"), ("payload", "index")]),
+    ("selective", "published", &[("resolution", "24"), ("payload", "index")]),
     ("ldc", "published", &[("resolution", "24"), ("payload", "index")]),
     ("selective", "robust", &[("resolution", "24"), ("grid", "12")]),
 ];

@@ -62,7 +62,7 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 21] = [
+    const SHARED: [&str; 20] = [
         "Ray",
         "Hit",
         "TraceState",
@@ -77,7 +77,6 @@ fn records_are_the_same_in_all_modules() {
         "BvhNode",
         "BvhRecord",
         "VoxelHeader",
-        "VoxelFragment",
         "Frame",
         "Material",
         "TextureRef",
