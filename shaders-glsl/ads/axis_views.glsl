@@ -95,33 +95,35 @@ float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
 }
 
 // Whether a triangle (frame of the view) reaches into a cell, or touches it within rounding: more than is exact,
-// never less.
+// never less. Precise: passes that count and store must agree.
 bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     // In cells, from the centre.
     float slack = 1.0e-4 + 1.0e-6 * float(view.resolution);
     vec2 center = vec2(cell) + 0.5;
-    vec2 pa = a.xy / view.cell - center;
-    vec2 pb = b.xy / view.cell - center;
-    vec2 pc = c.xy / view.cell - center;
+    precise vec2 pa = a.xy / view.cell - center;
+    precise vec2 pb = b.xy / view.cell - center;
+    precise vec2 pc = c.xy / view.cell - center;
     float reach = 0.5 + slack;
     if (any(greaterThan(min(pa, min(pb, pc)), vec2(reach))) || any(lessThan(max(pa, max(pb, pc)), vec2(-reach)))) {
         return false;
     }
-    vec2 ab = pb - pa;
-    vec2 ac = pc - pa;
-    float area = ab.x * ac.y - ab.y * ac.x;
+    precise vec2 ab = pb - pa;
+    precise vec2 ac = pc - pa;
+    precise float area = ab.x * ac.y - ab.y * ac.x;
+    precise float uncertain = slack * (abs(ab.x) + abs(ab.y) + abs(ac.x) + abs(ac.y));
     // Where the winding is not certain the corners' bounds decide alone.
-    if (!(abs(area) > slack * (abs(ab.x) + abs(ab.y) + abs(ac.x) + abs(ac.y)))) {
+    if (!(abs(area) > uncertain)) {
         return true;
     }
     float winding = area < 0.0 ? -1.0 : 1.0;
     vec2 from[3] = vec2[3](pa, pb, pc);
     vec2 to[3] = vec2[3](pb, pc, pa);
     for (int edge = 0; edge < 3; edge++) {
-        vec2 span = to[edge] - from[edge];
-        // Positive inside, at the centre.
-        float inside = winding * (from[edge].x * span.y - from[edge].y * span.x);
-        if (inside + reach * (abs(span.x) + abs(span.y)) < 0.0) {
+        precise vec2 span = to[edge] - from[edge];
+        // Positive where a corner of the cell lies inside.
+        precise float inside = winding * (from[edge].x * span.y - from[edge].y * span.x)
+            + reach * (abs(span.x) + abs(span.y));
+        if (inside < 0.0) {
             return false;
         }
     }

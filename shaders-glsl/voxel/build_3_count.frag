@@ -4,7 +4,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/raster.glsl"
-#include "contract/alpha.glsl"
+#include "voxel/mask.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
@@ -12,7 +12,8 @@ void main() {
     uint primitive = primitive_and_axis.x;
     uint axis = primitive_and_axis.y;
     VoxelFound found;
-    if (!voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found) || !alpha_accepts(primitive, found.barycentrics)) {
+    if (!voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found)
+        || !voxel_mask_keeps(primitive, found.barycentrics)) {
         return;
     }
     if (VOXEL_AXES == VOXEL_AXES_ALL) {

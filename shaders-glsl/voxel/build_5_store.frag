@@ -4,7 +4,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/raster.glsl"
-#include "contract/alpha.glsl"
+#include "voxel/mask.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
@@ -12,8 +12,8 @@ void main() {
     uint primitive = primitive_and_axis.x;
     uint axis = primitive_and_axis.y;
     VoxelFound found;
-    if (voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found) && alpha_accepts(primitive, found.barycentrics)
-        && voxel_keeps(voxel_built, found.voxel, axis)) {
+    if (voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found)
+        && voxel_mask_keeps(primitive, found.barycentrics) && voxel_keeps(voxel_built, found.voxel, axis)) {
         voxel_list_store(voxel_built, found.list, found.z, primitive);
     }
 }

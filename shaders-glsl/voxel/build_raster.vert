@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover.
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, or that it may reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: Hu et al. section 3.1; instances replace the paper's geometry-shader amplification.
 #version 460
@@ -28,8 +28,10 @@ void main() {
     a = axis_from_world(view, a);
     b = axis_from_world(view, b);
     c = axis_from_world(view, c);
-    if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
-        gl_Position = axis_proposal(view, a, b, c, corner, 1.0 / 32.0);
+    if (VOXEL_COVERAGE != VOXEL_COVERAGE_HARDWARE) {
+        // 1/32 for the hardware's grid, and half a cell to its sides.
+        float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 : 0.0;
+        gl_Position = axis_proposal(view, a, b, c, corner, beyond + 1.0 / 32.0);
     } else {
         vec3 p = axis_on_screen(view, corner == 0u ? a : (corner == 1u ? b : c));
         float to_clip = float(view.resolution) / float(view.resolution + 2u);

@@ -24,9 +24,11 @@
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
 
-// Who decides that a cell is covered.
+// Which cells a triangle is kept in: those whose centre the rasterizer, or the shared function, says it covers; or all that
+// it reaches into, and then hits are those of triangles alone.
 #define VOXEL_COVERAGE_HARDWARE 0u
 #define VOXEL_COVERAGE_EXACT 1u
+#define VOXEL_COVERAGE_CONSERVATIVE 2u
 
 // Most voxels a side: three coordinates share a word of a paused ray.
 #define VOXEL_GRID_LIMIT 1024u

@@ -52,7 +52,13 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
         return false;
     }
     voxel_view_vertices(view, primitive, a, b, c);
-    if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
+    if (VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE) {
+        if (!axis_reaches_into(view, a, b, c, cell)) {
+            return false;
+        }
+        float z = axis_plane_depth(a, b, c, axis_center(view, cell).xy);
+        found.z = clamp(z, min(a.z, min(b.z, c.z)), max(a.z, max(b.z, c.z)));
+    } else if (VOXEL_COVERAGE == VOXEL_COVERAGE_EXACT) {
         if (!axis_at_center(view, a, b, c, cell, found.z, found.barycentrics)) {
             return false;
         }

@@ -6,6 +6,7 @@
 #define VOXEL_SEARCH_GLSL
 
 #include "contract/trace_log.glsl"
+#include "ads/judge.glsl"
 #include "ads/judge_plane.glsl"
 #include "voxel/walk.glsl"
 
@@ -36,12 +37,14 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     bool sorted = voxel_lists_sorted(s);
     // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises by a cell at
     // most from the centre to a corner. A cell more finds triangles that the ray meets in the next cell, whose centre
-    // they may not cover.
+    // they may not cover. Where cells keep all that reaches into them nothing may be lost, not the hits on slivers whose
+    // planes rounding has turned: then all of the list is looked at.
     float origin_z = walk.origin[walk.axis];
     float direction_z = walk.direction[walk.axis];
     float z_in = origin_z + stretch.x * direction_z;
     float z_out = origin_z + stretch.y * direction_z;
-    float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE
+    bool triangles = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE;
+    float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE && !triangles
         ? 2.01 * width + 4.8e-7 * (abs(origin_z) + max(abs(stretch.x), abs(stretch.y)) * abs(direction_z))
         : uintBitsToFloat(0x7F800000u);
     float low = min(z_in, z_out) - slack;
@@ -73,6 +76,11 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
             continue;
         }
         state.tests++;
+        if (triangles) {
+            float infinity = uintBitsToFloat(0x7F800000u);
+            test_triangle(ray, primitive, -infinity, infinity, state.best);
+            continue;
+        }
         test_plane(plane_cell, ray, primitive, stretch.x, stretch.y, state.best);
     }
     return false;

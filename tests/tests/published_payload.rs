@@ -136,7 +136,7 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
 fn stored_surfaces_are_those_of_the_triangles() {
     const HALF_A_STEP: f32 = 0.51 / 255.0;
     let bench = Bench::new();
-    // Flat walls of several colours; a sphere whose normals are interpolated; metals and glazes.
+    // Flat walls of several colours; a round one; metals and glazes with interpolated normals.
     for (name, resolution, largest_turn) in
         [("cornell", "64", 1.0e-3), ("furnace", "128", 0.04), ("spheres:10k", "128", 0.4)]
     {

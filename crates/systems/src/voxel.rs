@@ -53,8 +53,11 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
                 config.payload = given.choice(&[("index", Payload::Index), ("attributes", attributes)])?;
             }
             "coverage" => {
-                config.coverage =
-                    given.choice(&[("exact", Coverage::Exact), ("hardware", Coverage::Hardware)])?;
+                config.coverage = given.choice(&[
+                    ("exact", Coverage::Exact),
+                    ("hardware", Coverage::Hardware),
+                    ("conservative", Coverage::Conservative),
+                ])?;
             }
             "storage" => {
                 config.storage = given.choice(&[("sb", Storage::Contiguous), ("paged", Storage::Paged)])?;

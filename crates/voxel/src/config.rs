@@ -32,13 +32,16 @@ pub enum Accept {
     Plane,
 }
 
-/// Who decides which cells a triangle covers.
+/// Which cells a triangle is kept in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// The rasterizer, with its sub-pixel grid.
+    /// Those whose centre the rasterizer covers, with its sub-pixel grid.
     Hardware,
-    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
+    /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
+    /// All that it reaches into. Hits are those of the triangles, and none is lost. Needs [`Axes::Triangle`] and
+    /// [`Accept::Plane`].
+    Conservative,
 }
 
 /// How the lists of cells are kept. Changes no hit.
@@ -77,7 +80,7 @@ pub struct Config {
     pub samples: u32,
     /// When a fragment counts.
     pub accept: Accept,
-    /// Who decides coverage.
+    /// Which cells keep a triangle.
     pub coverage: Coverage,
     /// What a fragment carries.
     pub payload: Payload,
@@ -180,6 +183,14 @@ impl Config {
                 expected: "plane acceptance needs the march `exact`, since samples are points and planes count in a cell",
             });
         }
+        let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;
+        if self.coverage == Coverage::Conservative && !decided {
+            return Err(AdsError::Option {
+                option: "coverage",
+                value: "conservative".to_owned(),
+                expected: "cells that keep all that reaches into them need the axes `triangle` and the acceptance `plane`",
+            });
+        }
         if self.accept == Accept::Plane && self.payload != Payload::Index {
             return Err(AdsError::Option {
                 option: "accept",
@@ -208,6 +219,7 @@ impl Config {
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::VOXEL_COVERAGE_HARDWARE,
             Coverage::Exact => numbers::VOXEL_COVERAGE_EXACT,
+            Coverage::Conservative => numbers::VOXEL_COVERAGE_CONSERVATIVE,
         };
         let payload = match self.payload {
             Payload::Index => numbers::VOXEL_PAYLOAD_INDEX,

@@ -121,7 +121,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Accept;
+    use crate::{Accept, Coverage};
 
     #[test]
     fn plan_equals_formula() {
@@ -151,6 +151,8 @@ mod tests {
         assert!(message(Config { page: 9, ..Config::robust(64) }).contains("page is 9"));
         assert!(message(Config { work_budget: Some(0), ..Config::robust(64) }).contains("work budget is 0"));
         assert!(message(Config { accept: Accept::Plane, ..Config::published_hu(64) }).contains("march"));
+        let bent = Config { coverage: Coverage::Conservative, ..Config::published_hu(64) };
+        assert!(message(bent).contains("coverage is conservative"));
         let nameless = message(Config { payload: Payload::Material, ..Config::robust(64) });
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, long_lists: 0 };

@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGE
 
 use crate::build::Build;
 use crate::layout::{Demand, cube, first_plan, formula_bytes, long_capacity, plan, scratch_words};
-use crate::{Config, Contents, Header};
+use crate::{Config, Contents, Coverage, Header};
 
 /// A voxel grid over three axis A-buffers.
 #[derive(Debug)]
@@ -126,7 +126,10 @@ impl Structure for Voxels {
     }
 
     fn kind(&self) -> StructureKind {
-        StructureKind::Fragment
+        match self.config.coverage {
+            Coverage::Conservative => StructureKind::Primitive,
+            Coverage::Exact | Coverage::Hardware => StructureKind::Fragment,
+        }
     }
 
     fn requirements(&self) -> Requirements {

@@ -3,7 +3,7 @@
 use rasray_systems::Preset;
 
 use super::deviations_voxel;
-use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
+use super::row::{Cases, Demand, Deviation, ROUNDING, Row, Tier, published_law};
 
 const fn voxel_law(resolution: u32) -> Demand {
     Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_voxel::LAWS }
@@ -45,6 +45,15 @@ pub(super) const ROWS: &[Row] = &[
         Cases::Shallow,
         voxel_law(128),
         deviations_voxel::ROBUST_128,
+    ),
+    // What reaches into a cell is kept there: hits are those of triangles.
+    voxel(
+        "hu-conservative-16",
+        ("hu", Preset::Robust),
+        &[("resolution", "16"), ("coverage", "conservative")],
+        Cases::Shallow,
+        Demand::Exact { rounding: ROUNDING },
+        &[],
     ),
     voxel(
         "hu-published-16",

@@ -1,0 +1,89 @@
+//! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells that keep less
+//! are noticed.
+
+use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind};
+use rasray_gpu::Timing;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+use rasray_voxel::{Addressing, Config, Coverage, Storage, Voxels, well_formed};
+
+/// Scattered layers, spheres of small and of tiny triangles, slivers, and a room around them.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
+    triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    let mut random = Random::new(7);
+    for _ in 0..100 {
+        let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
+        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
+        triangles.push([from, to, beside]);
+    }
+    triangles
+}
+
+/// Anywhere within, along the axes, and at what is small.
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(31);
+    (0..count)
+        .map(|index| {
+            let origin = random.point(-9.0, 9.0);
+            let mut direction = random.direction();
+            if index % 4 == 0 {
+                direction = [0.0; 3];
+                direction[index / 4 % 3] = if index / 12 % 2 == 0 { 1.0 } else { -1.0 };
+            }
+            if index % 4 == 1 {
+                let target = random.point(-0.02, 0.02);
+                direction = std::array::from_fn(|axis| [1.0, 0.25, 0.5][axis] + target[axis] - origin[axis]);
+            }
+            Ray::new(origin, direction)
+        })
+        .collect()
+}
+
+fn bits(hit: &Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
+}
+
+#[test]
+fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(4000));
+    let geometry = bench.geometry(&triangles);
+    let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    let (expected, occluded) = (bench.trace(&brute, &rays).hits, bench.occluded(&brute, &rays));
+    let different = |config: Config| {
+        let mut structure =
+            Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+            .expect("the build completes");
+        let contents = structure.download(bench.device()).expect("the device works");
+        well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
+        let hits = bench.trace(&structure, &rays).hits;
+        let wrong = hits.iter().zip(&expected).filter(|(hit, expected)| bits(hit) != bits(expected)).count();
+        let found = bench.occluded(&structure, &rays);
+        (structure.kind(), wrong + found.iter().zip(&occluded).filter(|(a, b)| a != b).count())
+    };
+    let kept = |resolution| Config { coverage: Coverage::Conservative, ..Config::robust(resolution) };
+    for config in [
+        kept(1),
+        kept(16),
+        kept(37),
+        Config { grid: Some(40), ..kept(64) },
+        Config { sort: false, storage: Storage::Paged, ..kept(16) },
+        Config { addressing: Addressing::Address, ..kept(16) },
+    ] {
+        assert_eq!(different(config), (StructureKind::Primitive, 0), "{config:?}");
+    }
+    let (kind, wrong) = different(Config::robust(16));
+    assert_eq!(kind, StructureKind::Fragment);
+    assert!(
+        wrong > 100,
+        "cells that keep what covers their centres answer {wrong} of {} rays wrong",
+        rays.len()
+    );
+}
