@@ -40,6 +40,11 @@ bool abuffer_bucketed() {
         || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 }
 
+// Whether cells know the smallest and largest depth of their fragments.
+bool abuffer_has_ends() {
+    return abuffer_bucketed() || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID;
+}
+
 // Nodes in pages that are linked.
 bool abuffer_paged() {
     return ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
@@ -60,15 +65,15 @@ bool abuffer_has_extent() {
     return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 }
 
-// Words of bounds a cell: ends where there are buckets, the extent, and for both the scale.
+// Words of bounds a cell: ends, the extent, and where there are buckets as well as an extent the scale.
 uint abuffer_bounds_stride() {
-    uint ends = abuffer_bucketed() ? 2u : 0u;
-    return abuffer_has_extent() ? ends + ends / 2u + 1u : ends;
+    uint ends = abuffer_has_ends() ? 2u : 0u;
+    return abuffer_has_extent() ? ends + (abuffer_bucketed() ? 2u : 1u) : ends;
 }
 
 // Word of the extent among a cell's bounds; the scale is the next one.
 uint abuffer_extent_word() {
-    return abuffer_bucketed() ? 2u : 0u;
+    return abuffer_has_ends() ? 2u : 0u;
 }
 
 uint abuffer_data_stride() {
@@ -123,7 +128,7 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
-// The bounds of a cell. Without buckets they hold everything, and lists say whether there is anything.
+// The bounds of a cell. Without ends they hold everything, and lists say whether there is anything.
 AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     AbufferBounds bounds = AbufferBounds(true, 0.0, 0.0, 0.0, 0.0);
     if (cell >= abuffer_cell_count(s)) {
@@ -133,7 +138,7 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     if (abuffer_has_extent()) {
         bounds.extent = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + abuffer_extent_word()]);
     }
-    if (!abuffer_bucketed()) {
+    if (!abuffer_has_ends()) {
         bounds.empty = false;
         bounds.z_max = uintBitsToFloat(0x7F800000u);
         return bounds;
@@ -145,6 +150,9 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     bounds.empty = false;
     bounds.z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
+    if (!abuffer_bucketed()) {
+        return bounds;
+    }
     if (abuffer_has_extent()) {
         bounds.scale = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + 3u]);
     } else {

@@ -1,6 +1,6 @@
 // What: stores each fragment: a node in the list of its cell and bucket, its payload beside it.
 // Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand; without
-// buckets the bounds' extent.
+// buckets the bounds.
 // Source: MMRT section 3.3, second geometry pass.
 #version 460
 #include "contract/extensions.glsl"
@@ -30,6 +30,9 @@ void main() {
         bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     } else {
         abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+        if (abuffer_has_ends()) {
+            abuffer_widen_bounds(abuffer_built, cell, z);
+        }
     }
     uint list = abuffer_list(cell, bucket);
     uint link = abuffer_allocate(abuffer_built, list);

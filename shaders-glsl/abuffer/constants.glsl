@@ -6,6 +6,7 @@
 #define ABUFFER_MARCH_SAMPLES 0u
 #define ABUFFER_MARCH_EXACT 1u
 #define ABUFFER_MARCH_DDA 2u
+#define ABUFFER_MARCH_PYRAMID 3u
 
 // Which views are drawn: bits.
 #define ABUFFER_VIEWS_CUBE 1u

@@ -73,7 +73,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     }
     uint first = 0u;
     uint last = ABUFFER_BUCKETS - 1u;
-    if (ABUFFER_SKIP != 0u && abuffer_bucketed()) {
+    if (ABUFFER_SKIP != 0u && abuffer_has_ends()) {
         if (low > bounds.z_max || high < bounds.z_min) {
             trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, low, high);
             return false;

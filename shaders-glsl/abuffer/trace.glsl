@@ -1,87 +1,13 @@
 // What: follows a ray through the views' cells and searches each cell's lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: MMRT section 3.4; the exact march replaces its fixed steps unless asked for.
-// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 link, 7 position
-// within what is being searched.
 #ifndef ABUFFER_TRACE_GLSL
 #define ABUFFER_TRACE_GLSL
 
 #include "contract/trace_state.glsl"
 #include "contract/trace_log.glsl"
 #include "ads/judge.glsl"
-#include "ads/march_cells.glsl"
-#include "ads/march_samples.glsl"
-#include "abuffer/search.glsl"
-#include "abuffer/segments.glsl"
-
-#define ABUFFER_CURSOR_STARTED 1u
-#define ABUFFER_CURSOR_SEARCHING 2u
-
-// A ray within one view or the near box.
-struct AbufferWalk {
-    Segment segment;
-    AbufferStretch stretch;
-    vec3 origin;          // in the view
-    vec3 direction;
-    CellMarch cells;
-    SampleMarch samples;
-    uint place;           // sample, or entry of the near list
-    ivec2 searched;       // the cell being searched
-};
-
-void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout AbufferWalk walk) {
-    uint resolution = abuffer_resolution(s, walk.segment.face);
-    walk.origin = abuffer_view_from_world(s, origin, walk.segment.face);
-    walk.direction = abuffer_view_from_world(s, direction, walk.segment.face);
-    walk.place = 0u;
-    if (walk.segment.face == SEGMENT_NEAR) {
-        return;
-    }
-    if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT) {
-        walk.cells = march_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end, walk.segment.t_error);
-        walk.searched = walk.cells.cell;
-    } else {
-        walk.samples = samples_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end,
-            ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples);
-    }
-}
-
-void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout TraceState state) {
-    state.cursor[0] = ABUFFER_CURSOR_STARTED | (searching ? ABUFFER_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (search.in_bucket ? 32u : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
-        | walk.stretch.stage << 21;
-    state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
-    state.cursor[2] = floatBitsToUint(walk.segment.t_end);
-    state.cursor[3] = uint(walk.cells.cell.x + 1) | uint(walk.cells.cell.y + 1) << 16;
-    state.cursor[4] = floatBitsToUint(walk.cells.t_in);
-    state.cursor[5] = floatBitsToUint(walk.cells.error_in);
-    state.cursor[6] = search.link;
-    state.cursor[7] = ABUFFER_MARCH == ABUFFER_MARCH_EXACT && walk.segment.face != SEGMENT_NEAR
-        ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
-}
-
-void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, TraceState state, out AbufferWalk walk,
-    out AbufferSearch search) {
-    uint flags = state.cursor[0];
-    walk.segment = abuffer_segment(origin, direction, near, (flags >> 2) & 7u, uintBitsToFloat(state.cursor[1]),
-        uintBitsToFloat(state.cursor[2]));
-    // Before the faces none of them has been followed.
-    bool in_faces = walk.segment.face != ABUFFER_CAMERA && abuffer_has_cube();
-    walk.stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? walk.segment.t_end : clip.x);
-    abuffer_begin_walk(s, origin, direction, walk);
-    walk.place = state.cursor[7];
-    if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT && walk.segment.face != SEGMENT_NEAR) {
-        walk.cells.cell = ivec2(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16) - 1;
-        walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
-        walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
-        march_find_exit(walk.cells);
-        walk.cells.neighbours = (flags >> 6) & 511u;
-        walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
-    }
-    search.in_bucket = (flags & 32u) != 0u;
-    search.bucket = (flags >> 16) & 31u;
-    search.link = state.cursor[6];
-}
+#include "abuffer/leap.glsl"
 
 // Tests the triangles of the near box one by one; true if the budget ended first.
 bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout TraceState state, inout uint work) {
@@ -96,36 +22,6 @@ bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout Tra
             walk.segment.t_end + walk.segment.t_error, state.best);
     }
     return false;
-}
-
-// Prepares the search of the cell the walk is at.
-void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSearch search) {
-    search.in_bucket = false;
-    search.bucket = 0u;
-    search.link = 0u;
-    if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT) {
-        search.t_low = walk.cells.t_in - walk.cells.error_in;
-        search.t_high = walk.cells.t_out + walk.cells.error_out;
-    } else {
-        samples_cell(walk.samples, walk.place, walk.searched, search.t_low, search.t_high);
-    }
-    search.view = walk.segment.face;
-    search.place = walk.searched;
-    search.cell = abuffer_cell(s, search.view, search.place);
-}
-
-// Goes to the next cell; false at the end of the segment.
-bool abuffer_next_cell(inout AbufferWalk walk) {
-    if (ABUFFER_MARCH == ABUFFER_MARCH_EXACT) {
-        if (march_take_neighbour(walk.cells, walk.searched)) {
-            return true;
-        }
-        bool more = march_next(walk.cells);
-        walk.searched = walk.cells.cell;
-        return more;
-    }
-    walk.place++;
-    return walk.place < walk.samples.count;
 }
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
@@ -213,6 +109,11 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 work++;
                 state.cells++;
                 trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
+                // A search that was begun goes on: leaps only pass by cells that have not been.
+                if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID && !search.in_bucket
+                    && abuffer_leap(s, walk, search, state.best.t, work, more)) {
+                    continue;
+                }
                 if (abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {
                     abuffer_save(walk, search, true, state);
                     return TRACE_PAUSED;

@@ -23,4 +23,7 @@
 // Bricks that one step over empty ones crosses at most, its own included.
 #define BRICK_REACH 8u
 
+// Threads in a workgroup of the pass that builds a pyramid.
+#define PYRAMID_THREADS 64u
+
 #endif

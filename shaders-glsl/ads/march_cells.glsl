@@ -37,23 +37,27 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     if (direction > 0 ? !(denominator > 0.0) : !(denominator < 0.0)) {
         return MARCH_INFINITY;
     }
-    float t = numerator / denominator;
-    error = 6.0e-8 * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
+    // Precise, as all that is found both step by step and by leaps.
+    precise float t = numerator / denominator;
+    precise float bound = 6.0e-8 * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
+    error = bound;
     return t;
 }
 
 // Bits of the cells around a cell along one axis that a point touches within rounding: 1 the lower
 // neighbour, 2 the cell itself, 4 the upper one. Where a cell is no wider than the rounding, all three.
 uint march_touching(float lower, float upper, float x, float z, float guard) {
-    return 2u | (abs(x - lower * z) <= guard ? 1u : 0u) | (abs(x - upper * z) <= guard ? 4u : 0u);
+    precise float from_lower = x - lower * z;
+    precise float from_upper = x - upper * z;
+    return 2u | (abs(from_lower) <= guard ? 1u : 0u) | (abs(from_upper) <= guard ? 4u : 0u);
 }
 
 // Bits of the cells that touch the ray within rounding at t: beside `cell` along x, y, and both.
 uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
-    vec3 p = m.origin + t * m.direction;
-    float guard = 9.6e-7 * (size + abs(t) * speed) + 2.0 * t_error * speed;
+    precise vec3 p = m.origin + t * m.direction;
+    precise float guard = 9.6e-7 * (size + abs(t) * speed) + 2.0 * t_error * speed;
     if (!(abs(t) * speed < 1.0e30)) {
         // At infinity only the direction counts.
         p = m.direction;

@@ -1,7 +1,8 @@
 // What: goes over a block of cells at once, from the cell of a walk to the one behind the block.
 // Reads, writes: nothing.
 // As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index exactly. The other
-// index is found from the point there, as at the begin of a walk, with all cells that the point touches within rounding.
+// index is found from the point there, as at the begin of a walk, with all cells that the point touches within rounding; or the
+// leap is left where it touches any, for structures whose hits depend on the cell in which a ray is.
 #ifndef ADS_MARCH_LEAP_GLSL
 #define ADS_MARCH_LEAP_GLSL
 
@@ -41,18 +42,83 @@ MarchLeap march_leap_over(CellMarch m, ivec2 first, ivec2 last) {
     return MarchLeap(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
+// Over the block of 2^level cells a side around the walk's cell; blocks are counted from the border on.
+MarchLeap march_leap_over_block(CellMarch m, uint level) {
+    ivec2 first = ((m.cell + 1) >> int(level) << int(level)) - 1;
+    return march_leap_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
+}
+
+// The cell that a walk comes to by leaving a block, or in which it ends, as far as rounding tells.
+ivec2 march_leap_to(CellMarch m, MarchLeap leap) {
+    bvec2 up = greaterThan(m.step_direction, ivec2(0));
+    ivec2 cell = mix(march_cell_at(m.origin, m.direction, leap.t_out, m.resolution), m.cell, equal(m.step_direction, ivec2(0)));
+    ivec2 over = mix(leap.first - 1, leap.last + 1, up);
+    return ivec2(leap.step_x ? over.x : cell.x, leap.step_y ? over.y : cell.y);
+}
+
+// The cell of a block in which a walk ends that does not leave it; the one beyond a boundary where it may have crossed that.
+ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
+    CellMarch last = m;
+    last.cell = clamp(march_leap_to(m, leap), leap.first, leap.last);
+    uint touched = march_touched(last, leap.t_out, leap.error_out, true, true);
+    // Bits of the cells in other columns, and in other rows.
+    ivec2 farther = ivec2((touched & 0x16Du) != 0u ? 1 : 0, (touched & 0x1C7u) != 0u ? 1 : 0);
+    return clamp(last.cell + farther * m.step_direction, leap.first, leap.last);
+}
+
+// Bound of the errors of all t at which a walk crosses boundaries on its way to a cell, `t` being the largest of them. Those of
+// boundaries between two are no larger than theirs; infinite where the ray runs along one of them.
+float march_leap_error(CellMarch m, ivec2 cell, float t) {
+    float error = 0.0;
+    for (int axis = 0; axis < 2; axis++) {
+        if (cell[axis] != m.cell[axis]) {
+            bool up = m.step_direction[axis] > 0;
+            vec2 boundaries = vec2(cell_boundary(m.cell[axis] + (up ? 1 : 0), m.resolution), cell_boundary(cell[axis] + (up ? 0 : 1), m.resolution));
+            vec2 turns = float(m.step_direction[axis]) * (m.direction[axis] - boundaries * m.direction.z);
+            float slowest = min(turns.x, turns.y);
+            float reach = max(abs(boundaries.x), abs(boundaries.y)) * (abs(m.origin.z) + abs(t * m.direction.z));
+            error = max(error, slowest > 0.0 ? 6.0e-8 * (8.0 * abs(t) + reach / slowest) : MARCH_INFINITY);
+        }
+    }
+    return error;
+}
+
+// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit. False where rounding leaves open how
+// it does, because the ray leaves the block where it touches another boundary; then nothing is changed.
+bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
+    CellMarch next = m;
+    next.cell = march_leap_to(m, leap);
+    ivec2 step_cells = ivec2(leap.step_x ? m.step_direction.x : 0, leap.step_y ? m.step_direction.y : 0);
+    CellMarch left = m;
+    left.cell = next.cell - step_cells;
+    bool within = all(greaterThanEqual(left.cell, leap.first)) && all(lessThanEqual(left.cell, leap.last))
+        && all(greaterThanEqual((left.cell - m.cell) * m.step_direction, ivec2(0)));
+    // The boundary that is crossed is touched from both sides, and no other may be.
+    int crossed = step_cells.x + 3 * step_cells.y;
+    uint touched = march_touched(next, leap.t_out, leap.error_out, true, true) & ~(1u << (4 - crossed))
+        | march_touched(left, leap.t_out, leap.error_out, true, true) & ~(1u << (4 + crossed));
+    if (!within || touched != 0u) {
+        return false;
+    }
+    m.cell = next.cell;
+    m.t_in = leap.t_out;
+    m.error_in = leap.error_out;
+    m.touched = 0u;
+    m.neighbours = 0u;
+    march_find_exit(m);
+    return true;
+}
+
 // Goes on to the cell behind the block; false where the segment ends in it.
 bool march_take_leap(inout CellMarch m, MarchLeap leap) {
     if (!leap.step_x && !leap.step_y) {
         return false;
     }
-    bvec2 up = greaterThan(m.step_direction, ivec2(0));
-    bvec2 still = equal(m.step_direction, ivec2(0));
-    ivec2 cell = march_cell_at(m.origin, m.direction, leap.t_out, m.resolution);
+    ivec2 cell = march_leap_to(m, leap);
     // Never back, and not beyond the block.
-    cell = mix(clamp(cell, mix(leap.first, m.cell, up), mix(m.cell, leap.last, up)), m.cell, still);
-    ivec2 over = mix(leap.first - 1, leap.last + 1, up);
-    m.cell = ivec2(leap.step_x ? over.x : cell.x, leap.step_y ? over.y : cell.y);
+    bvec2 up = greaterThan(m.step_direction, ivec2(0));
+    ivec2 inside = clamp(cell, mix(leap.first, m.cell, up), mix(m.cell, leap.last, up));
+    m.cell = ivec2(leap.step_x ? cell.x : inside.x, leap.step_y ? cell.y : inside.y);
     m.t_in = leap.t_out;
     m.error_in = leap.error_out;
     m.touched = 0u;

@@ -10,25 +10,22 @@
 // The largest block around the walk's cell that lists nothing at the ray's depths; false where none does. A face has at most
 // 14 levels.
 bool primitive_leap(PrimitiveRef s, PrimitiveWalk walk, out MarchLeap leap) {
-    PyramidLevel level = pyramid_cells(s);
     float rounding = PRIMITIVE_HEADER(s).rounding;
     bool found = false;
-    while (level.side > 1u) {
-        level = pyramid_above(s, level);
-        ivec2 block = (walk.cells.cell + 1) >> int(level.level);
-        ivec2 first = (block << int(level.level)) - 1;
-        ivec2 last = min(first + (1 << int(level.level)) - 1, ivec2(PRIMITIVE_HEADER(s).tiles));
-        MarchLeap over = march_leap_over(walk.cells, first, last);
-        uvec2 words = pyramid_words(s, level, pyramid_block(level, walk.segment.face, uvec2(block)));
-        if (words.y != 0u) {
-            vec2 depths = primitive_ray_depths(walk.origin.z, walk.direction.z, walk.search.t_low, over.t_out + over.error_out, rounding);
-            // Comparisons with NaN are false: then nothing is left out.
-            if (!(depths.y < uintBitsToFloat(~words.x) || depths.x > uintBitsToFloat(words.y))) {
-                break;
-            }
+    PyramidLevel level = primitive_pyramid_first(s, 0u);
+    while (true) {
+        MarchLeap over = march_leap_over_block(walk.cells, level.level);
+        vec2 depths = primitive_ray_depths(walk.origin.z, walk.direction.z, walk.search.t_low, over.t_out + over.error_out, rounding);
+        uint word = pyramid_word(level, walk.segment.face, pyramid_block(level, walk.cells.cell));
+        if (!pyramid_leaves_out(primitive_pyramid_read(s, word), depths)) {
+            break;
         }
         leap = over;
         found = true;
+        if (level.side == 1u) {
+            break;
+        }
+        level = pyramid_above(level);
     }
     return found;
 }

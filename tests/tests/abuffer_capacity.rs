@@ -2,7 +2,8 @@
 //! formed; and the check of lists notices every fault.
 
 use rasray_abuffer::{
-    ABuffer, Accept, Addressing, Config, Contents, Demand, Fault, Storage, formula_bytes, plan, well_formed,
+    ABuffer, Accept, Addressing, Config, Contents, Demand, Fault, March, Storage, formula_bytes, plan,
+    well_formed,
 };
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
@@ -171,6 +172,9 @@ fn formula_equals_allocations_without_slack() {
     }));
     configs.push(Config { accept: Accept::Interval, buckets: 1, ..robust(9) });
     configs.push(Config { buckets: 32, ..robust(5) });
+    configs.extend(
+        [Storage::Dllb, Storage::Sb].map(|storage| Config { march: March::Pyramid, ..config(storage) }),
+    );
     configs.extend([1, 2, 8].map(|page| Config { page, ..config(Storage::Paged) }));
     for config in configs {
         let before = bench.device().allocated_bytes();

@@ -1,7 +1,7 @@
 //! Options that may not change a hit of the A-buffer: every one is switched alone, and hits are compared
 //! bit for bit.
 
-use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Storage};
+use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Storage, cell_count};
 use rasray_ads::{Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
@@ -9,6 +9,7 @@ use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 /// Enough for the smallest budget below: a ray has at most a few thousand work units here.
@@ -247,6 +248,58 @@ fn a_dda_is_a_march_of_enough_samples() {
     };
     let (sampled, exact) = (cells(March::Dda), cells(March::Exact));
     assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
+}
+
+/// Leaps pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are the same, with the
+/// same stays of the ray, whatever fragments stand for.
+#[test]
+fn leaps_change_no_hit() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene_with_twins(), rays(if is_full() { 40_000 } else { 600 }));
+    let storage = |storage, resolution| Config { storage, resolution, ..robust() };
+    let slope = Config { accept: Accept::Slope, ..storage(Storage::Paged, 128) };
+    let mut configs = vec![robust(), Config { work_budget: Some(7), ..storage(Storage::Sb, 37) }];
+    if is_full() {
+        configs.push(Config { skip: false, accept: Accept::Interval, ..storage(Storage::Ll, 64) });
+        configs.push(Config { addressing: Addressing::Address, ..storage(Storage::Dll, 61) });
+        configs.push(slope);
+    }
+    for config in configs {
+        let expected = answers(&bench, config, &triangles, &rays);
+        let found = answers(&bench, Config { march: March::Pyramid, ..config }, &triangles, &rays);
+        if let Some(ray) = first_difference(&expected.closest, &found.closest) {
+            let (found, expected) = (found.closest[ray], expected.closest[ray]);
+            panic!("{config:?}: {:?} hits {found:x?} with leaps, {expected:x?} without", rays[ray]);
+        }
+        assert_eq!(first_difference(&expected.occluded, &found.occluded), None, "{config:?}");
+    }
+}
+
+/// Fewer cells are visited by the blocks' depths, and where those are spoilt hits are lost.
+#[test]
+fn leaps_follow_the_depths_of_blocks() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(600));
+    let base = Config { resolution: 64, counters: Counters::Sums, ..robust() };
+    let traced = |structure: &ABuffer| trace_in_rounds(&bench, structure, &rays, TraceMode::Closest, 2);
+    let built = |march| {
+        let geometry = bench.geometry(&triangles);
+        let mut structure =
+            ABuffer::new(bench.device(), Config { march, ..base }, &geometry, None).expect("valid options");
+        build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("it completes");
+        structure
+    };
+    let (hits, exact) = traced(&built(March::Exact));
+    let structure = built(March::Pyramid);
+    let (same, leaping) = traced(&structure);
+    assert_eq!(hits, same);
+    assert_eq!((exact.entries, exact.tests), (leaping.entries, leaping.tests));
+    assert!(5 * leaping.cells < 3 * exact.cells, "{} of {} cells", leaping.cells, exact.cells);
+    let mut contents = structure.download(bench.device()).expect("the device works");
+    let cells = 4 * cell_count(structure.config()) as usize;
+    contents.bounds[cells..].fill(0);
+    structure.upload(bench.device(), &contents).expect("it fits");
+    assert!(traced(&structure).0.iter().all(|hit| !hit.is_hit()));
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, SceneBinding};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::{cell_count, draws};
-use crate::{Config, Payload, Storage};
+use crate::{Config, March, Payload, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -15,6 +15,7 @@ pub(crate) struct Build {
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: RasterPipeline,
+    pyramid: Option<Pyramid>,
     reorder: Option<Reorder>,
     status: ComputePipeline,
 }
@@ -75,6 +76,9 @@ impl Build {
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: raster(store)?,
+            pyramid: (config.march == March::Pyramid)
+                .then(|| Pyramid::new(pipelines, "build_7_pyramid"))
+                .transpose()?,
             reorder: config.sort.then(reorder).transpose()?,
             status: pipelines.compute("build_9_status")?,
         })
@@ -111,6 +115,9 @@ impl Build {
             lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
         target.raster_views(recorder, "abuffer/build_6_store", &self.store, &draws);
+        if let Some(pyramid) = &self.pyramid {
+            pyramid.record(recorder, target, "abuffer/build_7_pyramid", &draws, Access::COMPUTE);
+        }
         if let Some(reorder) = &self.reorder {
             let readers = Access::COMPUTE;
             let sorted = if paged { target.pools.sizes().elements("nodes") } else { lists };

@@ -13,6 +13,8 @@ pub enum March {
     Dda,
     /// Every cell the ray crosses.
     Exact,
+    /// The same hits with leaps over blocks of cells that hold nothing at the ray's depths.
+    Pyramid,
 }
 
 /// When a fragment counts as hit.
@@ -273,6 +275,11 @@ impl Config {
         Ok(())
     }
 
+    /// Whether cells know the smallest and largest depth of their fragments.
+    pub(crate) fn has_ends(&self) -> bool {
+        self.storage.is_bucketed() || self.march == March::Pyramid
+    }
+
     /// Lists a cell.
     pub fn lists(&self) -> u32 {
         if self.storage.is_bucketed() { self.buckets } else { 1 }
@@ -288,6 +295,7 @@ impl Config {
                     March::Samples => numbers::ABUFFER_MARCH_SAMPLES,
                     March::Dda => numbers::ABUFFER_MARCH_DDA,
                     March::Exact => numbers::ABUFFER_MARCH_EXACT,
+                    March::Pyramid => numbers::ABUFFER_MARCH_PYRAMID,
                 },
             ),
             (

@@ -1,9 +1,9 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 
-use crate::{Accept, Config, Header, Payload, Storage, Views};
+use crate::{Accept, Config, Header, March, Payload, Storage, Views};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data", "near", "sums", "long"];
@@ -82,15 +82,20 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words of a cell's bounds: both ends where there are buckets; where triangles are looked at the extent, and beside ends
-/// the buckets' scale.
+/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at the extent, and
+/// beside buckets their scale.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
-    match (config.storage.is_bucketed(), config.accept.needs_triangles()) {
-        (true, true) => 4,
-        (true, false) => 2,
-        (false, true) => 1,
-        (false, false) => 0,
-    }
+    let extent = match (config.accept.needs_triangles(), config.storage.is_bucketed()) {
+        (true, true) => 2,
+        (true, false) => 1,
+        (false, _) => 0,
+    };
+    extent + if config.has_ends() { 2 } else { 0 }
+}
+
+/// Words of the bounds of all blocks of cells.
+fn pyramid_words(config: &Config) -> u64 {
+    if config.march == March::Pyramid { Pyramid::words(&draws(config)) } else { 0 }
 }
 
 /// What an A-buffer of this configuration allocates to hold what a build may ask for.
@@ -103,7 +108,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let lists = cells * u64::from(config.lists());
     let sizes = [
         (1, size_of::<Header>() as u64),
-        (cells, 4 * bounds_words(config)),
+        (cells * bounds_words(config) + pyramid_words(config), 4),
         (lists, 4 * list_words(config.storage)),
         (demand.nodes, 4 * node_words(config)),
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
@@ -141,6 +146,8 @@ pub struct FormulaBytes {
     pub cells: u64,
     /// Per cell with plane or slope acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
+    /// March by pyramid: 8 per block of cells, and per cell where there are no buckets.
+    pub pyramid: u64,
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
@@ -151,7 +158,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.plane + self.fragments + self.rest
+        self.cells + self.plane + self.pyramid + self.fragments + self.rest
     }
 }
 
@@ -180,8 +187,20 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         _ => per_fragment + payload,
     };
     let sums = if config.storage == Storage::Sb { cells.div_ceil(1024) } else { 0 };
+    let blocks = |views: u64, mut side: u64| {
+        let mut blocks = 0;
+        while side > 1 {
+            side = side.div_ceil(2);
+            blocks += views * side * side;
+        }
+        blocks
+    };
+    let cube_blocks = if config.views == Views::Camera { 0 } else { blocks(6, side) };
+    let camera_blocks = if config.views == Views::Cube { 0 } else { blocks(1, camera_side) };
+    let bounded = if matches!(config.storage, Storage::Sb | Storage::Ll | Storage::Dll) { cells } else { 0 };
     FormulaBytes {
         cells: cells * per_cell,
+        pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
         rest: 188 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
@@ -197,13 +216,14 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         for storage in Storage::ALL {
-            for (inline, buckets, accept, payload) in [
-                (false, 1, Accept::Interval, Payload::Attributes),
-                (false, 2, Accept::Slope, Payload::Index),
-                (false, 4, Accept::Plane, Payload::Index),
-                (true, 4, Accept::Plane, Payload::Index),
-                (true, 8, Accept::Interval, Payload::Attributes),
-                (false, 32, Accept::Thickness, Payload::Index),
+            for (inline, buckets, accept, payload, march) in [
+                (false, 1, Accept::Interval, Payload::Attributes, March::Samples),
+                (false, 2, Accept::Slope, Payload::Index, March::Pyramid),
+                (false, 4, Accept::Plane, Payload::Index, March::Exact),
+                (true, 4, Accept::Plane, Payload::Index, March::Pyramid),
+                (true, 8, Accept::Interval, Payload::Attributes, March::Dda),
+                (false, 32, Accept::Thickness, Payload::Index, March::Pyramid),
+                (false, 3, Accept::Plane, Payload::Index, March::Pyramid),
             ] {
                 let page = if inline { 8 } else { 2 };
                 let views = Views::ALL[buckets as usize % 3];
@@ -214,6 +234,7 @@ mod tests {
                     buckets,
                     accept,
                     payload,
+                    march,
                     views,
                     camera_resolution: 24,
                     ..Config::robust(64)

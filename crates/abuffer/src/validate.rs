@@ -10,7 +10,7 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Bounds of each cell.
+    /// Bounds of each cell, and of the blocks of the pyramid.
     pub bounds: Vec<u32>,
     /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the word that
     /// leads to the first page.
@@ -320,10 +320,10 @@ fn follow(contents: &Contents, cell: usize, bucket: usize, linked: usize) -> Res
     Ok(links)
 }
 
-/// Without buckets there are no bounds: then a depth is any positive number.
+/// Without ends there are no bounds: then a depth is any positive number.
 fn check_depth(contents: &Contents, cell: usize, bucket: usize, link: u32) -> Result<(), Fault> {
     let (mut z_min, mut z_max) = (0.0, f32::MAX);
-    if contents.config.storage.is_bucketed() {
+    if contents.config.has_ends() {
         let word = cell * bounds_words(&contents.config) as usize;
         z_min = f32::from_bits(!contents.bounds[word]);
         z_max = f32::from_bits(contents.bounds[word + 1]);

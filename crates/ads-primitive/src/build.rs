@@ -1,11 +1,11 @@
 //! The build of lists: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
 use crate::build_visit::Visit;
-use crate::layout::{cell_count, pyramid_blocks};
+use crate::layout::{cell_count, faces};
 use crate::{Config, Storage};
 
 /// Pipelines of the build.
@@ -14,7 +14,7 @@ pub(crate) struct Build {
     near: ComputePipeline,
     bounds: Visit,
     scale: Option<ComputePipeline>,
-    pyramid: Option<ComputePipeline>,
+    pyramid: Option<Pyramid>,
     lengths: Option<Lengths>,
     store: Visit,
     status: ComputePipeline,
@@ -38,7 +38,7 @@ impl Build {
             near: pipelines.compute("build_1_near")?,
             bounds: visit("build_2_bounds")?,
             scale: compute(config.buckets > 1, "build_3_scale")?,
-            pyramid: compute(config.pyramid_levels() > 0, "build_3_pyramid")?,
+            pyramid: config.has_pyramid().then(|| Pyramid::new(pipelines, "build_3_pyramid")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
             store: visit("build_6_store")?,
             status: pipelines.compute("build_7_status")?,
@@ -62,13 +62,7 @@ impl Build {
             target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
         }
         if let Some(pyramid) = &self.pyramid {
-            recorder.begin_pass("primitive/build_3_pyramid");
-            for level in 1..=config.pyramid_levels() {
-                let groups = pyramid_blocks(config, level).div_ceil(group);
-                target.dispatch(recorder, pyramid, groups, level);
-                recorder.barrier(Access::COMPUTE, shaders);
-            }
-            recorder.end_pass();
+            pyramid.record(recorder, target, "primitive/build_3_pyramid", &[faces(config)], shaders);
         }
         if let Some(lengths) = &self.lengths {
             lengths.count.record(recorder, config, target);

@@ -178,10 +178,9 @@ impl Config {
         self.builder.unwrap_or(usual)
     }
 
-    /// Levels of blocks behind the cells; 0 without.
-    pub(crate) fn pyramid_levels(&self) -> u32 {
-        let wanted = self.pyramid && self.skip && self.storage != Storage::Bricks;
-        if wanted { (self.tiles() + 2).next_power_of_two().trailing_zeros() } else { 0 }
+    /// Whether there are blocks of cells.
+    pub(crate) fn has_pyramid(&self) -> bool {
+        self.pyramid && self.skip && self.storage != Storage::Bricks
     }
 
     /// Whether triangles' corners are kept once more.
@@ -250,7 +249,7 @@ impl Config {
         };
         let corners = u32::from(self.keeps_corners());
         let skip = u32::from(self.skip);
-        let pyramid = u32::from(self.pyramid_levels() > 0);
+        let pyramid = u32::from(self.has_pyramid());
         [self.buckets, storage, coverage, skip, corners, accept, stop, depths, march, pyramid]
             .into_iter()
             .zip(30..)

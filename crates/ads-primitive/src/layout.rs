@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Builder, Config, Header, Storage};
@@ -79,15 +79,14 @@ pub(crate) fn bin_groups(config: &Config) -> u32 {
     turns.div_ceil(invocations * numbers::PRIMITIVE_BIN_TURNS as u64) as u32
 }
 
-/// Blocks of a level behind the cells of lists: 2^level cells a side.
-pub(crate) fn pyramid_blocks(config: &Config, level: u32) -> u64 {
-    let side = u64::from(config.tiles() + 2).div_ceil(1 << level);
-    6 * side * side
+/// The faces, whose cells and blocks are built together.
+pub(crate) fn faces(config: &Config) -> ViewDraw {
+    ViewDraw { side: config.tiles() + 2, views: 6, first: 0 }
 }
 
-/// Words of all levels: the bounds of each block.
+/// Words of the bounds of all blocks.
 fn pyramid_words(config: &Config) -> u64 {
-    (1..=config.pyramid_levels()).map(|level| 2 * pyramid_blocks(config, level)).sum()
+    if config.has_pyramid() { Pyramid::words(&[faces(config)]) } else { 0 }
 }
 
 /// What primitive lists of this configuration allocate to hold `demand`.

@@ -43,6 +43,8 @@ pub enum March {
     Dda,
     /// Every cell that the ray crosses
     Exact,
+    /// The same with leaps over blocks of cells that hold nothing at the ray's depths
+    Pyramid,
     /// From where the ray leaves a tile half a pixel on
     Jump,
 }

@@ -73,6 +73,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                     ("samples", March::Samples),
                     ("dda", March::Dda),
                     ("exact", March::Exact),
+                    ("pyramid", March::Pyramid),
                 ])?;
             }
             "accept" => {

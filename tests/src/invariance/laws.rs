@@ -74,7 +74,7 @@ pub const LAWS: &[Law] = &[
     may_change("coverage", &["exact", "hardware", "conservative"]),
     may_change("depth", &["16", "32"]),
     may_change("depths", &["clipped", "corners"]),
-    may_change("march", &["samples", "dda", "exact", "jump"]),
+    may_change("march", &["samples", "dda", "exact", "pyramid", "jump"]),
     same_for_primitives("payload", &["index"]),
     may_change("samples", &["5"]),
     may_change("stop", &["best", "bucket"]),

@@ -15,6 +15,7 @@ fn records_of_the_abuffer() {
         &shaders::ABUFFER_BUILD_5_SCAN_SUMS,
         &shaders::ABUFFER_BUILD_5_SCAN_PLACES,
         &shaders::ABUFFER_BUILD_6_STORE,
+        &shaders::ABUFFER_BUILD_7_PYRAMID,
         &shaders::ABUFFER_BUILD_7_REORDER,
         &shaders::ABUFFER_BUILD_8_REORDER_LONG,
         &shaders::ABUFFER_BUILD_9_STATUS,

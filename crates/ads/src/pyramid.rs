@@ -1,0 +1,74 @@
+//! Depth bounds of blocks of cells on the device: what rays leap by.
+
+use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
+
+use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
+
+/// Builds blocks of 2x2, 4x4 ... cells up to one a view: the pipeline of `ads/build_pyramid.comp` as compiled for a
+/// structure, whose `pyramid.glsl` says where the cells and the blocks are. A dispatch a level.
+#[derive(Debug)]
+pub struct Pyramid {
+    level: ComputePipeline,
+}
+
+impl Pyramid {
+    /// Makes the pipeline of the module of that name.
+    ///
+    /// # Errors
+    /// The module is not compiled in, or the device refuses it.
+    pub fn new(pipelines: &BuildPipelines<'_>, name: &str) -> Result<Self, AdsError> {
+        Ok(Self { level: pipelines.compute(name)? })
+    }
+
+    /// Words that a structure keeps for the blocks of views.
+    pub fn words(views: &[ViewDraw]) -> u64 {
+        let of_view = |view: &ViewDraw| (1..=levels(view)).map(|level| 2 * blocks(view, level)).sum::<u64>();
+        views.iter().map(of_view).sum()
+    }
+
+    /// Records a labelled pass over views, smallest blocks first, visible to `readers`.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        target: BuildTarget<'_>,
+        label: &str,
+        views: &[ViewDraw],
+        readers: Access,
+    ) {
+        recorder.begin_pass(label);
+        for view in views {
+            for level in 1..=levels(view) {
+                let groups = blocks(view, level).div_ceil(PYRAMID_THREADS.into());
+                target.dispatch(recorder, &self.level, groups, level | (view.first << 8));
+                recorder.barrier(Access::COMPUTE, Access::COMPUTE | readers);
+            }
+        }
+        recorder.end_pass();
+    }
+}
+
+/// Levels up to one block a view.
+fn levels(view: &ViewDraw) -> u32 {
+    view.side.next_power_of_two().trailing_zeros()
+}
+
+/// Blocks of a level, of 2^level cells a side.
+fn blocks(view: &ViewDraw, level: u32) -> u64 {
+    let side = u64::from(view.side).div_ceil(1 << level);
+    u64::from(view.views) * side * side
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_end_at_one_block_a_view() {
+        let view = |side, views| ViewDraw { side, views, first: 0 };
+        assert_eq!(Pyramid::words(&[view(3, 1)]), 2 * (4 + 1));
+        assert_eq!(Pyramid::words(&[view(4, 6)]), 2 * 6 * (4 + 1));
+        assert_eq!(Pyramid::words(&[view(10, 6), view(5, 1)]), 2 * (6 * (25 + 9 + 4 + 1) + 9 + 4 + 1));
+        assert_eq!(levels(&view(8194, 6)), 14);
+    }
+}

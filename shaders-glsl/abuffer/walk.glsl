@@ -1,0 +1,117 @@
+// What: where a ray stands on its way through the cells of a view, and how that is kept between two dispatches.
+// Reads: header. Writes: nothing.
+// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list, 7 the cell being
+// searched, or the sample, or the place in the near list.
+#ifndef ABUFFER_WALK_GLSL
+#define ABUFFER_WALK_GLSL
+
+#include "ads/march_cells.glsl"
+#include "ads/march_samples.glsl"
+#include "abuffer/search.glsl"
+#include "abuffer/segments.glsl"
+
+#define ABUFFER_CURSOR_STARTED 1u
+#define ABUFFER_CURSOR_SEARCHING 2u
+
+// A ray within one view or the near box.
+struct AbufferWalk {
+    Segment segment;
+    AbufferStretch stretch;
+    vec3 origin;          // in the view
+    vec3 direction;
+    CellMarch cells;
+    SampleMarch samples;
+    uint place;           // sample, or entry of the near list
+    ivec2 searched;       // the cell being searched
+};
+
+// Whether rays visit the cells that they cross; else they are sampled.
+bool abuffer_follows_cells() {
+    return ABUFFER_MARCH == ABUFFER_MARCH_EXACT || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID;
+}
+
+void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout AbufferWalk walk) {
+    uint resolution = abuffer_resolution(s, walk.segment.face);
+    walk.origin = abuffer_view_from_world(s, origin, walk.segment.face);
+    walk.direction = abuffer_view_from_world(s, direction, walk.segment.face);
+    walk.place = 0u;
+    if (walk.segment.face == SEGMENT_NEAR) {
+        return;
+    }
+    if (abuffer_follows_cells()) {
+        walk.cells = march_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end, walk.segment.t_error);
+        walk.searched = walk.cells.cell;
+    } else {
+        walk.samples = samples_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end,
+            ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples);
+    }
+}
+
+void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout TraceState state) {
+    state.cursor[0] = ABUFFER_CURSOR_STARTED | (searching ? ABUFFER_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
+        | (search.in_bucket ? 32u : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
+        | walk.stretch.stage << 21;
+    state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
+    state.cursor[2] = floatBitsToUint(walk.segment.t_end);
+    state.cursor[3] = uint(walk.cells.cell.x + 1) | uint(walk.cells.cell.y + 1) << 16;
+    state.cursor[4] = floatBitsToUint(walk.cells.t_in);
+    state.cursor[5] = floatBitsToUint(walk.cells.error_in);
+    state.cursor[6] = search.link;
+    state.cursor[7] = abuffer_follows_cells() && walk.segment.face != SEGMENT_NEAR
+        ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
+}
+
+void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, TraceState state, out AbufferWalk walk,
+    out AbufferSearch search) {
+    uint flags = state.cursor[0];
+    walk.segment = abuffer_segment(origin, direction, near, (flags >> 2) & 7u, uintBitsToFloat(state.cursor[1]),
+        uintBitsToFloat(state.cursor[2]));
+    // Before the faces none of them has been followed.
+    bool in_faces = walk.segment.face != ABUFFER_CAMERA && abuffer_has_cube();
+    walk.stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? walk.segment.t_end : clip.x);
+    abuffer_begin_walk(s, origin, direction, walk);
+    walk.place = state.cursor[7];
+    if (abuffer_follows_cells() && walk.segment.face != SEGMENT_NEAR) {
+        walk.cells.cell = ivec2(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16) - 1;
+        walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
+        walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
+        march_find_exit(walk.cells);
+        walk.cells.neighbours = (flags >> 6) & 511u;
+        walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
+    }
+    search.in_bucket = (flags & 32u) != 0u;
+    search.bucket = (flags >> 16) & 31u;
+    search.link = state.cursor[6];
+}
+
+// Prepares the search of the cell the walk is at.
+void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSearch search) {
+    search.in_bucket = false;
+    search.bucket = 0u;
+    search.link = 0u;
+    if (abuffer_follows_cells()) {
+        search.t_low = walk.cells.t_in - walk.cells.error_in;
+        search.t_high = walk.cells.t_out + walk.cells.error_out;
+    } else {
+        samples_cell(walk.samples, walk.place, walk.searched, search.t_low, search.t_high);
+    }
+    search.view = walk.segment.face;
+    search.place = walk.searched;
+    search.cell = abuffer_cell(s, search.view, search.place);
+}
+
+// Goes to the next cell; false at the end of the segment.
+bool abuffer_next_cell(inout AbufferWalk walk) {
+    if (abuffer_follows_cells()) {
+        if (march_take_neighbour(walk.cells, walk.searched)) {
+            return true;
+        }
+        bool more = march_next(walk.cells);
+        walk.searched = walk.cells.cell;
+        return more;
+    }
+    walk.place++;
+    return walk.place < walk.samples.count;
+}
+
+#endif

@@ -1,0 +1,46 @@
+// What: depth bounds of the blocks of one level, from those of the level below; one invocation a block.
+// Reads: bounds. Writes: bounds, of blocks.
+// Source: DIRT section 4.1.1, mipmap depth. A block of 2x2 cells takes those around it as well, so every block does.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/constants.glsl"
+#include "ads/pyramid_select.glsl"
+
+layout(local_size_x = PYRAMID_THREADS) in;
+
+layout(push_constant, scalar) uniform PyramidConstants {
+    PyramidRef pyramid_built;
+    uint pyramid_step;    // the level, and from bit 8 on the first of the views
+};
+
+void main() {
+    uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PYRAMID_THREADS + gl_GlobalInvocationID.x;
+    uint first_view = pyramid_step >> 8;
+    PyramidLevel level = built_pyramid_first(pyramid_built, first_view);
+    PyramidLevel below = level;
+    while (level.level < (pyramid_step & 255u)) {
+        below = level;
+        level = pyramid_above(level);
+    }
+    bool of_cells = level.level == 1u;
+    uint side_below = of_cells ? built_pyramid_cells(pyramid_built, first_view) : below.side;
+    uint blocks = level.side * level.side;
+    if (index >= level.views * blocks) {
+        return;
+    }
+    uint view = index / blocks;
+    uvec2 block = uvec2(index % blocks % level.side, index % blocks / level.side);
+    int around = of_cells ? 1 : 0;
+    uvec2 words = uvec2(0u);
+    for (int y = -around; y < 2 + around; y++) {
+        for (int x = -around; x < 2 + around; x++) {
+            ivec2 one = 2 * ivec2(block) + ivec2(x, y);
+            if (any(lessThan(one, ivec2(0))) || any(greaterThanEqual(one, ivec2(side_below)))) {
+                continue;
+            }
+            words = max(words, of_cells ? built_pyramid_cell(pyramid_built, first_view + view, one - 1)
+                : built_pyramid_read(pyramid_built, pyramid_word(below, view, uvec2(one))));
+        }
+    }
+    built_pyramid_write(pyramid_built, pyramid_word(level, view, block), words);
+}

@@ -1,0 +1,52 @@
+// What: a pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level in the words of a
+// pool, up to one block a view.
+// Reads, writes: nothing.
+// Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so that a leap
+// passes by no cell that the march would have touched within rounding.
+#ifndef ADS_PYRAMID_GLSL
+#define ADS_PYRAMID_GLSL
+
+// Words of a block: the complement of the smallest depth's bits, and those of the largest; both 0 where nothing is.
+#define PYRAMID_WORDS 2u
+
+// Level k has blocks of 2^k cells a side, those of the border included.
+struct PyramidLevel {
+    uint level;
+    uint side;            // blocks a side of a view
+    uint views;
+    uint base;            // word of its first block
+};
+
+// Level 1 over views of `cells` cells a side, border included.
+PyramidLevel pyramid_first(uint cells, uint views, uint base) {
+    return PyramidLevel(1u, (cells + 1u) >> 1, views, base);
+}
+
+PyramidLevel pyramid_above(PyramidLevel below) {
+    uint words = PYRAMID_WORDS * below.views * below.side * below.side;
+    return PyramidLevel(below.level + 1u, (below.side + 1u) >> 1, below.views, below.base + words);
+}
+
+// The word behind all levels.
+uint pyramid_end(PyramidLevel level) {
+    while (level.side > 1u) {
+        level = pyramid_above(level);
+    }
+    return level.base + PYRAMID_WORDS * level.views;
+}
+
+uint pyramid_word(PyramidLevel level, uint view, uvec2 block) {
+    return level.base + PYRAMID_WORDS * ((view * level.side + block.y) * level.side + block.x);
+}
+
+// The block around a cell.
+uvec2 pyramid_block(PyramidLevel level, ivec2 cell) {
+    return uvec2(cell + 1) >> level.level;
+}
+
+// Whether a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false: then it does.
+bool pyramid_leaves_out(uvec2 words, vec2 depths) {
+    return words.y == 0u || depths.y < uintBitsToFloat(~words.x) || depths.x > uintBitsToFloat(words.y);
+}
+
+#endif
