@@ -128,6 +128,25 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
+// Words of the marks of triangles, a bit each, behind the bounds of all cells.
+uint abuffer_mark_words(AbufferRef s) {
+    return (ABUFFER_HEADER(s).triangles + 31u) / 32u;
+}
+
+// Word of the first mark.
+uint abuffer_marks(AbufferRef s) {
+    return abuffer_cell_count(s) * abuffer_bounds_stride();
+}
+
+// Marks a triangle that covers the centre of a cell.
+void abuffer_mark(AbufferRef s, uint primitive) {
+    uint word = abuffer_marks(s) + primitive / 32u;
+    uint bit = 1u << (primitive % 32u);
+    if (primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_BOUNDS(s)[word] & bit) == 0u) {
+        atomicOr(ABUFFER_BOUNDS(s)[word], bit);
+    }
+}
+
 // The bounds of a cell. Without ends they hold everything, and lists say whether there is anything.
 AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     AbufferBounds bounds = AbufferBounds(true, 0.0, 0.0, 0.0, 0.0);

@@ -1,5 +1,5 @@
 // What: stores each fragment: a node in the list of its cell and bucket, its payload beside it.
-// Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand; without
+// Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand, marks; without
 // buckets the bounds.
 // Source: MMRT section 3.3, second geometry pass.
 #version 460
@@ -17,8 +17,11 @@ void main() {
     uint cell;
     CellCoverage coverage;
     uint primitive = primitive_and_view.x;
-    if (!abuffer_fragment(primitive, primitive_and_view.y, gl_FragCoord, cell, coverage)
-        || !alpha_accepts(primitive, coverage.barycentrics)) {
+    if (!abuffer_fragment(primitive, primitive_and_view.y, gl_FragCoord, cell, coverage)) {
+        return;
+    }
+    abuffer_mark(abuffer_built, primitive);
+    if (!alpha_accepts(primitive, coverage.barycentrics)) {
         return;
     }
     float z = coverage.z;

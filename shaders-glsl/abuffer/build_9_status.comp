@@ -1,7 +1,8 @@
 // What: declares the structure complete, or says what was missing.
-// Reads: header. Writes: header.status.
+// Reads: header, geometry. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
 #include "abuffer/accessors.glsl"
 
 layout(local_size_x = 1) in;
@@ -13,7 +14,8 @@ layout(push_constant, scalar) uniform AbufferBuildConstants {
 void main() {
     bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
         && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
-        && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity;
+        && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity
+        && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
     uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

@@ -1,4 +1,4 @@
-// What: where the pyramids of an A-buffer are, the cube's and the camera's: behind the bounds of all cells; and what a cell
+// What: where the pyramids of an A-buffer are, the cube's and the camera's: behind the bounds of all cells and the marks; and what a cell
 // brings to them.
 // Reads: header, bounds. Writes: bounds, of blocks.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
@@ -14,7 +14,7 @@ uint abuffer_pyramid_cells(AbufferRef s, uint view) {
 
 // Level 1 of the faces, or of the camera.
 PyramidLevel abuffer_pyramid_first(AbufferRef s, uint view) {
-    uint base = abuffer_bounds_stride() * abuffer_cell_count(s);
+    uint base = abuffer_marks(s) + abuffer_mark_words(s);
     PyramidLevel cube = pyramid_first(abuffer_pyramid_cells(s, 0u), VIEW_FACES, base);
     if (view != ABUFFER_CAMERA) {
         return cube;

@@ -20,7 +20,7 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 
-// State and sizes of one A-buffer. 188 bytes.
+// State and sizes of one A-buffer. 196 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -43,6 +43,8 @@ struct AbufferHeader {
     vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into |x| <= z, |y| <= z
     vec3 camera_y;
     vec3 camera_z;
+    uint lost;            // triangles with an area that cover no cell's centre in any view
+    uint triangles;       // of the geometry that there are marks for
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
     uvec2 lists_address;
     uvec2 nodes_address;

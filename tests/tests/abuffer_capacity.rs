@@ -37,7 +37,7 @@ fn config(storage: Storage) -> Config {
 
 /// Room for so many fragments and triangles around the eye.
 fn room(fragments: u64, near_triangles: u64) -> Demand {
-    Demand { nodes: fragments, near_triangles, long_lists: 0 }
+    Demand { nodes: fragments, near_triangles, long_lists: 0, triangles: scene().len() as u64 }
 }
 
 /// Builds once, with the pools as they are.

@@ -15,6 +15,7 @@ pub(crate) struct Build {
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: RasterPipeline,
+    lost: ComputePipeline,
     pyramid: Option<Pyramid>,
     reorder: Option<Reorder>,
     status: ComputePipeline,
@@ -76,6 +77,7 @@ impl Build {
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: raster(store)?,
+            lost: pipelines.compute("build_7_lost")?,
             pyramid: (config.march == March::Pyramid)
                 .then(|| Pyramid::new(pipelines, "build_7_pyramid"))
                 .transpose()?,
@@ -115,6 +117,8 @@ impl Build {
             lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
         target.raster_views(recorder, "abuffer/build_6_store", &self.store, &draws);
+        let marks = groups(triangles.div_ceil(32));
+        target.compute_pass(recorder, "abuffer/build_7_lost", &self.lost, marks, 0, Access::COMPUTE);
         if let Some(pyramid) = &self.pyramid {
             pyramid.record(recorder, target, "abuffer/build_7_pyramid", &draws, Access::COMPUTE);
         }

@@ -48,6 +48,10 @@ pub struct Header {
     pub camera_y: [f32; 3],
     /// Third row: depth.
     pub camera_z: [f32; 3],
+    /// Triangles with an area that cover no cell's centre in any view.
+    pub lost: u32,
+    /// Triangles of the geometry that there are marks for.
+    pub triangles: u32,
     /// Device address of the bounds; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the list heads and tails.

@@ -39,6 +39,8 @@ pub struct Demand {
     pub near_triangles: u64,
     /// Lists that one dispatch does not sort.
     pub long_lists: u64,
+    /// Triangles of the geometry.
+    pub triangles: u64,
 }
 
 /// Words of a fragment's payload.
@@ -98,6 +100,11 @@ fn pyramid_words(config: &Config) -> u64 {
     if config.march == March::Pyramid { Pyramid::words(&draws(config)) } else { 0 }
 }
 
+/// Words of the bounds of all cells and blocks.
+pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
+    cell_count(config) * bounds_words(config) + pyramid_words(config)
+}
+
 /// What an A-buffer of this configuration allocates to hold what a build may ask for.
 ///
 /// # Errors
@@ -108,7 +115,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let lists = cells * u64::from(config.lists());
     let sizes = [
         (1, size_of::<Header>() as u64),
-        (cells * bounds_words(config) + pyramid_words(config), 4),
+        (bounds_and_blocks(config) + demand.triangles.div_ceil(32), 4),
         (lists, 4 * list_words(config.storage)),
         (demand.nodes, 4 * node_words(config)),
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
@@ -134,9 +141,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 }
 
 /// The first guess where nothing has been counted: a fragment a cell.
-pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
+pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let fragments = config.fragments.unwrap_or_else(|| cell_count(config));
-    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists: 0 })
+    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists: 0, triangles: triangles.into() })
 }
 
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.
@@ -151,7 +158,8 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// Header, 4 per triangle of the near list, 8 per long list, and 4 per 1024 cells for the scan of SB.
+    /// Header, 4 per triangle of the near list, 8 per long list, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles
+    /// for their marks.
     pub rest: u64,
 }
 
@@ -203,7 +211,11 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        rest: 188 + 4 * demand.near_triangles + 8 * demand.long_lists + 4 * sums,
+        rest: 196
+            + 4 * demand.near_triangles
+            + 8 * demand.long_lists
+            + 4 * sums
+            + 4 * demand.triangles.div_ceil(32),
     }
 }
 
@@ -211,7 +223,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 mod tests {
     use super::*;
 
-    const DEMAND: Demand = Demand { nodes: 12_345, near_triangles: 7, long_lists: 3 };
+    const DEMAND: Demand = Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0 };
 
     #[test]
     fn plan_equals_formula() {
@@ -243,6 +255,9 @@ mod tests {
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
                 let more = Demand { nodes: DEMAND.nodes + 1, ..DEMAND };
                 assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
+                let marked = Demand { triangles: 33, ..DEMAND };
+                let bytes = plan(&config, marked).expect("options are in range").bytes();
+                assert_eq!(bytes, formula_bytes(&config, marked).total(), "{config:?}");
             }
         }
     }

@@ -9,7 +9,7 @@ use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::build::Build;
-use crate::layout::{Demand, first_plan, formula_bytes, plan};
+use crate::layout::{Demand, bounds_and_blocks, first_plan, formula_bytes, plan};
 use crate::{Accept, Config, Contents, Header, Storage};
 
 /// A multiview, multilayer A-buffer.
@@ -36,7 +36,7 @@ impl ABuffer {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let sizes = first_plan(&config)?;
+        let sizes = first_plan(&config, geometry.triangle_count())?;
         config.addressing.check(device)?;
         device.require("the A-buffer", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "abuffer", config.addressing, &sizes)?;
@@ -125,6 +125,7 @@ impl ABuffer {
             camera_x,
             camera_y,
             camera_z,
+            triangles: (32 * self.mark_words()).min(u32::MAX.into()) as u32,
             bounds_address: self.pools.address_of("bounds"),
             lists_address: self.pools.address_of("lists"),
             nodes_address: self.pools.address_of("nodes"),
@@ -134,6 +135,11 @@ impl ABuffer {
             long_address: self.pools.address_of("long"),
             ..Header::default()
         })
+    }
+
+    /// Words for the marks of triangles.
+    fn mark_words(&self) -> u64 {
+        self.pools.sizes().elements("bounds") - bounds_and_blocks(&self.config)
     }
 
     /// The header as the last build left it. The caller has waited for the submission.
@@ -250,7 +256,8 @@ impl Structure for ABuffer {
             // How many pages are begun depends a little on which threads meet.
             nodes += nodes / 64;
         }
-        let demand = Demand { nodes, near_triangles: grown("near"), long_lists: grown("long") };
+        let triangles = u64::from(self.geometry.triangle_count()).max(32 * self.mark_words());
+        let demand = Demand { nodes, near_triangles: grown("near"), long_lists: grown("long"), triangles };
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
@@ -289,11 +296,13 @@ impl Structure for ABuffer {
             nodes: header.demand.into(),
             near_triangles: header.near_demand.into(),
             long_lists: header.long_demand.into(),
+            triangles: self.geometry.triangle_count().into(),
         };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "nodes" | "data" => demand.nodes,
             "near" => demand.near_triangles,
             "long" => demand.long_lists,
+            "bounds" => bounds_and_blocks(&self.config) + demand.triangles.div_ceil(32),
             _ => pool.elements,
         });
         Ok(StructureReport {
@@ -305,6 +314,7 @@ impl Structure for ABuffer {
                 Storage::Paged => header.fragments.into(),
                 _ => demand.nodes,
             }),
+            lost: Some(header.lost.into()),
         })
     }
 }

@@ -314,6 +314,7 @@ impl Structure for PrimitiveLists {
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, &demand).total(),
             stored: Some(demand.entries),
+            lost: None,
         })
     }
 }

@@ -114,6 +114,8 @@ pub struct StructureReport {
     pub formula_bytes: u64,
     /// Fragments or entries stored; absent where the structure stores none.
     pub stored: Option<u64>,
+    /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them; absent where that is not counted.
+    pub lost: Option<u64>,
 }
 
 impl StructureReport {

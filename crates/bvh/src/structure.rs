@@ -289,6 +289,7 @@ impl Structure for Bvh {
             bytes_by_part,
             formula_bytes: formula_bytes(self.config.builder, self.nodes, triangles).total(),
             stored: Some(triangles),
+            lost: None,
         })
     }
 }

@@ -295,6 +295,7 @@ impl Structure for LayeredDepthCube {
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, demand).total(),
             stored: Some(demand.fragments + demand.fringe),
+            lost: None,
         })
     }
 }

@@ -252,6 +252,9 @@ pub struct Counters {
     /// Fragments stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fragments: Option<u64>,
+    /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub lost: Option<u64>,
     /// List entries stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub entries: Option<u64>,

@@ -241,6 +241,7 @@ impl Structure for Voxels {
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, demand).total(),
             stored: Some(header.fragments.into()),
+            lost: None,
         })
     }
 }

@@ -15,6 +15,7 @@ fn records_of_the_abuffer() {
         &shaders::ABUFFER_BUILD_5_SCAN_SUMS,
         &shaders::ABUFFER_BUILD_5_SCAN_PLACES,
         &shaders::ABUFFER_BUILD_6_STORE,
+        &shaders::ABUFFER_BUILD_7_LOST,
         &shaders::ABUFFER_BUILD_7_PYRAMID,
         &shaders::ABUFFER_BUILD_7_REORDER,
         &shaders::ABUFFER_BUILD_8_REORDER_LONG,
@@ -24,7 +25,7 @@ fn records_of_the_abuffer() {
     check_layout!(modules, Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
         thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_resolution,
-        camera_x, camera_y, camera_z,
+        camera_x, camera_y, camera_z, lost, triangles,
         bounds_address, lists_address, nodes_address, data_address, near_address, sums_address, long_address,
     });
 }

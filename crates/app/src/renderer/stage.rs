@@ -264,6 +264,7 @@ impl Built {
         let pool = self.outcome.status.pools.first();
         Ok(Counters {
             fragments: report.stored,
+            lost: report.lost,
             demand: pool.map(|pool| pool.demand),
             capacity: pool.map(|pool| pool.capacity),
             overflow: pool.map(|pool| pool.demand.saturating_sub(pool.capacity)),

@@ -88,6 +88,7 @@ fn run_text(run: &Run) -> String {
         rows.extend(
             [
                 row("fragments", counters.fragments.map(grouped)),
+                row("lost triangles", counters.lost.map(grouped)),
                 row("entries", counters.entries.map(grouped)),
                 row("nodes per ray", per_ray(counters.nodes_per_ray)),
                 row("cells per ray", per_ray(counters.cells_per_ray)),

@@ -1,0 +1,36 @@
+// What: counts the triangles that rays cannot meet: those with an area that cover no cell's centre in any view.
+// Reads: header, bounds, geometry. Writes: header.lost. One invocation a word of marks.
+// Source: not in the paper, which names edge-on triangles as its open limit.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "ads/triangle.glsl"
+#include "abuffer/accessors.glsl"
+
+layout(local_size_x = ABUFFER_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+};
+
+void main() {
+    uint word = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint triangles = min(geometry_triangle_count(), ABUFFER_HEADER(abuffer_built).triangles);
+    if (32u * word >= triangles) {
+        return;
+    }
+    uint marks = ABUFFER_BOUNDS(abuffer_built)[abuffer_marks(abuffer_built) + word];
+    uint lost = 0u;
+    for (uint bit = 0u; bit < min(32u, triangles - 32u * word); bit++) {
+        if ((marks & 1u << bit) == 0u) {
+            vec3 a;
+            vec3 b;
+            vec3 c;
+            geometry_vertices(32u * word + bit, a, b, c);
+            lost += triangle_has_area(a, b, c) ? 1u : 0u;
+        }
+    }
+    if (lost != 0u) {
+        atomicAdd(ABUFFER_HEADER(abuffer_built).lost, lost);
+    }
+}
