@@ -8,23 +8,16 @@
 
 #include "ads/constants.glsl"
 
-// Bricks of one view. Sides and slices are multiples of 4.
-uint brick_count(uint side, uint slices) {
-    return (side >> 2) * (side >> 2) * (slices >> 2);
+// Bricks of one view of so many columns, rows and slices, each a multiple of 4.
+uint brick_count(uvec3 cells) {
+    return (cells.x >> 2) * (cells.y >> 2) * (cells.z >> 2);
 }
 
 // Running index of the brick of a cell over all views.
-uint brick_index(uint view, ivec3 cell, uint side, uint slices) {
+uint brick_index(uint view, ivec3 cell, uvec3 cells) {
     uvec3 brick = uvec3(cell) >> 2;
-    uint bricks = side >> 2;
-    return ((view * bricks + brick.y) * bricks + brick.x) * (slices >> 2) + brick.z;
-}
-
-// Place of a brick in its view.
-ivec3 brick_place(uint brick, uint side, uint slices) {
-    uint bricks = side >> 2;
-    uint deep = slices >> 2;
-    return ivec3(brick / deep % bricks, brick / (deep * bricks) % bricks, brick % deep);
+    uvec3 bricks = cells >> 2;
+    return ((view * bricks.y + brick.y) * bricks.x + brick.x) * bricks.z + brick.z;
 }
 
 // Which of the two words of the mask holds a cell's bit, and which bit that is.

@@ -5,6 +5,7 @@
 
 #include "primitive/accessors.glsl"
 #include "ads/bricks.glsl"
+#include "ads/brick_axes.glsl"
 #include "ads/slices.glsl"
 
 // Where lists keep the bounds of cells, bricks keep three words each: that of ads/bricks.glsl and the two of the mask.
@@ -37,8 +38,23 @@ Slices primitive_slices(PrimitiveRef s) {
     return Slices(int(PRIMITIVE_HEADER(s).slices), PRIMITIVE_HEADER(s).slice_first, PRIMITIVE_HEADER(s).slice_shift);
 }
 
+BrickAxes primitive_axes(PrimitiveRef s) {
+    return BrickAxes(PRIMITIVE_HEADER(s).cells_lower, PRIMITIVE_HEADER(s).cells_per_metre, PRIMITIVE_HEADER(s).rounding);
+}
+
+// Faces of the cube, or the one view along an axis.
+uint primitive_view_count() {
+    return PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES ? 1u : VIEW_FACES;
+}
+
+// Columns, rows and slices of a view.
+uvec3 primitive_cells(PrimitiveRef s) {
+    uint columns = PRIMITIVE_HEADER(s).tiles;
+    return uvec3(columns, PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES ? PRIMITIVE_HEADER(s).rows : columns, PRIMITIVE_HEADER(s).slices);
+}
+
 uint primitive_brick_count(PrimitiveRef s) {
-    return VIEW_FACES * brick_count(PRIMITIVE_HEADER(s).tiles, PRIMITIVE_HEADER(s).slices);
+    return primitive_view_count() * brick_count(primitive_cells(s));
 }
 
 // Cells that list something and whose list fits.
@@ -66,13 +82,12 @@ bool brick_has_nothing(PrimitiveRef s, uint brick) {
 
 // Sets the bits of the cells of a record.
 void brick_mark(PrimitiveRef s, BrickRecord record) {
-    uint tiles = PRIMITIVE_HEADER(s).tiles;
-    uint slices = PRIMITIVE_HEADER(s).slices;
+    uvec3 cells = primitive_cells(s);
     for (uint slice = record.first & ~1u; slice <= record.last; slice += 2u) {
         ivec3 cell = ivec3(record.x, record.y, slice);
         uint bit = brick_bit(cell);
         uint bits = (slice >= record.first ? 1u << bit : 0u) | (slice < record.last ? 1u << (bit + 16u) : 0u);
-        uint brick = brick_index(record.face, cell, tiles, slices);
+        uint brick = brick_index(record.face, cell, cells);
         uint word = brick_mask_at(brick, brick_word(cell));
         // Most bits are set already, and reading is cheaper.
         if ((PRIMITIVE_BRICKS(s)[word] & bits) != bits) {
@@ -105,8 +120,8 @@ struct BrickWords {
     uvec2 mask;
 };
 
-BrickWords brick_words(PrimitiveRef s, uint face, ivec3 cell, uint tiles, uint slices) {
-    uint at = brick_at(brick_index(face, cell, tiles, slices));
+BrickWords brick_words(PrimitiveRef s, uint face, ivec3 cell, uvec3 cells) {
+    uint at = brick_at(brick_index(face, cell, cells));
     return BrickWords(PRIMITIVE_BRICKS(s)[at], uvec2(PRIMITIVE_BRICKS(s)[at + 1u], PRIMITIVE_BRICKS(s)[at + 2u]));
 }
 

@@ -6,15 +6,28 @@
 
 #include "primitive/bin.glsl"
 #include "primitive/brick_accessors.glsl"
+#include "primitive/brick_clip.glsl"
 
-// A triangle in a face.
+// Where columns and slices are.
+struct BrickSpace {
+    PrimitiveGrid grid;   // these two of the faces of a cube
+    Slices slices;
+    BrickAxes axes;       // these two of views along axes
+    uvec3 cells;
+};
+
+BrickSpace brick_space(PrimitiveRef s) {
+    return BrickSpace(primitive_grid(s), primitive_slices(s), primitive_axes(s), primitive_cells(s));
+}
+
+// A triangle in a view.
 struct BrickBin {
     uint primitive;
     uint face;
-    PrimitiveGrid grid;
-    Slices slices;
+    BrickSpace space;
     PrimitiveOverlap overlap;
     float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
+    BrickClip clip;       // of views along axes
     ivec2 lower;          // first and last column and row that may hold any of it
     ivec2 upper;
 };
@@ -26,21 +39,27 @@ float brick_margin(PrimitiveGrid grid, float depth) {
     return margin;
 }
 
-// a, b, c relative to the eye. False where the triangle reaches into no column of the face.
-bool brick_bin_begin(PrimitiveGrid grid, Slices slices, uint primitive, uint face, vec3 a, vec3 b, vec3 c, out BrickBin bin) {
+// a, b, c relative to the centre. False where the triangle reaches into no column of the view.
+bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b, vec3 c, out BrickBin bin) {
     bin.primitive = primitive;
     bin.face = face;
-    bin.grid = grid;
-    bin.slices = slices;
+    bin.space = space;
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES) {
+        bin.clip = brick_clip_begin(space.axes, space.cells, a, b, c);
+        ivec2 last = ivec2(space.cells.xy) - 1;
+        bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
+        bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
+        return true;
+    }
     a = face_from_world(a, face);
     b = face_from_world(b, face);
     c = face_from_world(c, face);
-    if (max(a.z, max(b.z, c.z)) < 0.5 * grid.near_size) {
+    if (max(a.z, max(b.z, c.z)) < 0.5 * space.grid.near_size) {
         return false;
     }
     float nearest = min(a.z, min(b.z, c.z));
-    bin.margin = brick_margin(bin.grid, nearest);
-    if (!bin_bounds(bin.grid, a, b, c, bin.margin, 0, bin.lower, bin.upper)) {
+    bin.margin = brick_margin(space.grid, nearest);
+    if (!bin_bounds(space.grid, a, b, c, bin.margin, 0, bin.lower, bin.upper)) {
         return false;
     }
     bin.overlap = primitive_overlap_begin(a, b, c);
@@ -49,16 +68,28 @@ bool brick_bin_begin(PrimitiveGrid grid, Slices slices, uint primitive, uint fac
 
 // The depths of the triangle within a square of `side` columns; false where it does not reach into it.
 bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
-    float tiles = float(bin.grid.tiles);
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES) {
+        return brick_clip_depths(bin.clip, column, side, depths);
+    }
+    float tiles = float(bin.space.grid.tiles);
     precise vec2 place = vec2(2 * column + side) / tiles - 1.0;
     precise float half_side = float(side) / tiles;
     precise float widest = half_side + bin.margin;
-    if (!primitive_overlap_at(bin.grid, bin.overlap, vec3(place, 1.0), widest, depths)) {
+    if (!primitive_overlap_at(bin.space.grid, bin.overlap, vec3(place, 1.0), widest, depths)) {
         return false;
     }
     // The margin is that of the depth at which the triangle is met there, not of its nearest corner.
-    precise float narrow = half_side + brick_margin(bin.grid, depths.x);
-    return widest - narrow < 0.125 * half_side || primitive_overlap_at(bin.grid, bin.overlap, vec3(place, 1.0), narrow, depths);
+    precise float narrow = half_side + brick_margin(bin.space.grid, depths.x);
+    return widest - narrow < 0.125 * half_side || primitive_overlap_at(bin.space.grid, bin.overlap, vec3(place, 1.0), narrow, depths);
+}
+
+// The first and last slice of depths that a triangle has in a column.
+uvec2 brick_bin_slices(BrickBin bin, vec2 depths) {
+    if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES) {
+        return uvec2(clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.space.cells.z) - 1));
+    }
+    float rounding = bin.space.grid.rounding;
+    return uvec2(slice_of(depths.x - rounding, bin.space.slices), slice_of(depths.y + rounding, bin.space.slices));
 }
 
 // Files the triangle in the columns from `lower` to `upper` that it reaches into. Returns how many entries that makes.
@@ -68,10 +99,9 @@ uint brick_bin_columns(PrimitiveRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
         for (int x = lower.x; x <= upper.x; x++) {
             vec2 depths;
             if (brick_bin_depths(bin, ivec2(x, y), 1, depths)) {
-                uint first = uint(slice_of(depths.x - bin.grid.rounding, bin.slices));
-                uint last = uint(slice_of(depths.y + bin.grid.rounding, bin.slices));
-                brick_file_record(s, BrickRecord(bin.primitive, uint(x), uint(y), bin.face, first, last));
-                entries += last - first + 1u;
+                uvec2 slices = brick_bin_slices(bin, depths);
+                brick_file_record(s, BrickRecord(bin.primitive, uint(x), uint(y), bin.face, slices.x, slices.y));
+                entries += slices.y - slices.x + 1u;
             }
         }
     }

@@ -9,11 +9,13 @@
 
 // What stays the same for a ray.
 struct BrickWalk {
+    ivec3 cells;          // columns, rows and slices
+    // What follows is of the faces of a cube.
     Slices slices;
-    int tiles;
     float half_side;      // half the columns of a face
     float column;         // width of one in x/z
     float rounding;       // metres: how far from its place the ray may be found
+    // What lists hold.
     uint stored;          // entries
     uint listed;          // cells with a list
 };
@@ -27,7 +29,7 @@ struct BrickBox {
 };
 
 BrickBox brick_box(PrimitiveRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 up) {
-    uint brick = brick_index(face, cell, uint(walk.tiles), uint(walk.slices.count));
+    uint brick = brick_index(face, cell, uvec3(walk.cells));
     uint word = PRIMITIVE_BRICKS(s)[brick_at(brick)];
     BrickBox box = BrickBox(cell, cell, false, 0u);
     int inside = 0;
@@ -49,7 +51,7 @@ BrickBox brick_box(PrimitiveRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 
         }
     }
     box.first = max((cell & ~inside) - beyond, ivec3(0));
-    box.last = min((cell | inside) + beyond, ivec3(walk.tiles - 1, walk.tiles - 1, walk.slices.count - 1));
+    box.last = min((cell | inside) + beyond, walk.cells - 1);
     return box;
 }
 

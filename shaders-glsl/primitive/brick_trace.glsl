@@ -1,6 +1,7 @@
 // What: follows a ray through bricks of cells and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
-// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; ads/brick_cube.glsl has the planes between them.
+// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; ads/brick_cube.glsl has the planes between them, and
+// ads/brick_axes.glsl those of views along axes (PRIMITIVE_VIEWS), which have one view and no near box.
 // Every step goes from t to where the ray leaves the cell, or the empty cells around it; the axis of that exit gets the
 // next index exactly, the others are found from the point there and kept between where they were and the end of what
 // was empty. So indices only go forwards, and a cell is missed by no more than rounding, which what it lists allows for.
@@ -40,10 +41,11 @@ bool brick_trace_listed(PrimitiveRef s, Ray ray, bool all_triangles, bool any_hi
 bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
     bool resumed, inout TraceState state, inout uint work) {
     BrickWalk walk;
+    const bool axes = PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES;
+    walk.cells = ivec3(primitive_cells(s));
     walk.slices = primitive_slices(s);
-    walk.tiles = int(PRIMITIVE_HEADER(s).tiles);
-    walk.half_side = 0.5 * float(walk.tiles);
-    walk.column = 2.0 / float(walk.tiles);
+    walk.half_side = 0.5 * float(walk.cells.x);
+    walk.column = 2.0 / float(walk.cells.x);
     walk.rounding = PRIMITIVE_BRICK_PLACE * PRIMITIVE_HEADER(s).reach;
     walk.stored = min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
     walk.listed = primitive_listed_cells(s);
@@ -66,24 +68,31 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
     } else if (near.x <= t && t <= near.y) {
         t = near.y;
     }
-    if (begins) {
+    if (begins && !axes) {
         face = face_of(origin + t * ray.direction);
     }
     bool turns = true;
     bool paused = false;
     BrickRay r;
+    BrickLine line;
     bvec3 up;
     // The two triangles tested last: large ones stand in many cells in a row.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
     // Each turn crosses a cell or what is empty around it, and stays below the budget.
     while (t <= t_last && !(t > state.best.t + slack)) {
         if (turns) {
-            r = brick_ray(origin, ray.direction, face);
-            up = greaterThanEqual(r.heading, vec3(0.0));
+            if (axes) {
+                line = brick_line(primitive_axes(s), origin, ray.direction);
+                up = greaterThanEqual(line.direction, vec3(0.0));
+            } else {
+                r = brick_ray(origin, ray.direction, face);
+                up = greaterThanEqual(r.heading, vec3(0.0));
+            }
             trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
             if (begins) {
-                cell = brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
-                cell.xy = clamp(cell.xy, ivec2(0), ivec2(walk.tiles - 1));
+                cell = axes ? brick_line_cell_at(line, t, walk.cells)
+                    : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+                cell = clamp(cell, ivec3(0), walk.cells - 1);
             }
             turns = false;
             begins = false;
@@ -99,7 +108,7 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
         }
         BrickBox box = brick_box(s, walk, face, cell, up);
         ivec3 planes = mix(box.first, box.last + 1, up);
-        vec3 exits = brick_exits(r, planes, walk.column, walk.slices);
+        vec3 exits = axes ? brick_line_exits(line, planes) : brick_exits(r, planes, walk.column, walk.slices);
         float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
         if (enters) {
             state.cells++;
@@ -141,7 +150,8 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
         t = t_out;
         bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
         bool leaves_y = !leaves_x && exits.y <= exits.z;
-        ivec3 next = brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+        ivec3 next = axes ? brick_line_cell_at(line, t, walk.cells)
+            : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
         next = clamp(next, mix(box.first, cell, up), mix(cell, box.last, up));
         ivec3 over = mix(box.first - 1, box.last + 1, up);
         if (leaves_x) {
@@ -152,8 +162,11 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
             next.z = over.z;
         }
         cell = next;
+        if (axes && (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, walk.cells)))) {
+            break;
+        }
         int beside = leaves_x ? cell.x : cell.y;
-        if ((leaves_x || leaves_y) && (beside < 0 || beside >= walk.tiles)) {
+        if (!axes && (leaves_x || leaves_y) && (beside < 0 || beside >= walk.cells.x)) {
             face = brick_face_beyond(face, leaves_x, beside < 0);
             turns = true;
             begins = true;

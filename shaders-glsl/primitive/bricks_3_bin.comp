@@ -22,12 +22,12 @@ void main() {
     if (primitive >= triangles || !bin_corners(primitive_built, primitive, a, b, c)) {
         return;
     }
-    PrimitiveGrid grid = primitive_grid(primitive_built);
-    Slices slices = primitive_slices(primitive_built);
+    BrickSpace space = brick_space(primitive_built);
+    uint views = primitive_view_count();
     uint entries = 0u;
-    for (uint face = 0u; face < VIEW_FACES; face++) {
+    for (uint face = 0u; face < views; face++) {
         BrickBin bin;
-        if (!brick_bin_begin(grid, slices, primitive, face, a, b, c, bin)) {
+        if (!brick_bin_begin(space, primitive, face, a, b, c, bin)) {
             continue;
         }
         ivec2 size = bin.upper - bin.lower + 1;

@@ -26,7 +26,7 @@ void main() {
     vec3 c;
     BrickBin bin;
     if (!bin_corners(primitive_built, primitive, a, b, c)
-        || !brick_bin_begin(primitive_grid(primitive_built), primitive_slices(primitive_built), primitive, pair / triangles, a, b, c, bin)) {
+        || !brick_bin_begin(brick_space(primitive_built), primitive, pair / triangles, a, b, c, bin)) {
         return;
     }
     uint entries = 0u;

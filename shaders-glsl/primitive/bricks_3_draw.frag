@@ -18,8 +18,7 @@ void main() {
     vec3 c;
     BrickBin bin;
     if (!bin_corners(primitive_built, primitive_and_face.x, a, b, c)
-        || !brick_bin_begin(primitive_grid(primitive_built), primitive_slices(primitive_built), primitive_and_face.x,
-            primitive_and_face.y, a, b, c, bin)
+        || !brick_bin_begin(brick_space(primitive_built), primitive_and_face.x, primitive_and_face.y, a, b, c, bin)
         || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
         return;
     }

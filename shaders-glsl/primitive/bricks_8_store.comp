@@ -17,18 +17,17 @@ void main() {
         return;
     }
     BrickRecord record = brick_record(primitive_built, place);
-    uint tiles = PRIMITIVE_HEADER(primitive_built).tiles;
-    uint slices = PRIMITIVE_HEADER(primitive_built).slices;
-    uint cells = PRIMITIVE_HEADER(primitive_built).cell_capacity;
+    uvec3 cells = primitive_cells(primitive_built);
+    uint lists = PRIMITIVE_HEADER(primitive_built).cell_capacity;
     uint capacity = PRIMITIVE_HEADER(primitive_built).capacity;
     BrickWords words;
     for (uint slice = record.first; slice <= record.last; slice++) {
         ivec3 cell = ivec3(record.x, record.y, slice);
         if (slice == record.first || (slice & 3u) == 0u) {
-            words = brick_words(primitive_built, record.face, cell, tiles, slices);
+            words = brick_words(primitive_built, record.face, cell, cells);
         }
         uint list = brick_list(words, cell);
-        if (list < cells) {
+        if (list < lists) {
             uint entry = atomicAdd(PRIMITIVE_LISTS(primitive_built)[list], 1u);
             if (entry < capacity) {
                 PRIMITIVE_ENTRIES(primitive_built)[entry] = record.primitive;

@@ -14,15 +14,15 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 
 void main() {
     uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint bricks = PRIMITIVE_HEADER(primitive_built).tiles >> 2;
-    uint deep = PRIMITIVE_HEADER(primitive_built).slices >> 2;
-    if (line >= VIEW_FACES * bricks * deep) {
+    uvec3 bricks = primitive_cells(primitive_built) >> 2;
+    uint deep = bricks.z;
+    if (line >= primitive_view_count() * bricks.y * deep) {
         return;
     }
-    uint first = line / deep * bricks * deep + line % deep;
+    uint first = line / deep * bricks.x * deep + line % deep;
     // Towards lower and higher slices.
     uvec2 runs = uvec2(BRICK_RUNS_BEGIN);
-    for (uint x = 0u; x < bricks; x++) {
+    for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;
         uint word = PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)];
         bool empty = brick_is_empty(word);
@@ -31,7 +31,7 @@ void main() {
         PRIMITIVE_DISTANCES(primitive_built)[brick] = brick_reach_of(runs.x) | brick_reach_of(runs.y) << 4;
     }
     runs = uvec2(BRICK_RUNS_BEGIN);
-    for (uint x = bricks; x-- > 0u;) {
+    for (uint x = bricks.x; x-- > 0u;) {
         uint brick = first + x * deep;
         uint word = PRIMITIVE_BRICKS(primitive_built)[brick_at(brick)];
         bool empty = brick_is_empty(word);

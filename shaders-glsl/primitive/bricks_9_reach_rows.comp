@@ -25,15 +25,14 @@ uint reaches_of(uint runs[4]) {
 
 void main() {
     uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint bricks = PRIMITIVE_HEADER(primitive_built).tiles >> 2;
-    uint deep = PRIMITIVE_HEADER(primitive_built).slices >> 2;
-    if (line >= VIEW_FACES * bricks * deep) {
+    uvec3 bricks = primitive_cells(primitive_built) >> 2;
+    uint stride = bricks.x * bricks.z;
+    if (line >= primitive_view_count() * stride) {
         return;
     }
-    uint stride = bricks * deep;
-    uint first = line / stride * bricks * stride + line % stride;
+    uint first = line / stride * bricks.y * stride + line % stride;
     uint runs[4] = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
-    for (uint y = 0u; y < bricks; y++) {
+    for (uint y = 0u; y < bricks.y; y++) {
         uint brick = first + y * stride;
         uint reaches = PRIMITIVE_DISTANCES(primitive_built)[brick];
         lengthen(runs, reaches);
@@ -43,7 +42,7 @@ void main() {
         }
     }
     runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
-    for (uint y = bricks; y-- > 0u;) {
+    for (uint y = bricks.y; y-- > 0u;) {
         uint brick = first + y * stride;
         uint reaches = PRIMITIVE_DISTANCES(primitive_built)[brick];
         lengthen(runs, reaches);

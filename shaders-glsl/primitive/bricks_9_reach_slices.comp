@@ -14,9 +14,9 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 
 void main() {
     uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint bricks = PRIMITIVE_HEADER(primitive_built).tiles >> 2;
-    uint deep = PRIMITIVE_HEADER(primitive_built).slices >> 2;
-    if (line >= VIEW_FACES * bricks * bricks) {
+    uvec3 bricks = primitive_cells(primitive_built) >> 2;
+    uint deep = bricks.z;
+    if (line >= primitive_view_count() * bricks.x * bricks.y) {
         return;
     }
     uint first = line * deep;

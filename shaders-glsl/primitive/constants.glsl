@@ -7,6 +7,10 @@
 #define PRIMITIVE_STORAGE_CONTIGUOUS 1u
 #define PRIMITIVE_STORAGE_BRICKS 2u
 
+// What columns of bricks are: of the faces of a cube around a centre, or of one box along the axes of the world.
+#define PRIMITIVE_VIEWS_CUBE 0u
+#define PRIMITIVE_VIEWS_AXES 1u
+
 // Which cells list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
 #define PRIMITIVE_COVERAGE_CONSERVATIVE 1u

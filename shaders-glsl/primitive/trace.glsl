@@ -99,7 +99,9 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
     // How far rounding moves a t, for surfaces that are not met along themselves: 256 units of rounding.
     float slack = 1.6e-5 * (size + reach) / speed;
-    vec2 near = near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
+    // Views along axes meet nowhere, so that no near box stands between them.
+    vec2 near = PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES ? vec2(1.0, 0.0)
+        : near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
     vec2 clip = primitive_clip(s, origin, direction, ray.t_min - slack, ray.t_max + slack);
     bool distant = size > PRIMITIVE_ORIGIN_LIMIT * reach;
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS) {

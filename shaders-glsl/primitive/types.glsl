@@ -20,8 +20,10 @@ layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
 layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
 layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
 layout(constant_id = 39) const uint PRIMITIVE_PYRAMID = 0u;
+// Of bricks alone.
+layout(constant_id = 40) const uint PRIMITIVE_VIEWS = PRIMITIVE_VIEWS_CUBE;
 
-// State and sizes of one value. 328 bytes.
+// State and sizes of one value. 356 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -29,13 +31,13 @@ struct PrimitiveHeader {
     uint near_demand;     // triangles that meet the near box
     uint near_capacity;
     uint corrupted;       // list entries that named no node
-    uint tiles;           // cells a side of a face, border not counted
+    uint tiles;           // cells a side of a face, border not counted; columns of bricks
     uint tile;            // pixels a side of a cell
-    float reach;          // metres: farthest that the geometry is from the centre along an axis
+    float reach;          // metres: farthest that the geometry is from the centre along an axis; of views along axes, or more
     float near_size;      // metres: half side of the near box
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     float spare_length;
-    vec3 centre;          // metres relative to the frame origin: of the faces
+    vec3 centre;          // metres relative to the frame origin: of the faces, or of the geometry's bounds
     float spare_centre;
     vec3 lower;           // bounds of the geometry relative to the centre, metres
     float spare_lower;
@@ -60,6 +62,10 @@ struct PrimitiveHeader {
     uint pairs;           // triangles with many columns of a face
     uint groups[3];       // a workgroup for each of them
     uint octaves[PRIMITIVE_OCTAVES]; // triangles that begin so many octaves before the farthest geometry
+    uint rows;            // of every view, a multiple of 4
+    // What follows is of views along axes alone.
+    vec3 cells_lower;     // corner of the first cell relative to the centre, metres
+    vec3 cells_per_metre;
 };
 
 // Depths of what a cell lists.

@@ -3,7 +3,7 @@
 
 use rasray_ads::{BruteForce, Hit, Ray, Structure, TraceMode};
 use rasray_ads_primitive::{
-    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
+    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
 };
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
@@ -37,10 +37,11 @@ fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
     (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
 }
 
-/// The exact preset in each storage.
-fn storages(resolution: u32) -> [Config; 3] {
-    [Storage::Contiguous, Storage::Linked, Storage::Bricks]
-        .map(|storage| Config { storage, ..Config::robust(resolution) })
+/// The exact preset in each storage, and bricks along the axes.
+fn storages(resolution: u32) -> [Config; 4] {
+    let of = |storage| Config { storage, ..Config::robust(resolution) };
+    let axes = Config { views: Views::Axes, grid: Some(resolution / 2), ..of(Storage::Bricks) };
+    [of(Storage::Contiguous), of(Storage::Linked), of(Storage::Bricks), axes]
 }
 
 fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> PrimitiveLists {
@@ -89,13 +90,10 @@ fn hits_are_those_of_brute_force() {
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
-        for config in [Storage::Contiguous, Storage::Bricks].map(|storage| Config {
-            storage,
-            pyramid: true,
-            ..Config::robust(128)
-        }) {
+        for config in [0, 2, 3].map(|which| Config { pyramid: true, ..storages(128)[which] }) {
             let structure = lists(&bench, config, &triangles, EYES[round as usize % 3]);
-            assert_exact(&format!("{:?}", config.storage), &bench, &structure, &rays, &expected);
+            let what = format!("{:?}, {:?}", config.storage, config.views);
+            assert_exact(&what, &bench, &structure, &rays, &expected);
         }
     }
 }
@@ -139,6 +137,13 @@ fn no_size_changes_a_hit() {
         let (skip, corners) = (index % 3 != 0, index % 2 == 0);
         let builder = Some(if index % 4 < 2 { Builder::Raster } else { Builder::Binning });
         let config = Config { tile, slices, storage, skip, corners, builder, ..Config::robust(resolution) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    for (grid, index) in [1, 5, 16, 77, 256].into_iter().zip(0..) {
+        let (views, skip, corners) = (Views::Axes, index % 3 != 0, index % 2 == 0);
+        let builder = Some(if index % 2 == 0 { Builder::Raster } else { Builder::Binning });
+        let config = Config { views, grid: Some(grid), skip, corners, builder, ..Config::robust(1) };
         let structure = lists(&bench, config, &triangles, EYES[index % 3]);
         assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
     }
@@ -269,7 +274,12 @@ fn triangles_around_the_eye_are_found() {
             let structure = lists(&bench, config, &triangles, eye);
             let header = structure.header().expect("the header is readable");
             let near = header.near_demand as usize;
-            assert!(near > 20 && near < triangles.len() / 2, "{near} triangles are in the near list");
+            let has_near_list = config.views == Views::Cube;
+            assert!(has_near_list || near == 0, "{near} triangles are near the centre");
+            assert!(
+                !has_near_list || near > 20 && near < triangles.len() / 2,
+                "{near} triangles are in the near list"
+            );
             assert_exact(
                 &format!("{:?}, eye at {eye:?}", config.storage),
                 &bench,
@@ -318,12 +328,12 @@ fn no_budget_changes_a_hit() {
     rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
     let expected = brute_force(&bench, &triangles, &rays);
     for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {
-        for storage in [Storage::Linked, Storage::Contiguous, Storage::Bricks] {
-            let config = Config { work_budget: Some(budget), storage, ..Config::robust(32) };
+        for config in storages(32) {
+            let config = Config { work_budget: Some(budget), ..config };
             let structure = lists(&bench, config, &triangles, EYES[1]);
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, rounds);
             assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{budget} units a dispatch");
-            assert_eq!(differences(&hits, &expected), [0; 0], "{budget} units a dispatch, {storage:?}");
+            assert_eq!(differences(&hits, &expected), [0; 0], "{config:?}");
             // With too few rounds rays are counted, never given half an answer.
             let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
             assert!(counters.unfinished > 0);

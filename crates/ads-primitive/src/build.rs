@@ -56,7 +56,7 @@ impl Build {
         target.pools.record_header(recorder, "primitive/build_0_clear", &["bounds", "lists"], readers);
         let groups = u64::from(target.geometry.triangle_count()).div_ceil(group);
         target.compute_pass(recorder, "primitive/build_1_near", &self.near, groups, 0, shaders);
-        self.bounds.record(recorder, config, target);
+        self.bounds.record(recorder, config, config.tiles(), target);
         if let Some(scale) = &self.scale {
             let groups = cells.div_ceil(group);
             target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
@@ -65,10 +65,10 @@ impl Build {
             pyramid.record(recorder, target, "primitive/build_3_pyramid", &[faces(config)], shaders);
         }
         if let Some(lengths) = &self.lengths {
-            lengths.count.record(recorder, config, target);
+            lengths.count.record(recorder, config, config.tiles(), target);
             lengths.scan.record(recorder, target, "primitive/build_5_scan", lists, 0, shaders);
         }
-        self.store.record(recorder, config, target);
+        self.store.record(recorder, config, config.tiles(), target);
         target.status_pass(recorder, "primitive/build_7_status", &self.status);
     }
 }

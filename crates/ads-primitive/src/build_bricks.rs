@@ -4,9 +4,9 @@ use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
-use crate::Config;
 use crate::build_visit::Visit;
-use crate::layout::brick_count;
+use crate::layout::bricks_of;
+use crate::{Config, Views};
 
 /// What the steps of the scan run over.
 const SCAN_LISTS: u32 = 0;
@@ -15,8 +15,8 @@ const SCAN_BRICKS: u32 = 1;
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct BuildBricks {
-    near: ComputePipeline,
-    slices: ComputePipeline,
+    /// The near box and the slices of a cube's faces, from depths; views along axes have neither.
+    depths: Option<[(&'static str, ComputePipeline); 2]>,
     records: Visit,
     cells: ComputePipeline,
     scan: Scan,
@@ -29,17 +29,22 @@ pub(crate) struct BuildBricks {
 
 impl BuildBricks {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let reach = |label, name| Ok::<_, AdsError>((label, pipelines.compute(name)?));
+        let named = |label, name| Ok::<_, AdsError>((label, pipelines.compute(name)?));
+        let depths = || -> Result<_, AdsError> {
+            Ok([
+                named("primitive/build_1_near", "build_1_near")?,
+                named("primitive/bricks_2_slices", "bricks_2_slices")?,
+            ])
+        };
         let reaches = || -> Result<_, AdsError> {
             Ok([
-                reach("primitive/bricks_9_reach_slices", "bricks_9_reach_slices")?,
-                reach("primitive/bricks_9_reach_columns", "bricks_9_reach_columns")?,
-                reach("primitive/bricks_9_reach_rows", "bricks_9_reach_rows")?,
+                named("primitive/bricks_9_reach_slices", "bricks_9_reach_slices")?,
+                named("primitive/bricks_9_reach_columns", "bricks_9_reach_columns")?,
+                named("primitive/bricks_9_reach_rows", "bricks_9_reach_rows")?,
             ])
         };
         Ok(Self {
-            near: pipelines.compute("build_1_near")?,
-            slices: pipelines.compute("bricks_2_slices")?,
+            depths: (config.views == Views::Cube).then(depths).transpose()?,
             records: Visit::new(pipelines, config, "bricks_3")?,
             cells: pipelines.compute("bricks_4_cells")?,
             scan: Scan::new(pipelines, "build_5_scan")?,
@@ -54,14 +59,18 @@ impl BuildBricks {
         })
     }
 
-    /// Records all passes.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
+    /// Records all passes; `cells` are those of a view.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        config: &Config,
+        cells: [u32; 3],
+        target: BuildTarget<'_>,
+    ) {
         let sizes = target.pools.sizes();
         let triangles = u64::from(target.geometry.triangle_count());
-        let (bricks, records, lists) =
-            (brick_count(config), sizes.elements("records"), sizes.elements("lists"));
-        let side = u64::from(config.tiles() / 4);
-        let columns = 6 * side * side;
+        let (records, lists) = (sizes.elements("records"), sizes.elements("lists"));
+        let (along, bricks) = bricks_of(config, cells);
         let pass = |recorder: &mut Recorder<'_>, label, pipeline, invocations: u64, readers| {
             let groups = invocations.div_ceil(PRIMITIVE_GROUP_SIZE.into());
             target.compute_pass(recorder, label, pipeline, groups, 0, readers);
@@ -70,9 +79,11 @@ impl BuildBricks {
 
         let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
         target.pools.record_header(recorder, "primitive/bricks_0_clear", &["lists", "bricks"], readers);
-        pass(recorder, "primitive/build_1_near", &self.near, triangles, compute);
-        pass(recorder, "primitive/bricks_2_slices", &self.slices, 1, compute | Access::FRAGMENT);
-        self.records.record(recorder, config, target);
+        if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
+            pass(recorder, near_label, near, triangles, compute);
+            pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);
+        }
+        self.records.record(recorder, config, cells[0].max(cells[1]), target);
         pass(recorder, "primitive/bricks_4_cells", &self.cells, bricks, compute);
         self.scan.record(recorder, target, "primitive/bricks_5_scan", bricks, SCAN_BRICKS, compute);
         pass(recorder, "primitive/bricks_6_count", &self.count, records, compute);
@@ -80,8 +91,8 @@ impl BuildBricks {
         pass(recorder, "primitive/bricks_8_store", &self.store, records, compute);
         for (axis, (label, reach)) in self.reaches.iter().flatten().enumerate() {
             // Along slices, then columns, then rows.
-            let lines = if axis == 0 { columns } else { bricks / side };
-            pass(recorder, label, reach, lines, compute);
+            let bricks_of_line = [along[2], along[0], along[1]][axis];
+            pass(recorder, label, reach, bricks / bricks_of_line, compute);
         }
         if let Some(copy) = &self.triangles {
             pass(recorder, "primitive/bricks_10_triangles", copy, triangles, compute);

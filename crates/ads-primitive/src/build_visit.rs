@@ -8,9 +8,6 @@ use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
 use crate::{Builder, Config, Header};
 
-/// Faces of the cube.
-const VIEWS: u32 = 6;
-
 /// Pipelines of one such pass.
 #[derive(Debug)]
 pub(crate) struct Visit {
@@ -43,15 +40,23 @@ impl Visit {
     }
 
     /// Records it; the next pass may be of either kind.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, config: &Config, target: BuildTarget<'_>) {
+    ///
+    /// `side`: columns along the longer side of a view, the border of one not counted.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        config: &Config,
+        side: u32,
+        target: BuildTarget<'_>,
+    ) {
         match &self.passes {
             Passes::Raster(draw) => {
                 target.raster_pass(
                     recorder,
                     &format!("{}_draw", self.label),
                     draw,
-                    config.tiles() + 2,
-                    VIEWS,
+                    side + 2,
+                    config.view_count(),
                 );
             }
             Passes::Binning(bin, many) => {

@@ -1,14 +1,15 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters, Geometry};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Accept, Coverage, Depths, March, Stop};
+use crate::views::cells_along;
+use crate::{Accept, Coverage, Depths, March, Stop, Views};
 
 /// Cells a side of a brick.
-const BRICK_SIDE: u32 = 4;
-/// Most tiles a side of a face of bricks.
-const SIDE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SIDE_LIMIT;
+pub(crate) const BRICK_SIDE: u32 = 4;
+/// Most tiles a side of a face of bricks, and most cells along an axis.
+pub(crate) const SIDE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SIDE_LIMIT;
 /// Most slices.
 const SLICE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SLICE_LIMIT;
 
@@ -59,6 +60,11 @@ pub struct Config {
     pub corners: bool,
     /// How lists are kept.
     pub storage: Storage,
+    /// What is seen where. Resolution, tile, slices and centre are those of [`Views::Cube`].
+    pub views: Views,
+    /// [`Views::Axes`] only: cells along the longest side of the geometry's bounds, 1 to 1024, made up to a multiple of 4; where
+    /// absent, as many as make a cell about as wide as a triangle. Changes no hit.
+    pub grid: Option<u32>,
     /// Where the faces meet.
     pub centre: Centre,
     /// Who puts triangles into cells; absent: the rasterizer for lists, a compute pass for bricks. Changes no hit.
@@ -99,6 +105,8 @@ impl Config {
             slices: None,
             corners: true,
             storage: Storage::Bricks,
+            views: Views::Cube,
+            grid: None,
             centre: Centre::Scene,
             builder: None,
             pyramid: false,
@@ -172,6 +180,22 @@ impl Config {
         if self.storage == Storage::Bricks { slices().next_multiple_of(BRICK_SIDE) } else { 0 }
     }
 
+    /// Columns, rows and slices of each view of bricks over a geometry.
+    pub fn cells(&self, geometry: &Geometry) -> [u32; 3] {
+        match self.views {
+            Views::Cube => [self.tiles(), self.tiles(), self.slices()],
+            Views::Axes => cells_along(geometry.bounds(), geometry.triangle_count(), self.grid),
+        }
+    }
+
+    /// How many views there are.
+    pub(crate) fn view_count(&self) -> u32 {
+        match self.views {
+            Views::Cube => 6,
+            Views::Axes => 1,
+        }
+    }
+
     /// Who puts triangles into cells.
     pub fn builder(&self) -> Builder {
         let usual = if self.storage == Storage::Bricks { Builder::Binning } else { Builder::Raster };
@@ -212,6 +236,32 @@ impl Config {
                 return Err(AdsError::Option { option, value: value.to_owned(), expected });
             }
         }
+        range("grid", self.grid.unwrap_or(1), 1, SIDE_LIMIT, "1 to 1024 cells along the longest side")?;
+        let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
+        match (self.views, self.storage, self.grid, self.slices) {
+            (Views::Cube, _, Some(grid), _) => {
+                return refused(
+                    "grid",
+                    grid.to_string(),
+                    "the faces of a cube have a resolution: take views axes",
+                );
+            }
+            (Views::Axes, Storage::Linked | Storage::Contiguous, ..) => {
+                return refused(
+                    "views",
+                    "axes".to_owned(),
+                    "lists are those of a cube's faces: take storage bricks",
+                );
+            }
+            (Views::Axes, _, _, Some(slices)) => {
+                return refused(
+                    "slices",
+                    slices.to_string(),
+                    "views along axes have cells of one size: take grid",
+                );
+            }
+            _ => {}
+        }
         if self.coverage == Coverage::Hardware && self.builder() == Builder::Binning {
             let expected = "the binning builder does not draw: take builder raster";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
@@ -250,26 +300,32 @@ impl Config {
         let corners = u32::from(self.keeps_corners());
         let skip = u32::from(self.skip);
         let pyramid = u32::from(self.has_pyramid());
-        [self.buckets, storage, coverage, skip, corners, accept, stop, depths, march, pyramid]
+        let views = match self.views {
+            Views::Cube => numbers::PRIMITIVE_VIEWS_CUBE,
+            Views::Axes => numbers::PRIMITIVE_VIEWS_AXES,
+        };
+        [self.buckets, storage, coverage, skip, corners, accept, stop, depths, march, pyramid, views]
             .into_iter()
             .zip(30..)
             .map(|(value, id)| (id, value))
             .collect()
     }
 
-    /// Options as name and value, for reports.
-    pub fn options(&self) -> Vec<(&'static str, String)> {
+    /// Options as name and value, for reports; `cells` are those of a view of bricks.
+    pub fn options(&self, cells: [u32; 3]) -> Vec<(&'static str, String)> {
         let storage = match self.storage {
             Storage::Linked => "llb",
             Storage::Contiguous => "sb",
             Storage::Bricks => "bricks",
         };
         let switch = |on| if on { "on" } else { "off" }.to_owned();
-        let mut options = vec![
-            ("storage", storage.to_owned()),
-            ("resolution", self.resolution.to_string()),
-            ("tile", self.tile.to_string()),
-        ];
+        let mut options = vec![("storage", storage.to_owned()), ("views", self.views.name().to_owned())];
+        if self.views == Views::Axes {
+            options.push(("grid", cells.map(|n| n.to_string()).join("x")));
+            options.extend([("corners", switch(self.corners)), ("skip", switch(self.skip))]);
+            return options;
+        }
+        options.extend([("resolution", self.resolution.to_string()), ("tile", self.tile.to_string())]);
         if self.storage == Storage::Bricks {
             options.push(("slices", self.slices().to_string()));
             options.push(("corners", switch(self.corners)));
@@ -286,7 +342,7 @@ impl Config {
             ]);
         }
         let centre = format!("{:?}", self.centre).to_lowercase();
-        options.extend([("skip", switch(self.skip)), ("centre", centre), ("views", "cube".to_owned())]);
+        options.extend([("skip", switch(self.skip)), ("centre", centre)]);
         options
     }
 

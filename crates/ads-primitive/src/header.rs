@@ -18,11 +18,11 @@ pub struct Header {
     pub near_capacity: u32,
     /// List entries that named no node.
     pub corrupted: u32,
-    /// Cells a side of a face, border not counted.
+    /// Cells a side of a face, border not counted; columns of bricks.
     pub tiles: u32,
     /// Pixels a side of a cell.
     pub tile: u32,
-    /// Farthest that the geometry is from the centre along an axis, metres.
+    /// Farthest that the geometry is from the centre along an axis, metres; of views along axes, more where the eye is far away.
     pub reach: f32,
     /// Half side of the near box, metres.
     pub near_size: f32,
@@ -30,7 +30,7 @@ pub struct Header {
     pub rounding: f32,
     /// Zero.
     pub spare_length: f32,
-    /// Centre of the faces, metres relative to the frame origin.
+    /// Centre of the faces, or of the bounds for views along axes, metres relative to the frame origin.
     pub centre: [f32; 3],
     /// Zero.
     pub spare_centre: f32,
@@ -38,7 +38,7 @@ pub struct Header {
     pub lower: [f32; 3],
     /// Zero.
     pub spare_lower: f32,
-    /// Upper corner of the geometry relative to the eye, metres.
+    /// Upper corner of the geometry relative to the centre, metres.
     pub upper: [f32; 3],
     /// Zero.
     pub spare_upper: f32,
@@ -78,4 +78,10 @@ pub struct Header {
     pub groups: [u32; 3],
     /// Triangles that begin so many octaves before the farthest geometry.
     pub octaves: [u32; 32],
+    /// Rows of every view of bricks, a multiple of 4.
+    pub rows: u32,
+    /// Corner of the first cell of views along axes relative to the centre, metres.
+    pub cells_lower: [f32; 3],
+    /// Cells a metre of views along axes.
+    pub cells_per_metre: [f32; 3],
 }

@@ -1,9 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, Geometry, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Builder, Config, Header, Storage};
+use crate::config::BRICK_SIDE;
+use crate::{Builder, Config, Header, Storage, Views};
 
 /// The pool that holds what is known of each cell: bounds of lists, or bricks.
 pub(crate) fn cells_pool(storage: Storage) -> &'static str {
@@ -29,6 +30,8 @@ pub struct Demand {
     pub cells: u64,
     /// Bricks, and lists that a compute pass fills: triangles of the geometry.
     pub triangles: u64,
+    /// Bricks of [`Views::Axes`] only: columns, rows and slices, [`Config::cells`] of the geometry.
+    pub grid: [u32; 3],
 }
 
 /// Cells of all six faces of `tiles` tiles a side, each with a border of one: those of lists.
@@ -37,10 +40,15 @@ pub fn cell_count(tiles: u32) -> u64 {
     6 * side * side
 }
 
-/// Bricks of all six faces.
-pub(crate) fn brick_count(config: &Config) -> u64 {
-    let side = u64::from(config.tiles() / 4);
-    6 * side * side * u64::from(config.slices() / 4)
+/// Bricks along each side of a view, and in all views; `cells` are those of a view.
+pub(crate) fn bricks_of(config: &Config, cells: [u32; 3]) -> ([u64; 3], u64) {
+    let along = cells.map(|cells| u64::from(cells / 4));
+    (along, u64::from(config.view_count()) * along.iter().product::<u64>())
+}
+
+/// Words of all bricks of views of so many cells.
+pub(crate) fn brick_words(config: &Config, cells: [u32; 3]) -> u64 {
+    bricks_of(config, cells).1 * BRICK_WORDS
 }
 
 /// Words of the bounds of a cell: both ends, and the scale where there are several buckets.
@@ -96,7 +104,12 @@ fn pyramid_words(config: &Config) -> u64 {
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let tiles = cell_count(config.tiles());
-    let bricks = brick_count(config);
+    let cells = match config.views {
+        Views::Cube => [config.tiles(), config.tiles(), config.slices()],
+        // A brick at least, so that a build can say what it needs.
+        Views::Axes => demand.grid.map(|along| along.max(BRICK_SIDE)),
+    };
+    let (_, bricks) = bricks_of(config, cells);
     let lists = tiles * u64::from(config.buckets);
     let (cells, cell_words, lists, sums) = match config.storage {
         Storage::Linked => (tiles, bounds_words(config), lists, 0),
@@ -134,14 +147,15 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
 
 /// The first guess where nothing has been counted: four entries a cell; for bricks, eight columns a triangle, of two
 /// cells each, half of which stand alone in theirs.
-pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
-    let triangles = u64::from(triangles);
+pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+    let (triangles, grid) = (u64::from(geometry.triangle_count()), config.cells(geometry));
     let guess = match config.storage {
         Storage::Bricks => 16 * triangles,
         Storage::Linked | Storage::Contiguous => 4 * cell_count(config.tiles()),
     };
     let entries = config.entries.unwrap_or(guess);
-    plan(config, &Demand { entries, near: 64, records: entries / 2, cells: entries / 2, triangles })
+    let near = if config.views == Views::Axes { 0 } else { 64 };
+    plan(config, &Demand { entries, near, records: entries / 2, cells: entries / 2, triangles, grid })
 }
 
 /// Bytes for counted cells, buckets and entries.
@@ -170,11 +184,15 @@ impl FormulaBytes {
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
-    let rest = 328 + 4 * demand.near;
+    let rest = 356 + 4 * demand.near;
     if config.storage == Storage::Bricks {
         let side = tiles.div_ceil(4);
         let slices = config.slices.map_or((8 * side).min(1024), u64::from);
-        let bricks = 6 * side * side * slices.div_ceil(4);
+        let bricks = if config.views == Views::Axes {
+            demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64
+        } else {
+            6 * side * side * slices.div_ceil(4)
+        };
         return FormulaBytes {
             cells: 12 * bricks + 4 * demand.cells,
             entries: 4 * demand.entries,
@@ -205,7 +223,14 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        let demand = Demand { entries: 12_345, near: 7, records: 2_345, cells: 1_234, triangles: 99 };
+        let demand = Demand {
+            entries: 12_345,
+            near: 7,
+            records: 2_345,
+            cells: 1_234,
+            triangles: 99,
+            grid: [8, 12, 4],
+        };
         for (resolution, tile, buckets, storage) in [
             (64, 1, 1, Storage::Linked),
             (256, 2, 16, Storage::Contiguous),
@@ -227,6 +252,22 @@ mod tests {
                 let more = Demand { entries: demand.entries + 1, ..demand };
                 assert_ne!(sizes.bytes(), formula_bytes(&config, &more).total());
             }
+        }
+    }
+
+    /// Bricks along axes are as many as the cells of the geometry, whatever the resolution.
+    #[test]
+    fn plan_equals_formula_along_axes() {
+        let demand = Demand { entries: 500, records: 400, cells: 300, triangles: 99, ..Demand::default() };
+        for (skip, corners) in [(true, true), (false, true), (true, false)] {
+            let config = Config { views: Views::Axes, skip, corners, ..Config::robust(64) };
+            let bytes = [[4, 4, 4], [64, 12, 128]].map(|grid| {
+                let demand = Demand { grid, ..demand };
+                let sizes = plan(&config, &demand).expect("options are in range");
+                assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
+                sizes.bytes()
+            });
+            assert!(bytes[0] < bytes[1]);
         }
     }
 
@@ -261,6 +302,11 @@ mod tests {
         let bricks = Config { storage: Storage::Bricks, tile: 1, ..Config::robust(1028) };
         assert!(message(bricks).contains("tiles a side is 1028"));
         assert!(message(Config { slices: Some(1025), ..bricks }).contains("slices is 1025"));
+        assert!(message(Config { grid: Some(8), ..Config::robust(64) }).contains("views axes"));
+        let axes = Config { views: Views::Axes, ..Config::robust(64) };
+        assert!(message(Config { storage: Storage::Linked, ..axes }).contains("storage bricks"));
+        assert!(message(Config { slices: Some(8), ..axes }).contains("take grid"));
+        assert!(message(Config { grid: Some(1025), ..axes }).contains("grid is 1025"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&Config::robust(64), &demand).unwrap_err().to_string().contains("entries"));
     }

@@ -16,6 +16,7 @@ mod layout;
 mod rules;
 mod structure;
 mod validate;
+mod views;
 
 pub use config::{Builder, Centre, Config, Storage};
 pub use header::Header;
@@ -24,3 +25,4 @@ pub use rasray_ads::Addressing;
 pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::PrimitiveLists;
 pub use validate::{Contents, Fault, well_formed};
+pub use views::Views;

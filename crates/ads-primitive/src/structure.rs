@@ -2,7 +2,7 @@
 
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
-    PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
+    PoolSize, PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
     TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
@@ -12,8 +12,12 @@ use rasray_shaders_glsl::constants::primitive as numbers;
 use crate::build::Build;
 use crate::build_bricks::BuildBricks;
 use crate::centre::centre_within;
-use crate::layout::{Demand, bin_groups, cells_pool, first_plan, formula_bytes, plan, triangle_words};
-use crate::{Builder, Centre, Config, Contents, Header, Storage};
+use crate::config::BRICK_SIDE;
+use crate::layout::{
+    Demand, bin_groups, brick_words, cells_pool, first_plan, formula_bytes, plan, triangle_words,
+};
+use crate::views::placed;
+use crate::{Builder, Centre, Config, Contents, Header, Storage, Views};
 
 /// The passes of a storage.
 #[derive(Debug)]
@@ -44,7 +48,7 @@ impl PrimitiveLists {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let sizes = first_plan(&config, geometry.triangle_count())?;
+        let sizes = first_plan(&config, geometry)?;
         config.addressing.check(device)?;
         device.require("the primitive lists", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "primitive", config.addressing, &sizes)?;
@@ -86,17 +90,30 @@ impl PrimitiveLists {
         &self.config
     }
 
+    /// Columns, rows and slices of each view, one brick where there is no room for those that the geometry asks for; and
+    /// whether there is.
+    fn cells(&self) -> ([u32; 3], bool) {
+        let wanted = self.config.cells(&self.geometry);
+        let room = self.pools.sizes().elements(cells_pool(self.config.storage));
+        let fits = self.config.storage != Storage::Bricks || brick_words(&self.config, wanted) <= room;
+        (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
+    }
+
     /// The header that the next build starts from.
     fn first_header(&self, eye: [f32; 3]) -> Header {
         let [lower, upper] = self.geometry.bounds();
-        let centre = match self.config.centre {
-            Centre::Eye => eye,
-            Centre::Scene => centre_within(eye, [lower, upper]),
+        let (cells, fits) = self.cells();
+        let along_axes = (self.config.views == Views::Axes).then(|| placed(eye, [lower, upper], cells));
+        let centre = match (&along_axes, self.config.centre) {
+            (Some(at), _) => at.centre,
+            (None, Centre::Eye) => eye,
+            (None, Centre::Scene) => centre_within(eye, [lower, upper]),
         };
         let relative =
             |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]);
         let (lower, upper) = (relative(lower), relative(upper));
         let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
+        let farthest = along_axes.map_or(farthest, |at| at.reach);
         // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
         // centre is from the frame origin.
         let rounding = match self.config.storage {
@@ -108,7 +125,7 @@ impl PrimitiveLists {
         Header {
             capacity: self.pools.sizes().elements("entries") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
-            tiles: self.config.tiles(),
+            tiles: if self.config.storage == Storage::Bricks { cells[0] } else { self.config.tiles() },
             tile: self.config.tile,
             reach: farthest,
             // Depths are positive, also where all geometry is at the eye.
@@ -124,11 +141,15 @@ impl PrimitiveLists {
             near_address: self.pools.address_of("near"),
             records_address: self.pools.address_of("records"),
             triangles_address: self.pools.address_of("triangles"),
-            slices: self.config.slices(),
+            slices: cells[2],
+            rows: cells[1],
             record_capacity: self.pools.sizes().elements("records") as u32,
             cell_capacity: self.pools.sizes().elements("lists") as u32,
-            triangle_capacity: self.pools.sizes().elements("triangles") as u32,
+            // None where bricks do not fit, so that the build is not complete.
+            triangle_capacity: if fits { self.pools.sizes().elements("triangles") as u32 } else { 0 },
             groups: [0, 0, bin_groups(&self.config)],
+            cells_lower: along_axes.map_or([0.0; 3], |at| at.lower),
+            cells_per_metre: along_axes.map_or([0.0; 3], |at| at.per_metre),
             ..Header::default()
         }
     }
@@ -142,6 +163,7 @@ impl PrimitiveLists {
             records: elements("records"),
             cells: elements("lists"),
             triangles: elements("triangles"),
+            grid: self.config.cells(&self.geometry),
         }
     }
 
@@ -197,8 +219,11 @@ impl Structure for PrimitiveLists {
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
         let triangles = u64::from(geometry.triangle_count());
-        if triangle_words(&self.config) > 0 && triangles > self.pools.sizes().elements("triangles") {
-            let sizes = plan(&self.config, &Demand { triangles, ..self.allocated() })?;
+        let now = self.allocated();
+        let triangles = triangles.max(now.triangles);
+        let sizes = plan(&self.config, &Demand { triangles, grid: self.config.cells(geometry), ..now })?;
+        let grows = |pool: &PoolSize| pool.elements > self.pools.sizes().elements(pool.name);
+        if sizes.pools.iter().any(grows) {
             self.pools.resize(device, &sizes)?;
         }
         self.geometry = geometry.clone();
@@ -210,7 +235,7 @@ impl Structure for PrimitiveLists {
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None };
         match &self.build {
             Passes::Lists(build) => build.record(recorder, &self.config, target),
-            Passes::Bricks(build) => build.record(recorder, &self.config, target),
+            Passes::Bricks(build) => build.record(recorder, &self.config, self.cells().0, target),
         }
         Ok(())
     }
@@ -253,6 +278,7 @@ impl Structure for PrimitiveLists {
             records: demand("records").max(allocated.records),
             cells: demand("lists").max(allocated.cells),
             triangles: allocated.triangles.max(self.geometry.triangle_count().into()),
+            grid: allocated.grid,
         };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, &demand).map_or(Check::Complete, Check::Grow)
@@ -297,19 +323,21 @@ impl Structure for PrimitiveLists {
             records: header.record_demand.into(),
             cells: header.cell_demand.into(),
             triangles: self.geometry.triangle_count().into(),
+            grid: self.config.cells(&self.geometry),
         };
-        let sums = plan(&self.config, &demand).map_or(0, |sizes| sizes.elements("sums"));
+        let needed = plan(&self.config, &demand);
+        let needed = |pool| needed.as_ref().map_or(0, |sizes| sizes.elements(pool));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "entries" => demand.entries,
             "near" => demand.near,
             "records" => demand.records,
             "lists" if bricks => demand.cells,
-            "sums" => sums,
+            "bricks" | "sums" => needed(pool.name),
             "triangles" if triangle_words(&self.config) > 0 => demand.triangles,
             _ => pool.elements,
         });
         Ok(StructureReport {
-            options: self.config.options(),
+            options: self.config.options(demand.grid),
             paths: self.config.paths(),
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, &demand).total(),

@@ -127,12 +127,15 @@ impl Contents {
 /// Checks that words of bricks number the cells that list something, and that no empty brick's distance goes over one
 /// that is not.
 fn bricks_are_well_formed(contents: &Contents) -> Result<(), Fault> {
-    let (side, deep) = (contents.config.tiles() as i64 / 4, i64::from(contents.config.slices()) / 4);
+    let header = &contents.header;
+    let [columns, rows, deep] = [header.tiles, header.rows, header.slices].map(|cells| i64::from(cells) / 4);
+    let views = i64::from(contents.config.view_count());
+    let bricks = (views * columns * rows * deep) as usize;
     let cells_of = |brick: usize| {
         contents.bounds[3 * brick + 1].count_ones() + contents.bounds[3 * brick + 2].count_ones()
     };
     let mut cells = 0;
-    for (brick, word) in contents.bounds.iter().copied().step_by(3).enumerate() {
+    for (brick, word) in contents.bounds.iter().copied().step_by(3).take(bricks).enumerate() {
         let empty = contents.config.skip && cells_of(brick) == 0;
         if empty != (word & BRICK_EMPTY != 0) || (!empty && word != cells) {
             return Err(Fault::Word { brick, word, cells });
@@ -142,17 +145,21 @@ fn bricks_are_well_formed(contents: &Contents) -> Result<(), Fault> {
             continue;
         }
         let place = brick as i64;
-        let (z, x, y, face) =
-            (place % deep, place / deep % side, place / (deep * side) % side, place / (deep * side * side));
+        let (z, x, y, face) = (
+            place % deep,
+            place / deep % columns,
+            place / (deep * columns) % rows,
+            place / (deep * columns * rows),
+        );
         for octant in 0..8 {
             let distance = i64::from(word >> (3 * octant) & 7);
             let along = |up: bool, at: i64, end: i64| {
                 if up { at..=(at + distance).min(end - 1) } else { (at - distance).max(0)..=at }
             };
-            let goes_over = along(octant & 4 != 0, y, side).any(|y| {
-                along(octant & 2 != 0, x, side).any(|x| {
+            let goes_over = along(octant & 4 != 0, y, rows).any(|y| {
+                along(octant & 2 != 0, x, columns).any(|x| {
                     along(octant & 1 != 0, z, deep)
-                        .any(|z| cells_of((((face * side + y) * side + x) * deep + z) as usize) != 0)
+                        .any(|z| cells_of((((face * rows + y) * columns + x) * deep + z) as usize) != 0)
                 })
             });
             if goes_over {

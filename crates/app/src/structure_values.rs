@@ -127,7 +127,7 @@ pub enum Views {
     CubeCamera,
     /// What the camera sees and nothing else
     Camera,
-    /// Three along the axes, which do not depend on the eye
+    /// Three along the axes, which do not depend on the eye; of triangles one box of cells that serves all three
     Axes,
 }
 

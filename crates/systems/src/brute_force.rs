@@ -8,7 +8,7 @@ use crate::{Preset, System};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "brute-force",
-    structure: "brute-force",
+    structure: |_| "brute-force",
     presets: &[Preset::Robust],
     options: &[],
     requirements: |_| Ok(Requirements::floor()),

@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "bvh",
-    structure: "bvh",
+    structure: |_| "bvh",
     presets: &[Preset::Robust],
     options: &["builder", "leaf", "addressing"],
     requirements: |spec| Ok(Bvh::requirements_of(&config(spec)?)),

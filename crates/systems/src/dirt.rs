@@ -2,6 +2,7 @@
 
 use rasray_ads_primitive::{
     Accept, Addressing, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
+    Views,
 };
 
 use crate::option::Given;
@@ -10,7 +11,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "dirt",
-    structure: "ads-primitive",
+    structure: |_| "ads-primitive",
     presets: &[Preset::Robust, Preset::Published],
     options: &OPTIONS,
     requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
@@ -21,7 +22,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 18] = [
+const OPTIONS: [&str; 19] = [
     "resolution",
     "tile",
     "buckets",
@@ -38,6 +39,7 @@ const OPTIONS: [&str; 18] = [
     "builder",
     "centre",
     "views",
+    "grid",
     "addressing",
     "capacity",
 ];
@@ -92,8 +94,10 @@ fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
                 let words = [("raster", Builder::Raster), ("binning", Builder::Binning)];
                 config.builder = Some(given.choice(&words)?);
             }
-            // One word so far: a value is checked, and nothing else is chosen.
-            "views" => given.choice(&[("cube", ())])?,
+            "views" => {
+                config.views = given.choice(&[Views::Cube, Views::Axes].map(|views| (views.name(), views)))?
+            }
+            "grid" => config.grid = Some(given.number()?),
             "addressing" => {
                 config.addressing = given
                     .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;

@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "ldc",
-    structure: "ldc",
+    structure: |_| "ldc",
     presets: &[Preset::Robust, Preset::Published],
     options: &OPTIONS,
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),

@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "mmrt",
-    structure: "abuffer",
+    structure: |_| "abuffer",
     presets: &[Preset::Robust, Preset::Published],
     options: &OPTIONS,
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),

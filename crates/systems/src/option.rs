@@ -56,7 +56,8 @@ impl<'a> Given<'a> {
         SystemsError::UnknownOption { system: self.system, option: self.name.to_owned() }
     }
 
-    fn refused(&self, expected: &str) -> SystemsError {
+    /// A value that the system does not take.
+    pub(crate) fn refused(&self, expected: &str) -> SystemsError {
         SystemsError::Value {
             system: self.system,
             option: self.name.to_owned(),

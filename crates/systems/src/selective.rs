@@ -7,7 +7,7 @@ use crate::{Preset, Spec, System, SystemsError, voxel};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "selective",
-    structure: "voxel",
+    structure: |_| "voxel",
     presets: &[Preset::Robust, Preset::Published],
     options: &voxel::OPTIONS,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),

@@ -31,12 +31,12 @@ impl Preset {
 pub struct System {
     /// Name on the command line.
     pub name: &'static str,
-    /// The structure it traces, as crates and shaders name it.
-    pub structure: &'static str,
     /// Presets it has.
     pub presets: &'static [Preset],
     /// Options it has, by their names on the command line.
     pub options: &'static [&'static str],
+    /// The structure that a spec traces, as crates and shaders name it.
+    pub(crate) structure: fn(&Spec) -> &'static str,
     /// What a device must and may offer for a spec; also where a spec's values are checked.
     pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
     /// Makes the structure of a spec.
@@ -115,6 +115,11 @@ impl Spec {
     /// The registry's row.
     pub fn system(&self) -> &'static System {
         self.system
+    }
+
+    /// The structure it traces, as crates and shaders name it.
+    pub fn structure(&self) -> &'static str {
+        (self.system.structure)(self)
     }
 
     /// The preset.

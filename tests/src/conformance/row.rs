@@ -149,14 +149,23 @@ pub struct Row {
 }
 
 impl Row {
+    /// What the registry makes the structure from.
+    ///
+    /// # Panics
+    /// If the registry does not know the row's words.
+    pub fn spec(&self) -> Spec {
+        let options = self.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Spec::new(self.system, self.preset.name(), options)
+            .unwrap_or_else(|error| panic!("row {} is not registered: {error}", self.name))
+    }
+
     /// Makes the structure; its geometry is replaced for each case.
     ///
     /// # Panics
     /// If the registry does not know the row's words, or the device refuses.
     pub fn make(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
-        let options = self.options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-        Spec::new(self.system, self.preset.name(), options)
-            .and_then(|spec| spec.create(bench.device(), geometry, None))
+        self.spec()
+            .create(bench.device(), geometry, None)
             .unwrap_or_else(|error| panic!("row {} cannot be made: {error}", self.name))
     }
 

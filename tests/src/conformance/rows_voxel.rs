@@ -20,6 +20,17 @@ const fn voxel(
     Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
 }
 
+/// Bricks of cells along the axes, which keep triangles.
+const fn bricks(
+    name: &'static str,
+    options: &'static [(&'static str, &'static str)],
+    tier: Tier,
+    cases: Cases,
+) -> Row {
+    let demand = Demand::Exact { rounding: ROUNDING };
+    Row { tier, ..voxel(name, ("hu", Preset::Robust), options, cases, demand, &[]) }
+}
+
 /// All of them. Those of published rules have triangle ids instead of attributes, which need a scene.
 pub(super) const ROWS: &[Row] = &[
     voxel(
@@ -71,6 +82,10 @@ pub(super) const ROWS: &[Row] = &[
         published_law(128),
         deviations_voxel::HU_128,
     ),
+    // As many cells as the rule gives, then few, then many.
+    bricks("hu-bricks", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
+    bricks("hu-bricks-16", &[("storage", "bricks"), ("grid", "16")], Tier::Full, Cases::All),
+    bricks("hu-bricks-128", &[("storage", "bricks"), ("grid", "128")], Tier::Full, Cases::Shallow),
     voxel(
         "selective-robust-16",
         ("selective", Preset::Robust),

@@ -21,6 +21,12 @@ pub const SUBJECTS: &[Row] = &[
     ("selective", "robust", &[("resolution", "24"), ("grid", "12")]),
 ];
 
+/// Presets with options that make another structure, or one in which other options decide.
+const MORE: &[Row] = &[
+    ("dirt", "robust", &[("views", "axes"), ("grid", "24")]),
+    ("hu", "robust", &[("storage", "bricks"), ("grid", "24")]),
+];
+
 /// Options of systems that [`SUBJECTS`] does not name.
 const OTHERS: &[(&str, &str)] = &[("resolution", "24")];
 
@@ -43,7 +49,7 @@ pub struct Answers {
 }
 
 impl Subject {
-    /// Every preset of every system of the registry.
+    /// Every preset of every system of the registry, and the presets of the registry with options that make more of them.
     ///
     /// # Panics
     /// If the device fails or a preset cannot be made.
@@ -51,31 +57,45 @@ impl Subject {
         let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
         let presets =
             SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, preset)));
+        let presets = presets.map(|(system, preset)| {
+            let own = SUBJECTS.iter().find(|row| row.0 == system.name && row.1 == preset.name());
+            let given = own.map_or(OTHERS, |row| row.2);
+            let known = given.iter().filter(|(option, _)| system.options.contains(option));
+            (system.name, preset.name(), known.copied().collect::<Vec<_>>())
+        });
+        let more = MORE.iter().map(|(system, preset, given)| (*system, *preset, given.to_vec()));
         presets
-            .map(|(system, preset)| {
-                let own = SUBJECTS.iter().find(|row| row.0 == system.name && row.1 == preset.name());
-                let given = own.map_or(OTHERS, |row| row.2);
-                let known = given.iter().filter(|(option, _)| system.options.contains(option));
-                let options = known.map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
-                let spec =
-                    Spec::new(system.name, preset.name(), options).expect("the options are the system's");
+            .chain(more)
+            .map(|(system, preset, given)| {
+                let options = given.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
+                let spec = Spec::new(system, preset, options).expect("the options are the system's");
                 let kind = spec.create(bench.device(), &placeholder, None).expect("it can be made").kind();
                 Self { spec, kind }
             })
             .collect()
     }
 
-    /// `system preset`.
+    /// `system preset`, with the options that make it one of several of that name.
     pub fn name(&self) -> String {
-        format!("{} {}", self.spec.system().name, self.spec.preset().name())
+        let (system, preset) = (self.spec.system().name, self.spec.preset().name());
+        let given = |(_, _, options): &&Row| {
+            options
+                .iter()
+                .all(|(name, value)| self.spec.options().get(*name).is_some_and(|given| given == value))
+        };
+        let more = MORE.iter().filter(|row| row.0 == system && row.1 == preset).find(given);
+        more.map_or_else(
+            || format!("{system} {preset}"),
+            |(_, _, options)| format!("{system} {preset} with {}", options[0].1),
+        )
     }
 
-    /// The same with other values of options; absent where the system does not take them.
+    /// The same with other values of options; absent where the system does not take them, or makes another structure of them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let spec = options
             .iter()
             .try_fold(self.spec.clone(), |spec, (option, value)| spec.with_option(option, value).ok())?;
-        Some(Self { spec, kind: self.kind })
+        (spec.structure() == self.spec.structure()).then_some(Self { spec, kind: self.kind })
     }
 
     /// Builds and traces.

@@ -2,7 +2,6 @@
 
 use rasray_ads::{Structure, StructureKind};
 use rasray_report::{Accuracy, Device, HardRecord, Origin, RateRecord, Report, Run, SceneRecord, Times};
-use rasray_systems::SYSTEMS;
 use rasray_tests::conformance::{Measured, Prepared, Row};
 use rasray_tests::harness::Bench;
 
@@ -34,10 +33,9 @@ pub fn run(
         faults => faults.join("\n"),
     };
     let report = structure.report().expect("the header is readable");
-    let system = SYSTEMS.iter().find(|system| system.name == row.system).expect("rows name systems");
     Run {
         system: row.system.to_owned(),
-        structure: system.structure.to_owned(),
+        structure: row.spec().structure().to_owned(),
         preset: row.preset.name().to_owned(),
         options: rasray_report::options(report.options),
         paths: report.paths.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),

@@ -42,7 +42,7 @@ fn records_of_primitive_lists() {
         status, demand, capacity, near_demand, near_capacity, corrupted, tiles, tile, reach, near_size, rounding,
         spare_length, centre, spare_centre, lower, spare_lower, upper, spare_upper, bounds_address, lists_address,
         entries_address, sums_address, near_address, records_address, triangles_address, slices, slice_first, slice_shift, record_demand, record_capacity,
-        cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
+        cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves, rows, cells_lower, cells_per_metre,
     });
     let by_address = &read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST_ADDRESS)["PrimitiveHeader"];
     assert_eq!(*by_address, read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST)["PrimitiveHeader"]);

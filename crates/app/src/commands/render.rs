@@ -50,7 +50,7 @@ pub(crate) fn render(
         ));
     }
 
-    let run = run_of(&system, &frame, &output);
+    let run = run_of(&system, system.spec()?.structure(), &frame, &output);
     let whole = check_whole(&run);
     let report = Report::new(origin(line), backend.device(), loaded.record(), vec![run]);
     if let Some(place) = &report_target {
@@ -136,10 +136,10 @@ fn write_image(
 }
 
 /// The record of a render in a report.
-fn run_of(system: &SystemConfig, frame: &Frame, output: &RenderOutput) -> Run {
+fn run_of(system: &SystemConfig, structure: &str, frame: &Frame, output: &RenderOutput) -> Run {
     Run {
         system: word(&system.name),
-        structure: system.entry().structure.to_owned(),
+        structure: structure.to_owned(),
         preset: word(&system.preset),
         options: output.options.clone(),
         paths: output.paths.clone(),

@@ -49,7 +49,7 @@ impl<'a> Contestant<'a> {
         self.built.write_times(&mut times);
         Ok(Run {
             system: word(&self.config.name),
-            structure: self.spec.system().structure.to_owned(),
+            structure: self.spec.structure().to_owned(),
             preset: word(&self.config.preset),
             variant: self.config.variant.clone(),
             options,
