@@ -1,8 +1,8 @@
 // What: the published payload of a fragment: 16 bytes of quantised attributes.
 // Reads: the scene when packing. Writes: nothing.
 // Source: MMRT section 3.3: albedo 8:8:8:8, normal 16:16, specular 8:8:8:8, refraction and opacity.
-// Words 0 and 1: those of every stored surface. Word 2: metallic, roughness, transmission, specular. Word 3: index of
-// refraction over 4 and thickness over 1 m, 16 bits each.
+// Words 0 and 1: those of every stored surface. Word 2: how the material reflects and transmits, as
+// stored there. Word 3: index of refraction over 4 and thickness over 1 m, 16 bits each.
 #ifndef ABUFFER_ATTRIBUTES_GLSL
 #define ABUFFER_ATTRIBUTES_GLSL
 
@@ -10,19 +10,14 @@
 
 uvec4 abuffer_pack_attributes(uint primitive, vec2 barycentrics, vec3 eye) {
     Surface s = stored_source(primitive, barycentrics, eye);
-    return uvec4(stored_pack(s), packUnorm4x8(vec4(s.metallic, s.roughness, s.transmission, s.specular)),
-        packUnorm2x16(vec2(s.ior / 4.0, s.thickness)));
+    return uvec4(stored_pack(s), stored_pack_terms(s), packUnorm2x16(vec2(s.ior / 4.0, s.thickness)));
 }
 
 // The surface of a fragment that a ray meets at t, known within `position_error` metres.
 Surface abuffer_attributes_surface(uvec4 words, Ray ray, float t, float position_error) {
     Surface s = stored_surface(words.xy, ray, t, position_error);
-    vec4 terms = unpackUnorm4x8(words.z);
     vec2 volume = unpackUnorm2x16(words.w);
-    s.metallic = terms.x;
-    s.roughness = terms.y;
-    s.transmission = terms.z;
-    s.specular = terms.w;
+    stored_set_terms(s, words.z);
     s.ior = max(volume.x * 4.0, 1.0);
     s.thickness = volume.y;
     return s;

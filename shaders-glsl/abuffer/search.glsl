@@ -159,11 +159,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
                     vec2 found = vec2(uintBitsToFloat(current), 0.0);
                     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
-                        vec3 a;
-                        vec3 b;
-                        vec3 c;
-                        geometry_vertices(primitive, a, b, c);
-                        found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+                        found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
                     }
                     state.best = Hit(t, primitive, found.x, found.y);
                 }

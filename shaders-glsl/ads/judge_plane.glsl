@@ -20,6 +20,15 @@ struct PlaneCell {
     bool anywhere;        // hits of the triangles themselves count wherever they lie, as alpha has them there
 };
 
+// Barycentrics of the point of a triangle's plane below `p`; they may lie outside [0, 1].
+vec2 plane_barycentrics(uint primitive, vec3 p) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    return triangle_barycentrics(p, a, b, c);
+}
+
 // Whether a point with these barycentrics lies on its triangle, and not only on the plane of it.
 bool plane_is_inside(vec2 barycentrics) {
     return barycentrics.x >= 0.0 && barycentrics.y >= 0.0 && barycentrics.x + barycentrics.y <= 1.000001;

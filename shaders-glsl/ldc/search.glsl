@@ -136,11 +136,7 @@ void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint plac
         : (t <= state.best.t ? TEST_ACCEPTED : TEST_NOT_BETTER))));
     vec2 found = vec2(uintBitsToFloat(place), 0.0);
     if (verdict == TEST_ACCEPTED && known) {
-        vec3 a;
-        vec3 b;
-        vec3 c;
-        geometry_vertices(primitive, a, b, c);
-        found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+        found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
         verdict = plane_is_better(state.best, t, primitive, found) ? TEST_ACCEPTED : TEST_NOT_BETTER;
     } else if (verdict == TEST_ACCEPTED && t == state.best.t) {
         verdict = ldc_replaces_as_near(s, state.best, place) ? TEST_ACCEPTED : TEST_NOT_BETTER;

@@ -49,6 +49,19 @@ uvec2 stored_pack(Surface s) {
     return uvec2(packUnorm4x8(vec4(s.base_color, s.opacity)), stored_pack_normal(s.normal));
 }
 
+// How the material reflects and transmits, in a further word: metallic, roughness, transmission, specular, 8 bits each.
+uint stored_pack_terms(Surface s) {
+    return packUnorm4x8(vec4(s.metallic, s.roughness, s.transmission, s.specular));
+}
+
+void stored_set_terms(inout Surface s, uint word) {
+    vec4 terms = unpackUnorm4x8(word);
+    s.metallic = terms.x;
+    s.roughness = terms.y;
+    s.transmission = terms.z;
+    s.specular = terms.w;
+}
+
 // The surface of a fragment that a ray meets at t, known within `position_error` metres. Terms that these words lack take
 // their defaults: dull and opaque to light, no emission, the shading normal as geometric normal.
 Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {

@@ -17,7 +17,7 @@ uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
         s.opacity = s.metallic;
         return uvec3(primitive, stored_pack(s));
     }
-    return uvec3(packUnorm4x8(vec4(s.metallic, s.roughness, s.transmission, s.specular)), stored_pack(s));
+    return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
 // The surface of a fragment with these words that a ray hits, known within `position_error` metres.
@@ -32,11 +32,7 @@ Surface voxel_attributes_surface(uvec3 words, Ray ray, Hit hit, float position_e
         s.valid |= SURFACE_PRIMITIVE;
         return s;
     }
-    vec4 terms = unpackUnorm4x8(words.x);
-    s.metallic = terms.x;
-    s.roughness = terms.y;
-    s.transmission = terms.z;
-    s.specular = terms.w;
+    stored_set_terms(s, words.x);
     return s;
 }
 

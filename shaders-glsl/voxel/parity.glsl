@@ -144,11 +144,7 @@ void voxel_refine(VoxelRef s, Ray ray, VoxelWalk walk, float t_before, float t_a
     if (verdict == TEST_ACCEPTED) {
         vec2 found = vec2(uintBitsToFloat(place), 0.0);
         if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX) {
-            vec3 a;
-            vec3 b;
-            vec3 c;
-            geometry_vertices(primitive, a, b, c);
-            found = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+            found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
         }
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         state.best = Hit(t, primitive, found.x, found.y);

@@ -2,7 +2,9 @@
 
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode, Viewpoint};
+use rasray_ads::{
+    BuildStatus, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode, Viewpoint,
+};
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
@@ -77,6 +79,20 @@ impl Bench {
         Geometry::new(&self.device, desc).expect("geometry fits")
     }
 
+    /// Builds once, with the pools as they are.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn build_once(&self, structure: &mut dyn Structure, viewpoint: impl Into<Viewpoint>) -> BuildStatus {
+        let viewpoint = viewpoint.into();
+        self.device
+            .submit(|recorder| structure.record_build(recorder, viewpoint))
+            .expect("the device works")
+            .value
+            .expect("the header is written");
+        structure.status().expect("the header is readable")
+    }
+
     /// Builds and traces the nearest hits.
     ///
     /// # Panics
@@ -127,6 +143,11 @@ impl Drop for Bench {
             assert!(messages.is_empty(), "the validation layer says: {messages:#?}");
         }
     }
+}
+
+/// All bits of a hit, so that equal means equal in every one of them.
+pub fn bits(hit: &Hit) -> [u32; 4] {
+    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
 /// The same ray for the oracle.

@@ -1,5 +1,8 @@
 //! Triangles for tests.
 
+use crate::hard_cases::{self, Scale};
+use crate::random::Random;
+
 /// A triangle.
 pub type Triangle = [[f32; 3]; 3];
 
@@ -33,6 +36,22 @@ pub fn sphere(center: [f32; 3], radius: f32, rows: usize) -> Vec<Triangle> {
                 triangles.push([a, d, c]);
             }
         }
+    }
+    triangles
+}
+
+/// Triangles of all sizes within 10 of the origin: scattered layers, spheres of small and of tiny triangles, slivers
+/// that are long and thin and often pass close to the eye, and a room around them.
+pub fn all_sizes() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
+    triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    let mut random = Random::new(7);
+    for _ in 0..100 {
+        let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
+        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
+        triangles.push([from, to, beside]);
     }
     triangles
 }

@@ -40,17 +40,6 @@ fn room(fragments: u64, near_triangles: u64) -> Demand {
     Demand { nodes: fragments, near_triangles, long_lists: 0, triangles: scene().len() as u64 }
 }
 
-/// Builds once, with the pools as they are.
-fn build(bench: &Bench, structure: &mut ABuffer) -> BuildStatus {
-    bench
-        .device()
-        .submit(|recorder| structure.record_build(recorder, EYE.into()))
-        .expect("the device works")
-        .value
-        .expect("the header is written");
-    structure.status().expect("the header is readable")
-}
-
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
@@ -77,7 +66,7 @@ fn every_edge_capacity(config: Config) {
     structure
         .resize(bench.device(), &plan(&config, room(1 << 20, 1 << 10)).expect("in range"))
         .expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
     let (nodes, near) = (demand(&status, "nodes"), demand(&status, "near"));
     assert!(nodes > 1000 && near == NEAR_TRIANGLES, "{status:?}");
@@ -89,7 +78,7 @@ fn every_edge_capacity(config: Config) {
     for (nodes_room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
         let sizes = plan(&config, room(nodes_room, near_room)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, EYE);
         let fits = nodes_room >= nodes && near_room >= near;
         assert_eq!(status.complete, fits, "{config:?}: room for {nodes_room} and {near_room}");
         assert_eq!(
@@ -119,7 +108,7 @@ fn every_edge_capacity(config: Config) {
         let extra = if config.storage == Storage::Paged && nodes_room < nodes { nodes / 64 } else { 0 };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (nodes + extra, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete, "once grown to its exact demand a build completes");
         check_well_formed(&bench, &structure);
         assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {nodes_room} and {near_room}");
@@ -182,7 +171,7 @@ fn formula_equals_allocations_without_slack() {
         structure
             .resize(bench.device(), &plan(&config, room(50_000, 7)).expect("in range"))
             .expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let part = |name| report.bytes_by_part.iter().find(|part| part.0 == name).expect("the part exists").1;
@@ -247,7 +236,7 @@ fn every_fault_of_a_list_is_noticed() {
     let config = Config { buckets: 2, ..Config::robust(16) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
-    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     let (list, links) = long_list(&good);
     let [next, prev] = [|link: usize| 3 * (link - 1) + 1, |link: usize| 3 * (link - 1) + 2];
@@ -305,7 +294,7 @@ fn every_fault_of_a_contiguous_list_is_noticed() {
     let config = config(Storage::Sb);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
-    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     let counts = good.lists.len() / 2;
     let cell = (0..counts).find(|cell| good.lists[counts + cell] >= 3).expect("a cell has three fragments");
@@ -349,7 +338,7 @@ fn every_fault_of_a_page_is_noticed() {
     let config = Config { page: 4, buckets: 1, ..config(Storage::Paged) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
-    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     // A list of two pages; the first one to be read is the younger.
     let page_of = |word: u32| 5 * ((word >> 4) as usize - 1);

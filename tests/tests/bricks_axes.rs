@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use rasray_ads::{BruteForce, Check, Hit, Ray, Structure};
 use rasray_ads_primitive::{Builder, Config, Contents, Demand, PrimitiveLists, Views, plan, well_formed};
 use rasray_gpu::Timing;
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
@@ -176,10 +176,6 @@ fn rays_at(random: &mut Random, [lower, upper]: [[f32; 3]; 2], count: usize) -> 
         .collect()
 }
 
-fn bits(hit: &Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
-}
-
 /// Scenes without thickness, without an inside, without size, and of many sizes.
 fn shapes(random: &mut Random) -> Vec<(String, Vec<Triangle>)> {
     let tiny = |random: &mut Random, at: [f32; 3], size: f32| -> Triangle {
@@ -269,20 +265,11 @@ fn missing_room_for_bricks_is_noticed() {
     for grid in [[0; 3], [4; 3], [32, 32, 28]] {
         let few = Demand { entries: 1 << 16, near: 0, records: 1 << 16, cells: 1 << 16, triangles: 12, grid };
         structure.resize(bench.device(), &plan(&axes(Some(32)), &few).expect("in range")).expect("it fits");
-        let record = |structure: &mut PrimitiveLists| {
-            bench
-                .device()
-                .submit(|recorder| structure.record_build(recorder, [0.0; 3].into()))
-                .expect("the device works")
-                .value
-                .expect("the header is written");
-            structure.status().expect("the header is readable")
-        };
-        let status = record(&mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(!status.complete, "{grid:?}: {status:?}");
         let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
         structure.resize(bench.device(), &sizes).expect("it fits");
-        assert!(record(&mut structure).complete, "{grid:?}");
+        assert!(bench.build_once(&mut structure, [0.0; 3]).complete, "{grid:?}");
         assert_eq!(bench.trace(&structure, &rays).hits, expected);
     }
 }

@@ -6,7 +6,7 @@ use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
 use rasray_hard_cases::Scale;
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
@@ -60,10 +60,6 @@ fn rays(triangles: &[Triangle]) -> Vec<Ray> {
 struct Answers {
     closest: Vec<[u32; 4]>,
     occluded: Vec<bool>,
-}
-
-fn bits(hit: &Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
 fn traced(bench: &Bench, structure: &mut dyn Structure, rays: &[Ray], rounds: u32) -> Answers {

@@ -5,7 +5,7 @@ use rasray_ads::{AdsError, Hit, Ray, Structure};
 use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
@@ -15,8 +15,8 @@ fn rays(count: usize) -> Vec<Ray> {
     (0..count).map(|_| Ray::new(random.point(-3.5, 3.5), random.direction())).collect()
 }
 
-fn bits(hits: &[Hit]) -> Vec<[u32; 4]> {
-    hits.iter().map(|hit| [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]).collect()
+fn all_bits(hits: &[Hit]) -> Vec<[u32; 4]> {
+    hits.iter().map(bits).collect()
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     let found = bench.build_and_trace(&mut lists, [0.1, 0.2, 0.3], &rays);
     let config = rasray_bvh::Config::new(Builder::Sah);
     let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    assert_eq!(bits(&found), bits(&bench.build_and_trace(&mut tree, [0.0; 3], &rays)));
+    assert_eq!(all_bits(&found), all_bits(&bench.build_and_trace(&mut tree, [0.0; 3], &rays)));
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_million_triangles_are_found_alike() {
     let mut expected: Option<Vec<[u32; 4]>> = None;
     let mut check = |name: &str, structure: &mut dyn Structure| {
         build_until_complete(bench.device(), structure, [0.1, 0.2, 0.3], Timing::None).expect("it is built");
-        let hits = bits(&bench.trace(structure, &rays).hits);
+        let hits = all_bits(&bench.trace(structure, &rays).hits);
         match &expected {
             Some(expected) => assert_eq!(&hits, expected, "{name}"),
             None => expected = Some(hits),

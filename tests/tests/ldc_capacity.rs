@@ -28,17 +28,6 @@ fn rays() -> Vec<Ray> {
     (0..500).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
 }
 
-/// Builds once, with the pools as they are.
-fn build(bench: &Bench, structure: &mut LayeredDepthCube) -> BuildStatus {
-    bench
-        .device()
-        .submit(|recorder| structure.record_build(recorder, EYE.into()))
-        .expect("the device works")
-        .value
-        .expect("the header is written");
-    structure.status().expect("the header is readable")
-}
-
 fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
@@ -73,7 +62,7 @@ fn every_edge_capacity(config: Config) {
     structure
         .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
         .expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
     let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
     let kept = config.coverage == Coverage::Conservative;
@@ -86,7 +75,7 @@ fn every_edge_capacity(config: Config) {
     for (fragment_room, fringe_room) in rooms.into_iter().chain(fringe_rooms).chain([(0, 0)]) {
         let sizes = plan(&config, room(fragment_room, fringe_room)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let mut status = build(&bench, &mut structure);
+        let mut status = bench.build_once(&mut structure, EYE);
         let fits = fragment_room >= fragments && fringe_room >= fringe;
         assert_eq!(status.complete, fits, "room for {fragment_room} and {fringe_room}");
         assert_eq!(demand(&status, "fragments"), fragments, "room for {fragment_room}");
@@ -112,7 +101,7 @@ fn every_edge_capacity(config: Config) {
             regrows += 1;
             assert!(regrows <= 2, "fragments grow first, then the fringe");
             structure.resize(bench.device(), &sizes).expect("it fits");
-            status = build(&bench, &mut structure);
+            status = bench.build_once(&mut structure, EYE);
         }
         assert_eq!(regrows > 0, !fits);
         assert!(status.complete, "grown from {fragment_room} and {fringe_room}");
@@ -186,7 +175,7 @@ fn every_fault_of_a_list_is_noticed() {
         structure
             .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
             .expect("it fits");
-        assert!(build(&bench, &mut structure).complete);
+        assert!(bench.build_once(&mut structure, EYE).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
         let broken = |change: &dyn Fn(&mut Contents)| {

@@ -106,13 +106,7 @@ fn layers_beyond_the_maximum_are_counted_and_refused() {
     let config = Config { making: Making::Peel, layers: 8, ..base };
     let mut structure =
         LayeredDepthCube::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    let build = |structure: &mut LayeredDepthCube| {
-        let eye = [0.0; 3];
-        let submitted = bench.device().submit(|recorder| structure.record_build(recorder, eye.into()));
-        submitted.expect("the device works").value.expect("the header is written");
-        structure.status().expect("the header is readable")
-    };
-    let status = build(&mut structure);
+    let status = bench.build_once(&mut structure, [0.0; 3]);
     assert!(!status.complete);
     assert_eq!(status.demand("layers"), Some(deepest as u64));
     let beyond: usize = lists.iter().map(|list| list.len().saturating_sub(8)).sum();

@@ -6,7 +6,7 @@ use rasray_ads_primitive::PrimitiveLists;
 use rasray_bvh::{Addressing, Builder, Bvh};
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Feature, MemoryLocation, Timing};
 use rasray_shaders_glsl::{ADS_TEST_PARITY, ADS_TEST_PARITY_ADDRESS, ADS_TEST_PARITY_TREES_ADDRESS, Shader};
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
@@ -78,10 +78,6 @@ fn side_by_side(
         })
         .expect("the kernel runs");
     device.download_as::<[Hit; 2]>(&output, 0, rays.len()).expect("the device answers")
-}
-
-fn bits(hit: &Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
 }
 
 /// Rays for which an answer differs from what the structure's own kernels say.

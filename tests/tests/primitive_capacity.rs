@@ -54,17 +54,6 @@ fn rays() -> Vec<Ray> {
     (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
 }
 
-/// Builds once, with the pools as they are.
-fn build(bench: &Bench, structure: &mut PrimitiveLists) -> BuildStatus {
-    bench
-        .device()
-        .submit(|recorder| structure.record_build(recorder, EYE.into()))
-        .expect("the device works")
-        .value
-        .expect("the header is written");
-    structure.status().expect("the header is readable")
-}
-
 fn trace(bench: &Bench, structure: &PrimitiveLists, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
@@ -93,7 +82,7 @@ fn every_edge_capacity_of(config: Config) {
     structure
         .resize(bench.device(), &plan(&config, &room(1 << 20, 1 << 10, &triangles)).expect("in range"))
         .expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
     let (entries, near) = (demand(&status, "entries"), demand(&status, "near"));
     let expected_near = if config.views == Views::Axes { 0 } else { NEAR_TRIANGLES };
@@ -107,7 +96,7 @@ fn every_edge_capacity_of(config: Config) {
     for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
         let sizes = plan(&config, &self::room(room, near_room, &triangles)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, EYE);
         let fits = room >= entries && near_room >= near;
         assert_eq!(status.complete, fits, "room for {room} and {near_room}");
         assert_eq!((demand(&status, "entries"), demand(&status, "near")), (entries, near), "room for {room}");
@@ -124,7 +113,7 @@ fn every_edge_capacity_of(config: Config) {
         let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {room} does not grow") };
         assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
-        assert!(build(&bench, &mut structure).complete, "a build completes with its exact demand");
+        assert!(bench.build_once(&mut structure, EYE).complete, "a build completes with its exact demand");
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
         assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {near_room}");
@@ -176,7 +165,7 @@ fn bricks_grow(config: Config) {
     let mut structure = made(&bench, config, &triangles);
     let ample = room(1 << 20, 1 << 10, &triangles);
     structure.resize(bench.device(), &plan(&config, &ample).expect("in range")).expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
     let (records, cells) = (demand(&status, "records"), demand(&status, "lists"));
     assert!(cells > 500 && records > cells / 2 && records < demand(&status, "entries"), "{status:?}");
@@ -191,7 +180,7 @@ fn bricks_grow(config: Config) {
         let sizes =
             plan(&config, &Demand { records: records_room, cells: cells_room, ..ample }).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let mut status = build(&bench, &mut structure);
+        let mut status = bench.build_once(&mut structure, EYE);
         let fits = records_room >= records && cells_room >= cells;
         assert_eq!(status.complete, fits, "room for {records_room} records and {cells_room} lists");
         assert_eq!(demand(&status, "records"), records);
@@ -201,7 +190,7 @@ fn bricks_grow(config: Config) {
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer");
             let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
             structure.resize(bench.device(), &sizes).expect("it fits");
-            status = build(&bench, &mut structure);
+            status = bench.build_once(&mut structure, EYE);
             assert!(status.complete, "grown from room for {records_room} records and {cells_room} lists");
         }
         assert_eq!((demand(&status, "records"), demand(&status, "lists")), (records, cells));
@@ -226,11 +215,11 @@ fn missing_room_for_triangles(config: Config) {
     let mut structure = made(&bench, config, &triangles);
     let few = Demand { triangles: 3, ..room(1 << 20, 1 << 10, &triangles) };
     structure.resize(bench.device(), &plan(&config, &few).expect("in range")).expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, EYE);
     assert!(!status.complete, "{status:?}");
     let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
     structure.resize(bench.device(), &sizes).expect("it fits");
-    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.build_once(&mut structure, EYE).complete);
     assert!(trace(&bench, &structure, &rays).iter().all(Hit::is_hit));
 }
 
@@ -275,7 +264,7 @@ fn bytes_are_those_of_the_formula() {
         let mut sizes = plan(&config, &nothing).expect("in range");
         for _ in 0..if bricks { 2 } else { 1 } {
             structure.resize(bench.device(), &sizes).expect("it fits");
-            let status = build(&bench, &mut structure);
+            let status = bench.build_once(&mut structure, EYE);
             sizes = match structure.check(&status) {
                 Check::Grow(sizes) => sizes,
                 Check::Complete => {
@@ -286,7 +275,7 @@ fn bytes_are_those_of_the_formula() {
             };
         }
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let of_bricks = |name| if bricks { demand(&status, name) } else { 0 };
@@ -317,7 +306,7 @@ fn every_fault_of_a_list_is_noticed() {
         let mut structure = made(&bench, config, &triangles);
         let sizes = plan(&config, &room(1 << 20, 64, &triangles)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
-        assert!(build(&bench, &mut structure).complete);
+        assert!(bench.build_once(&mut structure, EYE).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
         let broken = |change: fn(&mut Contents)| {

@@ -7,30 +7,13 @@ use rasray_ads_primitive::{
 };
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::{Triangle, all_sizes, closed_box, sphere};
 use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
-
-/// Scattered layers, spheres of small and of tiny triangles, slivers, and a room around them.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
-    triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    let mut random = Random::new(7);
-    for _ in 0..100 {
-        // Long and thin, and often through a plane of the eyes.
-        let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
-        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
-        triangles.push([from, to, beside]);
-    }
-    triangles
-}
 
 fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
     let mut random = Random::new(seed);
@@ -58,10 +41,6 @@ fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> 
     bench.trace(&structure, rays).hits
 }
 
-fn bits(hit: &Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
-}
-
 /// Rays whose hits differ in any bit.
 fn differences(found: &[Hit], expected: &[Hit]) -> Vec<usize> {
     assert_eq!(found.len(), expected.len());
@@ -83,7 +62,7 @@ fn assert_exact(what: &str, bench: &Bench, structure: &PrimitiveLists, rays: &[R
 #[test]
 fn hits_are_those_of_brute_force() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = all_sizes();
     let rounds = if is_full() { 100 } else { 1 };
     for round in 0..rounds {
         let rays = rays(round, if is_full() { 100_000 } else { 20_000 }, 9.0);
@@ -101,7 +80,7 @@ fn hits_are_those_of_brute_force() {
 #[test]
 fn no_size_changes_a_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(3, 4000, 9.0));
+    let (triangles, rays) = (all_sizes(), rays(3, 4000, 9.0));
     let expected = brute_force(&bench, &triangles, &rays);
     let sizes = [
         (1, 1, 1),
@@ -227,7 +206,7 @@ fn every_published_rule_loses_hits() {
 #[test]
 fn distance_changes_no_hit() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = all_sizes();
     let mut random = Random::new(17);
     for distance in [30.0, 45.0, 1.0e3, 1.0e5] {
         let rays: Vec<Ray> = (0..1000)
@@ -255,7 +234,7 @@ fn triangles_around_the_eye_are_found() {
     let bench = Bench::new();
     for eye in EYES {
         let shifted = |p: [f32; 3]| -> [f32; 3] { std::array::from_fn(|axis| p[axis] + eye[axis]) };
-        let mut triangles = scene();
+        let mut triangles = all_sizes();
         let mut random = Random::new(8);
         for _ in 0..200 {
             let size = 10.0_f32.powf(random.between(-7.0, -1.0));
@@ -295,7 +274,7 @@ fn triangles_around_the_eye_are_found() {
 #[test]
 fn limits_and_exclusion_are_kept() {
     let bench = Bench::new();
-    let triangles = scene();
+    let triangles = all_sizes();
     let mut random = Random::new(21);
     let mut rays = rays(22, 3000, 9.0);
     for (ray, first) in rays.clone().iter().zip(brute_force(&bench, &triangles, &rays)) {

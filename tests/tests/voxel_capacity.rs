@@ -33,17 +33,6 @@ fn selective(resolution: u32) -> Config {
     Config { payload: Payload::Index, ..Config::published_selective(resolution) }
 }
 
-/// Builds once, with the pools as they are.
-fn build(bench: &Bench, structure: &mut Voxels) -> BuildStatus {
-    bench
-        .device()
-        .submit(|recorder| structure.record_build(recorder, [0.0; 3].into()))
-        .expect("the device works")
-        .value
-        .expect("the header is written");
-    structure.status().expect("the header is readable")
-}
-
 fn trace(bench: &Bench, structure: &Voxels, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
@@ -67,7 +56,7 @@ fn every_edge_capacity(config: Config) {
 
     // Ample room: what the demand and the hits are.
     structure.resize(bench.device(), &plan(&config, room(1 << 20)).expect("in range")).expect("it fits");
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, [0.0; 3]);
     assert!(status.complete, "{status:?}");
     let demand = status.pools[0].demand;
     assert!(demand > 1000, "{status:?}");
@@ -78,7 +67,7 @@ fn every_edge_capacity(config: Config) {
 
     for entries in [0, 1, demand / 2, demand - 1, demand] {
         structure.resize(bench.device(), &plan(&config, room(entries)).expect("in range")).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         assert_eq!(status.complete, entries == demand, "room for {entries}");
         assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, entries));
         if entries == demand {
@@ -94,7 +83,10 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {entries} does not grow") };
         assert_eq!(sizes.elements("fragments"), demand);
         structure.resize(bench.device(), &sizes).expect("it fits");
-        assert!(build(&bench, &mut structure).complete, "a build completes with its exact demand");
+        assert!(
+            bench.build_once(&mut structure, [0.0; 3]).complete,
+            "a build completes with its exact demand"
+        );
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
         assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {entries}");
@@ -135,10 +127,10 @@ fn bytes_are_those_of_the_formula() {
     ] {
         let mut structure = made(&bench, config, &triangles);
         structure.resize(bench.device(), &plan(&config, room(0)).expect("in range")).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for anything") };
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let demand = status.pools[0].demand;
@@ -178,12 +170,12 @@ fn lists_of_ten_thousand_are_sorted() {
     let published = Config { fragments: Some(1 << 16), ..hu(2) };
     for config in [base, Config { storage: Storage::Paged, ..base }, published] {
         let mut structure = made(&bench, config, &triangles);
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         let long = status.demand("long").expect("the pool is counted");
         assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
         let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for long lists") };
         structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = build(&bench, &mut structure);
+        let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(status.complete && status.unsorted == 0, "{status:?}");
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
@@ -199,11 +191,11 @@ fn lists_of_ten_thousand_are_sorted() {
     }
     let unsorted = Config { sort: false, ..published };
     let mut structure = made(&bench, unsorted, &triangles);
-    let status = build(&bench, &mut structure);
+    let status = bench.build_once(&mut structure, [0.0; 3]);
     assert!(!status.complete && status.unsorted > 0, "{status:?}");
     assert_eq!(structure.check(&status), Check::Complete, "more room does not help");
     let mut structure = made(&bench, Config { sort: false, ..base }, &triangles);
-    assert!(build(&bench, &mut structure).complete);
+    assert!(bench.build_once(&mut structure, [0.0; 3]).complete);
     assert!(bench.trace(&structure, &rays).hits.iter().all(Hit::is_hit));
 }
 
@@ -214,7 +206,7 @@ fn every_fault_of_a_list_is_noticed() {
     let count = triangles.len() as u32;
     for config in [Config::robust(16), selective(16)] {
         let mut structure = made(&bench, Config { fragments: Some(1 << 16), ..config }, &triangles);
-        assert!(build(&bench, &mut structure).complete);
+        assert!(bench.build_once(&mut structure, [0.0; 3]).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
         // The first list with two fragments at different depths.

@@ -1,29 +1,13 @@
-//! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells that keep less
-//! are noticed.
+//! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells that
+//! keep less are noticed.
 
 use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
-use rasray_tests::hard_cases::{self, Scale};
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::all_sizes;
 use rasray_tracer::build_until_complete;
 use rasray_voxel::{Addressing, Config, Coverage, Storage, Voxels, well_formed};
-
-/// Scattered layers, spheres of small and of tiny triangles, slivers, and a room around them.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
-    triangles.extend(sphere([1.0, 0.25, 0.5], 0.03, 8));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    let mut random = Random::new(7);
-    for _ in 0..100 {
-        let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
-        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
-        triangles.push([from, to, beside]);
-    }
-    triangles
-}
 
 /// Anywhere within, along the axes, and at what is small.
 fn rays(count: usize) -> Vec<Ray> {
@@ -45,14 +29,10 @@ fn rays(count: usize) -> Vec<Ray> {
         .collect()
 }
 
-fn bits(hit: &Hit) -> [u32; 4] {
-    [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
-}
-
 #[test]
 fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(4000));
+    let (triangles, rays) = (all_sizes(), rays(4000));
     let geometry = bench.geometry(&triangles);
     let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
     let (expected, occluded) = (bench.trace(&brute, &rays).hits, bench.occluded(&brute, &rays));

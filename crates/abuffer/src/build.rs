@@ -45,12 +45,8 @@ impl Build {
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let attributes = config.payload == Payload::Attributes;
-        if attributes && scene.is_none() {
-            return Err(AdsError::Option {
-                option: "payload",
-                value: "attributes".to_owned(),
-                expected: "attributes are read from a scene; without one use `index`",
-            });
+        if attributes {
+            SceneBinding::for_attributes(scene)?;
         }
         let store = match (attributes, alpha) {
             (true, _) => "build_6_store.attributes",

@@ -18,6 +18,20 @@ pub struct SceneBinding {
     pub alpha_masked: bool,
 }
 
+impl SceneBinding {
+    /// The scene that a structure with `payload=attributes` reads while it is built.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn for_attributes(scene: Option<&Self>) -> Result<&Self, AdsError> {
+        scene.ok_or(AdsError::Option {
+            option: "payload",
+            value: "attributes".to_owned(),
+            expected: "attributes are read from a scene; without one use `index`",
+        })
+    }
+}
+
 /// What the kernels of a structure are made from.
 #[derive(Clone, Debug)]
 pub struct TraceKernelsDesc<'a> {

@@ -39,12 +39,8 @@ impl Build {
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload == Payload::Attributes;
-        if stored && scene.is_none() {
-            return Err(AdsError::Option {
-                option: "payload",
-                value: "attributes".to_owned(),
-                expected: "attributes are read from a scene; without one use `index`",
-            });
+        if stored {
+            SceneBinding::for_attributes(scene)?;
         }
         let (count, store, peel) = if alpha {
             ("build_1_count.alpha", "build_3_store.alpha", "build_3_peel.alpha")

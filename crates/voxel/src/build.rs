@@ -32,12 +32,8 @@ impl Build {
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload != Payload::Index;
-        if stored && scene.is_none() {
-            return Err(AdsError::Option {
-                option: "payload",
-                value: "attributes".to_owned(),
-                expected: "attributes are read from a scene; without one use `index`",
-            });
+        if stored {
+            SceneBinding::for_attributes(scene)?;
         }
         let [count, store] = if alpha {
             ["build_3_count.alpha", "build_5_store.alpha"]

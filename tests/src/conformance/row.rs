@@ -149,6 +149,18 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row of `preset=robust` from which every answer must be right.
+    pub(super) const fn exact(
+        name: &'static str,
+        system: &'static str,
+        options: &'static [(&'static str, &'static str)],
+        tier: Tier,
+        cases: Cases,
+    ) -> Self {
+        let demand = Demand::Exact { rounding: ROUNDING };
+        Self { name, system, preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
+    }
+
     /// What the registry makes the structure from.
     ///
     /// # Panics

@@ -5,16 +5,6 @@ use rasray_systems::Preset;
 use super::deviations_dirt;
 use super::row::{Cases, Demand, Deviation, ROUNDING, Row, Tier};
 
-const fn dirt(
-    name: &'static str,
-    options: &'static [(&'static str, &'static str)],
-    tier: Tier,
-    cases: Cases,
-) -> Row {
-    let demand = Demand::Exact { rounding: ROUNDING };
-    Row { name, system: "dirt", preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
-}
-
 const fn published(
     name: &'static str,
     options: &'static [(&'static str, &'static str)],
@@ -28,16 +18,23 @@ const fn published(
 /// All of them.
 pub(super) const ROWS: &[Row] = &[
     // 16 coarse tiles a side, few buckets, linked lists.
-    dirt(
+    Row::exact(
         "dirt-lists-16",
+        "dirt",
         &[("resolution", "64"), ("tile", "4"), ("buckets", "4"), ("storage", "llb")],
         Tier::Quick,
         Cases::All,
     ),
-    dirt("dirt-lists-128", &[("storage", "sb")], Tier::Quick, Cases::Shallow),
+    Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Quick, Cases::Shallow),
     // 16 tiles a side and few slices, then as many as a scene of a hundred thousand triangles gets.
-    dirt("dirt-robust-16", &[("resolution", "16"), ("tile", "1"), ("slices", "12")], Tier::Quick, Cases::All),
-    dirt("dirt-robust-128", &[("resolution", "256")], Tier::Quick, Cases::Shallow),
+    Row::exact(
+        "dirt-robust-16",
+        "dirt",
+        &[("resolution", "16"), ("tile", "1"), ("slices", "12")],
+        Tier::Quick,
+        Cases::All,
+    ),
+    Row::exact("dirt-robust-128", "dirt", &[("resolution", "256")], Tier::Quick, Cases::Shallow),
     // Tiles and buckets as the paper advises at least, and as its second table was measured.
     published("dirt-published-64", &[("resolution", "128"), ("buckets", "8")], deviations_dirt::PUBLISHED),
     Row {

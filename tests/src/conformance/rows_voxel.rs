@@ -3,7 +3,7 @@
 use rasray_systems::Preset;
 
 use super::deviations_voxel;
-use super::row::{Cases, Demand, Deviation, ROUNDING, Row, Tier, published_law};
+use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
 
 const fn voxel_law(resolution: u32) -> Demand {
     Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations_voxel::LAWS }
@@ -18,17 +18,6 @@ const fn voxel(
     deviations: &'static [Deviation],
 ) -> Row {
     Row { name, system, preset, options, tier: Tier::Quick, cases, demand, deviations }
-}
-
-/// Bricks of cells along the axes, which keep triangles.
-const fn bricks(
-    name: &'static str,
-    options: &'static [(&'static str, &'static str)],
-    tier: Tier,
-    cases: Cases,
-) -> Row {
-    let demand = Demand::Exact { rounding: ROUNDING };
-    Row { tier, ..voxel(name, ("hu", Preset::Robust), options, cases, demand, &[]) }
 }
 
 /// All of them. Those of published rules have triangle ids instead of attributes, which need a scene.
@@ -58,13 +47,12 @@ pub(super) const ROWS: &[Row] = &[
         deviations_voxel::ROBUST_128,
     ),
     // What reaches into a cell is kept there: hits are those of triangles.
-    voxel(
+    Row::exact(
         "hu-conservative-16",
-        ("hu", Preset::Robust),
+        "hu",
         &[("resolution", "16"), ("coverage", "conservative")],
+        Tier::Quick,
         Cases::Shallow,
-        Demand::Exact { rounding: ROUNDING },
-        &[],
     ),
     voxel(
         "hu-published-16",
@@ -82,10 +70,10 @@ pub(super) const ROWS: &[Row] = &[
         published_law(128),
         deviations_voxel::HU_128,
     ),
-    // As many cells as the rule gives, then few, then many.
-    bricks("hu-bricks", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
-    bricks("hu-bricks-16", &[("storage", "bricks"), ("grid", "16")], Tier::Full, Cases::All),
-    bricks("hu-bricks-128", &[("storage", "bricks"), ("grid", "128")], Tier::Full, Cases::Shallow),
+    // Bricks of cells along the axes keep triangles. As many cells as the rule gives, then few, then many.
+    Row::exact("hu-bricks", "hu", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
+    Row::exact("hu-bricks-16", "hu", &[("storage", "bricks"), ("grid", "16")], Tier::Full, Cases::All),
+    Row::exact("hu-bricks-128", "hu", &[("storage", "bricks"), ("grid", "128")], Tier::Full, Cases::Shallow),
     voxel(
         "selective-robust-16",
         ("selective", Preset::Robust),
