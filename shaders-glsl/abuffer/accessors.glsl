@@ -1,6 +1,6 @@
 // What: the A-buffer's pools, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, nodes, data, near list, sums, long lists. Every access checks the capacity.
+// Reads, writes: header, bounds, lists, nodes, data, near list, scratch, fringe. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
@@ -15,23 +15,23 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordA
 #define ABUFFER_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).nodes_address).words
 #define ABUFFER_DATA(s) AbufferWordAddress(ABUFFER_HEADER(s).data_address).words
 #define ABUFFER_NEAR(s) AbufferWordAddress(ABUFFER_HEADER(s).near_address).words
-#define ABUFFER_SUMS(s) AbufferWordAddress(ABUFFER_HEADER(s).sums_address).words
-#define ABUFFER_LONG(s) AbufferWordAddress(ABUFFER_HEADER(s).long_address).words
+#define ABUFFER_SCRATCH(s) AbufferWordAddress(ABUFFER_HEADER(s).scratch_address).words
+#define ABUFFER_FRINGE(s) AbufferWordAddress(ABUFFER_HEADER(s).fringe_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer AbufferListsBuffer { uint abuffer_list_words[]; };
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer AbufferNodesBuffer { uint abuffer_node_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer AbufferDataBuffer { uint abuffer_data_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer AbufferNearBuffer { uint abuffer_near_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer AbufferSumsBuffer { uint abuffer_sum_words[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer AbufferLongBuffer { uint abuffer_long_words[]; };
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer AbufferScratchBuffer { uint abuffer_scratch_words[]; };
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer AbufferFringeBuffer { uint abuffer_fringe_words[]; };
 #define ABUFFER_BOUNDS(s) abuffer_bounds_words
 #define ABUFFER_LISTS(s) abuffer_list_words
 #define ABUFFER_NODES(s) abuffer_node_words
 #define ABUFFER_DATA(s) abuffer_data_words
 #define ABUFFER_NEAR(s) abuffer_near_words
-#define ABUFFER_SUMS(s) abuffer_sum_words
-#define ABUFFER_LONG(s) abuffer_long_words
+#define ABUFFER_SCRATCH(s) abuffer_scratch_words
+#define ABUFFER_FRINGE(s) abuffer_fringe_words
 #endif
 
 // Lists by depth bucket, with depth bounds of each cell.
@@ -65,10 +65,16 @@ bool abuffer_has_extent() {
     return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 }
 
-// Words of bounds a cell: ends, the extent, and where there are buckets as well as an extent the scale.
+// Whether cells keep triangles that reach into them beside their centres.
+bool abuffer_has_fringe() {
+    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
+}
+
+// Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the head of its fringe.
 uint abuffer_bounds_stride() {
     uint ends = abuffer_has_ends() ? 2u : 0u;
-    return abuffer_has_extent() ? ends + (abuffer_bucketed() ? 2u : 1u) : ends;
+    uint extent = abuffer_has_extent() ? (abuffer_bucketed() ? 2u : 1u) : 0u;
+    return ends + extent + (abuffer_has_fringe() ? 1u : 0u);
 }
 
 // Word of the extent among a cell's bounds; the scale is the next one.
@@ -138,7 +144,7 @@ uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * abuffer_bounds_stride();
 }
 
-// Marks a triangle that covers the centre of a cell.
+// Marks a triangle that a cell keeps.
 void abuffer_mark(AbufferRef s, uint primitive) {
     uint word = abuffer_marks(s) + primitive / 32u;
     uint bit = 1u << (primitive % 32u);

@@ -1,4 +1,4 @@
-// What: counts the triangles that rays cannot meet: those with an area that cover no cell's centre in any view.
+// What: counts the triangles that rays cannot meet: those with an area that no cell of any view keeps.
 // Reads: header, bounds, geometry. Writes: header.lost. One invocation a word of marks.
 // Source: not in the paper, which names edge-on triangles as its open limit.
 #version 460

@@ -1,6 +1,6 @@
 // What: sorts each list by depth, ties by payload, and renews the backward links. Lists too long for one dispatch are
 // named for build_8_reorder_long. Of paged lists each page is sorted.
-// Reads: lists, nodes, data. Writes: lists, nodes, long lists, header.long_demand.
+// Reads: lists, nodes, data. Writes: lists, nodes, scratch, header.long_demand.
 // Source: MMRT section 3.3, reorder pass.
 #version 460
 #include "contract/extensions.glsl"
@@ -40,7 +40,8 @@ void main() {
     }
     uint place = atomicAdd(ABUFFER_HEADER(abuffer_built).long_demand, 1u);
     if (place < ABUFFER_HEADER(abuffer_built).long_capacity) {
-        ABUFFER_LONG(abuffer_built)[2u * place] = list;
-        ABUFFER_LONG(abuffer_built)[2u * place + 1u] = 0u;
+        uint word = abuffer_long_word(abuffer_built, place);
+        ABUFFER_SCRATCH(abuffer_built)[word] = list;
+        ABUFFER_SCRATCH(abuffer_built)[word + 1u] = 0u;
     }
 }

@@ -1,5 +1,5 @@
 // What: sorts a share of each long list, dispatch by dispatch, and counts those that the last one leaves unsorted.
-// Reads: lists, nodes, data, long lists. Writes: lists, nodes, long lists, header.unsorted.
+// Reads: lists, nodes, data, scratch. Writes: lists, nodes, scratch, header.unsorted.
 // Source: MMRT section 3.3, reorder pass; the paper cuts lists that are longer than a private array.
 #version 460
 #include "contract/extensions.glsl"
@@ -18,8 +18,9 @@ void main() {
     if (place >= min(ABUFFER_HEADER(abuffer_built).long_demand, ABUFFER_HEADER(abuffer_built).long_capacity)) {
         return;
     }
-    uint list = ABUFFER_LONG(abuffer_built)[2u * place];
-    uint progress = ABUFFER_LONG(abuffer_built)[2u * place + 1u];
+    uint word = abuffer_long_word(abuffer_built, place);
+    uint list = ABUFFER_SCRATCH(abuffer_built)[word];
+    uint progress = ABUFFER_SCRATCH(abuffer_built)[word + 1u];
     if (progress == ABUFFER_LONG_DONE) {
         return;
     }
@@ -29,7 +30,7 @@ void main() {
     } else {
         result = abuffer_sort_linked(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS);
     }
-    ABUFFER_LONG(abuffer_built)[2u * place + 1u] = result == SORT_DONE ? ABUFFER_LONG_DONE : progress;
+    ABUFFER_SCRATCH(abuffer_built)[word + 1u] = result == SORT_DONE ? ABUFFER_LONG_DONE : progress;
     if (result != SORT_DONE && build_round == ABUFFER_LONG_ROUNDS - 1u) {
         atomicAdd(ABUFFER_HEADER(abuffer_built).unsorted, 1u);
     }

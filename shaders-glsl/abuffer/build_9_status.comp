@@ -15,6 +15,7 @@ void main() {
     bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
         && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
         && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity
+        && ABUFFER_HEADER(abuffer_built).fringe_demand <= ABUFFER_HEADER(abuffer_built).fringe_capacity
         && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
     uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);

@@ -1,4 +1,5 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover.
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with FRINGE those that it may
+// reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
 #version 460
@@ -18,7 +19,12 @@ void main() {
     vec3 b;
     vec3 c;
     abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
-    if (ABUFFER_COVERAGE == ABUFFER_COVERAGE_EXACT) {
+#ifdef FRINGE
+    // Half a cell to its sides, and 1/32 for the hardware's grid.
+    float margin = abuffer_fringe_margin(abuffer_built, a, b, c, resolution) + (1.0 + 1.0 / 16.0) / float(resolution);
+    gl_Position = coverage_proposal_within(a, b, c, corner, resolution, margin);
+#else
+    if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {
         gl_Position = coverage_proposal(a, b, c, corner, resolution);
     } else {
         vec3 p = corner == 0u ? a : (corner == 1u ? b : c);
@@ -26,4 +32,5 @@ void main() {
         // z = w / 2 lies between the near and the far plane wherever w is positive.
         gl_Position = vec4(p.xy * to_clip, 0.5 * p.z, p.z);
     }
+#endif
 }

@@ -6,6 +6,7 @@
 #ifndef ABUFFER_LISTS_GLSL
 #define ABUFFER_LISTS_GLSL
 
+#include "ads/constants.glsl"
 #include "abuffer/list_pages.glsl"
 
 // Running index of the list of a cell's bucket. Storages without buckets have one bucket.
@@ -15,6 +16,11 @@ uint abuffer_list(uint cell, uint bucket) {
 
 uint abuffer_list_count(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BUCKETS;
+}
+
+// Word of the scratch pool at which a long list stands: list and progress, behind the sums of the scan.
+uint abuffer_long_word(AbufferRef s, uint place) {
+    return (abuffer_contiguous() ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u) + 2u * place;
 }
 
 // Word of a linked list's head; a tail is the next word.

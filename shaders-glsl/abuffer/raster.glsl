@@ -21,7 +21,7 @@ bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell,
     vec3 b;
     vec3 c;
     abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
-    if (ABUFFER_COVERAGE == ABUFFER_COVERAGE_EXACT) {
+    if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {
         return coverage_at_center(a, b, c, place, resolution, coverage);
     }
     vec3 direction = coverage_center(place, resolution);

@@ -1,5 +1,5 @@
 // What: the numbers that the scan of contiguous lists runs over: lengths become places, their sum the demand.
-// Reads, writes: lists, sums, header.demand.
+// Reads, writes: lists, scratch, header.demand.
 #ifndef ABUFFER_SCANNED_GLSL
 #define ABUFFER_SCANNED_GLSL
 
@@ -20,11 +20,11 @@ void scan_set_number(AbufferRef s, uint step, uint i, uint number) {
 }
 
 uint scan_sum(AbufferRef s, uint step, uint block) {
-    return ABUFFER_SUMS(s)[block];
+    return ABUFFER_SCRATCH(s)[block];
 }
 
 void scan_set_sum(AbufferRef s, uint step, uint block, uint sum) {
-    ABUFFER_SUMS(s)[block] = sum;
+    ABUFFER_SCRATCH(s)[block] = sum;
 }
 
 void scan_set_total(AbufferRef s, uint step, uint total) {

@@ -1,5 +1,5 @@
 // What: searches the lists of one cell for the nearest fragment that a ray hits within it.
-// Reads: bounds, lists, nodes, data, geometry (plane acceptance). Writes: nothing.
+// Reads: bounds, lists, nodes, data, fringe, geometry (plane acceptance). Writes: nothing.
 // Source: MMRT section 3.4. The bucket range, the order and the early ends only skip fragments that
 // the acceptance would refuse, so hits do not depend on them.
 #ifndef ABUFFER_SEARCH_GLSL
@@ -10,6 +10,7 @@
 #include "ads/geometry.glsl"
 #include "ads/judge_plane.glsl"
 #include "ads/triangle.glsl"
+#include "abuffer/fringe.glsl"
 #include "abuffer/slope.glsl"
 #include "abuffer/seek.glsl"
 
@@ -21,8 +22,9 @@ struct AbufferSearch {
     float t_low;          // the ray's interval in the cell, widened by the errors of its ends
     float t_high;
     uint bucket;
-    uint link;            // next node; 0: begin the bucket
+    uint link;            // next node, of the bucket or of the fringe; 0: begin the bucket
     bool in_bucket;       // the bucket has been begun
+    bool in_fringe;       // the fringe has been begun
 };
 
 // Logs a fragment whose depth is not among those looked for.
@@ -46,9 +48,34 @@ bool abuffer_meets(AbufferRef s, AbufferSearch search, uint link, float z, float
     return depths.x <= ray_z.y && depths.y >= ray_z.x;
 }
 
+// Tests the triangles of the cell's fringe. Returns true if the work budget ended before.
+bool abuffer_search_fringe(AbufferRef s, Ray ray, inout AbufferSearch search, inout TraceState state, inout uint work) {
+    uint link = search.in_fringe ? search.link : abuffer_fringe_head(s, search.cell);
+    search.in_fringe = false;
+    while (link != 0u) {
+        if (work >= WORK_BUDGET) {
+            search.link = link;
+            search.in_fringe = true;
+            return true;
+        }
+        work++;
+        state.entries++;
+        uvec2 node = abuffer_fringe_node(s, link);
+        link = node.y;
+        if (node.x != PRIMITIVE_NONE) {
+            state.tests++;
+            test_beside_planes(ray, node.x, search.t_low, search.t_high, state.best);
+        }
+    }
+    return false;
+}
+
 // Returns true if the work budget ended before the search did.
 bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bool ordered, inout AbufferSearch search,
     inout TraceState state, inout uint work) {
+    if (abuffer_has_fringe() && !search.in_bucket && abuffer_search_fringe(s, ray, search, state, work)) {
+        return true;
+    }
     AbufferBounds bounds = abuffer_bounds(s, search.cell);
     if (bounds.empty) {
         trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);

@@ -58,7 +58,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         return TRACE_MISS;
     }
     bool ordered = ABUFFER_SORT != 0u && ABUFFER_HEADER(s).unsorted == 0u;
-    precise vec3 origin = ray.origin - ABUFFER_HEADER(s).eye;
+    precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
     vec2 near = near_box_interval(origin, direction, ABUFFER_HEADER(s).near_size);
     vec2 clip = abuffer_clip(s, origin, direction, ray);
@@ -94,13 +94,15 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                     abuffer_save(walk, search, searching, state);
                     return TRACE_PAUSED;
                 }
-                uint saved_bucket = search.bucket;
-                uint saved_link = search.link;
-                bool saved_in_bucket = searching && search.in_bucket;
+                AbufferSearch saved = search;
                 abuffer_begin_search(s, walk, search);
-                search.bucket = saved_in_bucket ? saved_bucket : 0u;
-                search.link = saved_in_bucket ? saved_link : 0u;
-                search.in_bucket = saved_in_bucket;
+                if (searching) {
+                    search.in_fringe = saved.in_fringe;
+                    search.in_bucket = saved.in_bucket;
+                    search.bucket = saved.in_bucket ? saved.bucket : 0u;
+                    search.link = saved.in_bucket || saved.in_fringe ? saved.link : 0u;
+                }
+                bool begun = search.in_bucket || search.in_fringe;
                 searching = false;
                 if (search.t_low > state.best.t) {
                     trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
@@ -110,7 +112,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 state.cells++;
                 trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
                 // A search that was begun goes on: leaps only pass by cells that have not been.
-                if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID && !search.in_bucket
+                if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID && !begun
                     && abuffer_leap(s, walk, search, state.best.t, work, more)) {
                     continue;
                 }

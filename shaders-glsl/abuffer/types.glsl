@@ -20,7 +20,7 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 
-// State and sizes of one A-buffer. 196 bytes.
+// State and sizes of one A-buffer. 204 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -43,15 +43,17 @@ struct AbufferHeader {
     vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into |x| <= z, |y| <= z
     vec3 camera_y;
     vec3 camera_z;
-    uint lost;            // triangles with an area that cover no cell's centre in any view
+    uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // of the geometry that there are marks for
+    uint fringe_demand;   // triangles kept beside centres, ABUFFER_COVERAGE_CONSERVATIVE only
+    uint fringe_capacity;
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
     uvec2 lists_address;
     uvec2 nodes_address;
     uvec2 data_address;
     uvec2 near_address;
-    uvec2 sums_address;
-    uvec2 long_address;
+    uvec2 scratch_address;
+    uvec2 fringe_address;
 };
 
 // Depths of a cell's fragments, as far as the storage keeps them.

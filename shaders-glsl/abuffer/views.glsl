@@ -21,6 +21,11 @@ uint abuffer_resolution(AbufferRef s, uint view) {
     return view == ABUFFER_CAMERA ? ABUFFER_HEADER(s).camera_resolution : ABUFFER_HEADER(s).resolution;
 }
 
+// Common centre of the views. A function: with addresses, glslang does not end where precise expressions follow a reference.
+vec3 abuffer_eye(AbufferRef s) {
+    return ABUFFER_HEADER(s).eye;
+}
+
 // A scalar product without contraction: passes and traces must agree.
 float abuffer_along(vec3 row, vec3 p) {
     precise float sum = row.x * p.x + row.y * p.y + row.z * p.z;

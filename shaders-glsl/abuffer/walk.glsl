@@ -12,6 +12,7 @@
 
 #define ABUFFER_CURSOR_STARTED 1u
 #define ABUFFER_CURSOR_SEARCHING 2u
+#define ABUFFER_CURSOR_IN_FRINGE 0x8000u
 
 // A ray within one view or the near box.
 struct AbufferWalk {
@@ -49,7 +50,7 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
 
 void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout TraceState state) {
     state.cursor[0] = ABUFFER_CURSOR_STARTED | (searching ? ABUFFER_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (search.in_bucket ? 32u : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
+        | (search.in_bucket ? 32u : 0u) | (search.in_fringe ? ABUFFER_CURSOR_IN_FRINGE : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
         | walk.stretch.stage << 21;
     state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
     state.cursor[2] = floatBitsToUint(walk.segment.t_end);
@@ -80,6 +81,7 @@ void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 
         walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
     }
     search.in_bucket = (flags & 32u) != 0u;
+    search.in_fringe = (flags & ABUFFER_CURSOR_IN_FRINGE) != 0u;
     search.bucket = (flags >> 16) & 31u;
     search.link = state.cursor[6];
 }
@@ -87,6 +89,7 @@ void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 
 // Prepares the search of the cell the walk is at.
 void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSearch search) {
     search.in_bucket = false;
+    search.in_fringe = false;
     search.bucket = 0u;
     search.link = 0u;
     if (abuffer_follows_cells()) {

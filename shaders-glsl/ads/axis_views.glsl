@@ -130,19 +130,4 @@ bool axis_reaches_into(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     return true;
 }
 
-// The point of a triangle that is nearest to a point beside it, across the view.
-vec2 axis_nearest_point(vec3 a, vec3 b, vec3 c, vec2 p) {
-    vec2 from[3] = vec2[3](a.xy, b.xy, c.xy);
-    vec2 to[3] = vec2[3](b.xy, c.xy, a.xy);
-    vec2 nearest = a.xy;
-    for (int edge = 0; edge < 3; edge++) {
-        vec2 span = to[edge] - from[edge];
-        float squared = dot(span, span);
-        float share = squared > 0.0 ? clamp(dot(p - from[edge], span) / squared, 0.0, 1.0) : 0.0;
-        vec2 candidate = from[edge] + share * span;
-        nearest = dot(candidate - p, candidate - p) < dot(nearest - p, nearest - p) ? candidate : nearest;
-    }
-    return nearest;
-}
-
 #endif

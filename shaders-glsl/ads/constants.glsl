@@ -23,6 +23,14 @@
 // Bricks that one step over empty ones crosses at most, its own included.
 #define BRICK_REACH 8u
 
+// Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
+// with more, every such triangle is kept.
+#define FRINGE_LIMIT 4096u
+
+// A fragment stands for a triangle beside the centre if its plane passes the triangle's nearest point this close,
+// in widths of a cell or, where that is smaller, of the triangle.
+#define FRINGE_DEPTH 0.25
+
 // Threads in a workgroup of the pass that builds a pyramid.
 #define PYRAMID_THREADS 64u
 

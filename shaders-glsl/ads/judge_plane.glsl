@@ -9,6 +9,7 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
+#include "ads/judge.glsl"
 #include "ads/triangle.glsl"
 
 // How wide a cell is at a point, and how far planes count beyond their triangles.
@@ -43,6 +44,12 @@ bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
         return inside;
     }
     return hit_is_better(best, t, primitive);
+}
+
+// The best hit as one that no candidate at the same t loses to: those are ranked by plane_is_better.
+Hit plane_rival(Hit best) {
+    best.primitive = best.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
+    return best;
 }
 
 // The verdict (TEST_*) on the plane of a triangle that is met within [t_low, t_high].
@@ -93,6 +100,23 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
         return TEST_NOT_BETTER;
     }
     return !proper || alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
+}
+
+// Judges a triangle alone among fragments whose planes count, logs it, and lets it replace the best hit if it may. The caller
+// counts the test.
+void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    uint verdict = judge_triangle(ray, plane_rival(best), primitive, t_low, t_high, t, barycentrics, t_error);
+    if (verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
+        verdict = TEST_NOT_BETTER;
+    }
+    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    }
 }
 
 // Judges a fragment's triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.

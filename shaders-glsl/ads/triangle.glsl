@@ -134,4 +134,19 @@ bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out flo
     return dot(normal, normal) > 0.0;
 }
 
+// The point of a flat triangle's border that is nearest to a point.
+vec2 triangle_nearest_point(vec2 a, vec2 b, vec2 c, vec2 p) {
+    vec2 from[3] = vec2[3](a, b, c);
+    vec2 to[3] = vec2[3](b, c, a);
+    vec2 nearest = a;
+    for (int edge = 0; edge < 3; edge++) {
+        vec2 span = to[edge] - from[edge];
+        float squared = dot(span, span);
+        float share = squared > 0.0 ? clamp(dot(p - from[edge], span) / squared, 0.0, 1.0) : 0.0;
+        vec2 candidate = from[edge] + share * span;
+        nearest = dot(candidate - p, candidate - p) < dot(nearest - p, nearest - p) ? candidate : nearest;
+    }
+    return nearest;
+}
+
 #endif

@@ -13,7 +13,7 @@ layout(location = 0) flat in uvec2 primitive_and_axis;
 // Whether the plane of a fragment of the cell passes within `close` metres of this point of the triangle, in the view.
 bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
-    if (list.y - list.x > LDC_FRINGE_LIMIT) {
+    if (list.y - list.x > FRINGE_LIMIT) {
         return false;
     }
     // Both planes lean by at most a cell each between point and centre.
@@ -54,7 +54,7 @@ void main() {
         return;
     }
     vec2 center = axis_center(view, place).xy;
-    vec2 point = axis_nearest_point(a, b, c, center);
+    vec2 point = triangle_nearest_point(a.xy, b.xy, c.xy, center);
     float z_nearest = min(a.z, min(b.z, c.z));
     float z_farthest = max(a.z, max(b.z, c.z));
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
@@ -63,7 +63,7 @@ void main() {
     // What is far smaller than a cell is not taken for a surface that is near for a cell only.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
-    if (is_stood_for(view, cell, point, z_point, z_center, LDC_FRINGE_DEPTH * size)) {
+    if (is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
         return;
     }
     ldc_add_fringe(ldc_built, cell, primitive);

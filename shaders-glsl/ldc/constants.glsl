@@ -30,14 +30,6 @@
 // Blocks a side of a block of the second level.
 #define LDC_LEVEL_BLOCKS 8u
 
-// Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
-// with more, every such triangle is kept.
-#define LDC_FRINGE_LIMIT 4096u
-
-// A fragment stands for a triangle beside the centre if its plane passes the triangle's nearest point this close,
-// in widths of a cell or, where that is smaller, of the triangle.
-#define LDC_FRINGE_DEPTH 0.25
-
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle leans little in the view it
 // faces most, so that its plane leaves the cell before that.
 #define LDC_PLANE_REACH 2.0

@@ -64,28 +64,20 @@ vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_
     return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
 }
 
-// Judges the triangle of a fragment, or (beside a centre) the triangle alone, logs it, and lets it replace the best hit
-// if it may.
-void ldc_test(LdcRef s, Ray ray, LdcSearch search, uint primitive, bool plane, inout TraceState state) {
+// Judges the plane of a fragment's triangle, logs it, and lets it replace the best hit if it may.
+void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout TraceState state) {
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict;
     state.tests++;
-    // What is as near as the best hit is ranked here.
-    Hit rival = state.best;
-    rival.primitive = rival.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
-    if (plane) {
-        float cell = search.sizes.cell;
-        float slack = search.sizes.slack;
-        verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
-            search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
-        // A surface that the ray leaves is met close to its origin, if at all.
-        if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
-            verdict = t < ray.t_max ? (hit_is_better(rival, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER) : TEST_BEYOND;
-        }
-    } else {
-        verdict = judge_triangle(ray, rival, primitive, search.t_low, search.t_high, t, barycentrics, t_error);
+    Hit rival = plane_rival(state.best);
+    float cell = search.sizes.cell;
+    float slack = search.sizes.slack;
+    uint verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
+        search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
+    // A surface that the ray leaves is met close to its origin, if at all.
+    if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
+        verdict = t < ray.t_max ? (hit_is_better(rival, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER) : TEST_BEYOND;
     }
     if (verdict == TEST_ACCEPTED && !plane_is_better(state.best, t, primitive, barycentrics)) {
         verdict = TEST_NOT_BETTER;
@@ -179,7 +171,8 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
         uvec2 node = ldc_fringe_node(s, search.place);
         search.place = node.y;
         if (node.x != PRIMITIVE_NONE) {
-            ldc_test(s, ray, search, node.x, false, state);
+            state.tests++;
+            test_beside_planes(ray, node.x, search.t_low, search.t_high, state.best);
         }
     }
     return false;
@@ -218,7 +211,7 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
                 continue;
             }
             if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
-                ldc_test(s, ray, search, ldc_primitive(s, place), true, state);
+                ldc_test_plane(s, ray, search, ldc_primitive(s, place), state);
             } else {
                 ldc_judge_depth(s, ray, search, depths, place, z, state);
             }

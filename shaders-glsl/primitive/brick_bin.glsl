@@ -25,7 +25,7 @@ struct BrickBin {
     uint primitive;
     uint face;
     BrickSpace space;
-    PrimitiveOverlap overlap;
+    Overlap overlap;
     float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
     BrickClip clip;       // of views along axes
     ivec2 lower;          // first and last column and row that may hold any of it
@@ -62,7 +62,7 @@ bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b
     if (!bin_bounds(space.grid, a, b, c, bin.margin, 0, bin.lower, bin.upper)) {
         return false;
     }
-    bin.overlap = primitive_overlap_begin(a, b, c);
+    bin.overlap = overlap_begin(a, b, c);
     return true;
 }
 
@@ -75,12 +75,12 @@ bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
     precise vec2 place = vec2(2 * column + side) / tiles - 1.0;
     precise float half_side = float(side) / tiles;
     precise float widest = half_side + bin.margin;
-    if (!primitive_overlap_at(bin.space.grid, bin.overlap, vec3(place, 1.0), widest, depths)) {
+    if (!overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), widest, depths)) {
         return false;
     }
     // The margin is that of the depth at which the triangle is met there, not of its nearest corner.
     precise float narrow = half_side + brick_margin(bin.space.grid, depths.x);
-    return widest - narrow < 0.125 * half_side || primitive_overlap_at(bin.space.grid, bin.overlap, vec3(place, 1.0), narrow, depths);
+    return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
 }
 
 // The first and last slice of depths that a triangle has in a column.

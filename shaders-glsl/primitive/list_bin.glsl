@@ -15,7 +15,7 @@ struct ListBin {
     vec3 a;
     vec3 b;
     vec3 c;
-    PrimitiveOverlap overlap;
+    Overlap overlap;
     float margin;
     ivec2 lower;
     ivec2 upper;
@@ -33,7 +33,7 @@ bool list_bin_begin(PrimitiveGrid grid, uint primitive, uint face, vec3 a, vec3 
         || !bin_bounds(grid, bin.a, bin.b, bin.c, bin.margin, 1, bin.lower, bin.upper)) {
         return false;
     }
-    bin.overlap = primitive_overlap_begin(bin.a, bin.b, bin.c);
+    bin.overlap = overlap_begin(bin.a, bin.b, bin.c);
     return true;
 }
 
@@ -43,7 +43,7 @@ bool list_bin_depths(PrimitiveGrid grid, ListBin bin, ivec2 column, int side, ou
     precise float half_side = float(side) / tiles + bin.margin;
     precise vec2 place = vec2(2 * column + side) / tiles - 1.0;
     vec3 center = side == 1 ? coverage_center(column, grid.tiles) : vec3(place, 1.0);
-    return primitive_overlap_at(grid, bin.overlap, center, half_side, depths);
+    return overlap_at(grid.near_size, bin.overlap, center, half_side, depths);
 }
 
 void list_bin_visit(PrimitiveRef s, uint primitive, uint cell, vec2 depths) {

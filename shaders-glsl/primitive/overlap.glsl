@@ -6,8 +6,8 @@
 #ifndef PRIMITIVE_OVERLAP_GLSL
 #define PRIMITIVE_OVERLAP_GLSL
 
-#include "ads/coverage.glsl"
 #include "ads/geometry.glsl"
+#include "ads/overlap.glsl"
 #include "primitive/header.glsl"
 
 // The corners of a triangle as a face sees them.
@@ -50,124 +50,10 @@ float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     return margin;
 }
 
-// Whether all corners lie beyond a side of the cell: below the lower or above the upper end of x/z.
-bool primitive_beyond(vec3 x, vec3 z, float lower, float upper) {
-    precise vec3 at_lower = lower * z;
-    precise vec3 at_upper = upper * z;
-    return all(lessThan(x, at_lower)) || all(greaterThan(x, at_upper));
-}
-
-// The plane through the eye and the edge pq, and a bound of the rounding of its value anywhere in the face.
-vec3 primitive_edge(vec3 p, vec3 q, out float slack) {
-    precise vec3 span = q - p;
-    precise vec3 edge = p.yzx * span.zxy - p.zxy * span.yzx;
-    vec3 pm = abs(p);
-    vec3 sm = abs(span);
-    precise vec3 products = pm.yzx * sm.zxy + pm.zxy * sm.yzx;
-    precise float rounding = 6.0e-7 * (products.x + products.y + products.z) + 4.0e-7 * (abs(edge.x) + abs(edge.y) + abs(edge.z));
-    slack = rounding;
-    return edge;
-}
-
-// What of a triangle decides which cells of a face it reaches into, the same for all cells.
-struct PrimitiveOverlap {
-    vec3 x;               // of the corners, face space
-    vec3 y;
-    vec3 z;
-    vec3 edge_ab;         // planes through the eye
-    vec3 edge_bc;
-    vec3 edge_ca;
-    vec3 edge_slack;      // bounds of the rounding of their values
-    vec3 normal;
-    vec3 normal_error;
-    float facing;         // of the plane: normal . corner
-    float facing_error;
-};
-
-// a, b, c in face space.
-PrimitiveOverlap primitive_overlap_begin(vec3 a, vec3 b, vec3 c) {
-    PrimitiveOverlap o;
-    o.x = vec3(a.x, b.x, c.x);
-    o.y = vec3(a.y, b.y, c.y);
-    o.z = vec3(a.z, b.z, c.z);
-    o.edge_ab = primitive_edge(a, b, o.edge_slack.x);
-    o.edge_bc = primitive_edge(b, c, o.edge_slack.y);
-    o.edge_ca = primitive_edge(c, a, o.edge_slack.z);
-    precise vec3 ab = b - a;
-    precise vec3 ac = c - a;
-    precise vec3 normal = ab.yzx * ac.zxy - ab.zxy * ac.yzx;
-    precise vec3 normal_error = 6.0e-7 * (abs(ab.yzx * ac.zxy) + abs(ab.zxy * ac.yzx));
-    precise float facing = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-    precise float facing_error = dot(normal_error, abs(a)) + 4.0e-7 * dot(abs(normal), abs(a));
-    o.normal = normal;
-    o.normal_error = normal_error;
-    o.facing = facing;
-    o.facing_error = facing_error;
-    return o;
-}
-
-// Value of an edge's plane at the cell's centre, and how much larger or smaller it is elsewhere in the cell.
-float primitive_edge_at(vec3 edge, vec3 center, float half_side, float rounding, out float slack) {
-    precise float value = edge.x * center.x + edge.y * center.y + edge.z;
-    precise float reach = half_side * (abs(edge.x) + abs(edge.y)) + rounding;
-    slack = reach;
-    return value;
-}
-
-// True where the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1) and half a
-// side; depths holds the smallest and largest depth it has there but for the rounding of the header, both positive. Every
-// step is precise: passes that count and passes that store must decide alike.
-bool primitive_overlap_at(PrimitiveGrid grid, PrimitiveOverlap o, vec3 center, float half_side, out vec2 depths) {
-    depths = vec2(0.0);
-    precise vec2 lower = center.xy - half_side;
-    precise vec2 upper = center.xy + half_side;
-    if (all(lessThanEqual(o.z, vec3(0.0))) || primitive_beyond(o.x, o.z, lower.x, upper.x)
-        || primitive_beyond(o.y, o.z, lower.y, upper.y)) {
-        return false;
-    }
-    vec3 slack;
-    vec3 value = vec3(primitive_edge_at(o.edge_ab, center, half_side, o.edge_slack.x, slack.x),
-        primitive_edge_at(o.edge_bc, center, half_side, o.edge_slack.y, slack.y),
-        primitive_edge_at(o.edge_ca, center, half_side, o.edge_slack.z, slack.z));
-    // Comparisons are written so that what overflowed counts as inside.
-    bool front = !any(lessThan(value, -slack));
-    bool back = !any(greaterThan(value, slack));
-    if (!front && !back) {
-        return false;
-    }
-    depths = vec2(min(o.z.x, min(o.z.y, o.z.z)), max(o.z.x, max(o.z.y, o.z.z)));
-    // Close to edge-on neither the winding nor the plane is certain: then both windings count, and the
-    // depths are those of the corners.
-    if (abs(o.facing) > 64.0 * o.facing_error) {
-        if (o.facing > 0.0 ? !front : !back) {
-            return false;
-        }
-        vec3 farthest = vec3(abs(center.xy) + half_side, 1.0);
-        precise float along = o.normal.x * center.x + o.normal.y * center.y + o.normal.z;
-        float middle = o.facing > 0.0 ? along : -along;
-        precise float swing = half_side * (abs(o.normal.x) + abs(o.normal.y)) + dot(o.normal_error, farthest)
-            + 4.0e-7 * dot(abs(o.normal), farthest);
-        precise float lowest = middle - swing;
-        precise float highest = middle + swing;
-        if (highest > 0.0) {
-            precise float nearest = (abs(o.facing) - o.facing_error) / highest * (1.0 - 1.0e-6);
-            depths.x = max(depths.x, nearest);
-        }
-        if (lowest > 0.0) {
-            precise float farthest_depth = (abs(o.facing) + o.facing_error) / lowest * (1.0 + 1.0e-6);
-            depths.y = min(depths.y, farthest_depth);
-        }
-    }
-    // What is nearer than the near box is met there, and positive depths order like their bits.
-    depths.x = max(depths.x, 0.5 * grid.near_size);
-    depths.y = max(depths.y, depths.x);
-    return true;
-}
-
-// The same for a cell of the face. a, b, c in face space.
+// Whether a triangle reaches into a cell of a face, and its depths there. a, b, c in face space.
 bool primitive_overlap(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell, out vec2 depths) {
     precise float half_side = 1.0 / float(grid.tiles) + primitive_margin(grid, a, b, c);
-    return primitive_overlap_at(grid, primitive_overlap_begin(a, b, c), coverage_center(cell, grid.tiles), half_side, depths);
+    return overlap_at(grid.near_size, overlap_begin(a, b, c), coverage_center(cell, grid.tiles), half_side, depths);
 }
 
 #endif

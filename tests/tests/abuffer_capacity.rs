@@ -2,8 +2,8 @@
 //! formed; and the check of lists notices every fault.
 
 use rasray_abuffer::{
-    ABuffer, Accept, Addressing, Config, Contents, Demand, Fault, March, Storage, formula_bytes, plan,
-    well_formed,
+    ABuffer, Accept, Addressing, Config, Contents, Coverage, Demand, Fault, March, Storage, formula_bytes,
+    plan, well_formed,
 };
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
@@ -35,9 +35,14 @@ fn config(storage: Storage) -> Config {
     Config { storage, ..Config::robust(16) }
 }
 
+/// The same with what reaches into cells beside their centres.
+fn beside(storage: Storage) -> Config {
+    Config { coverage: Coverage::Conservative, ..config(storage) }
+}
+
 /// Room for so many fragments and triangles around the eye.
 fn room(fragments: u64, near_triangles: u64) -> Demand {
-    Demand { nodes: fragments, near_triangles, long_lists: 0, triangles: scene().len() as u64 }
+    Demand { nodes: fragments, near_triangles, long_lists: 0, triangles: scene().len() as u64, fringe: 0 }
 }
 
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {
@@ -136,6 +141,89 @@ fn every_edge_capacity_with_addresses() {
     }
 }
 
+/// What has no room in the fringe is counted; what has none in the lists comes first.
+#[test]
+fn every_edge_capacity_of_the_fringe() {
+    for storage in Storage::ALL {
+        let bench = Bench::new();
+        let (triangles, rays, config) = (scene(), rays(), beside(storage));
+        let geometry = bench.geometry(&triangles);
+        let mut structure =
+            ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        let mut build = |nodes, fringe| {
+            let sizes = plan(&config, Demand { fringe, ..room(nodes, NEAR_TRIANGLES) }).expect("in range");
+            structure.resize(bench.device(), &sizes).expect("it fits");
+            let status = bench.build_once(&mut structure, EYE);
+            check_well_formed(&bench, &structure);
+            let grown = match structure.check(&status) {
+                Check::Complete => None,
+                Check::Grow(sizes) => Some((sizes.elements("nodes"), sizes.elements("fringe"))),
+            };
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+            assert_eq!(status.complete, counters.not_ready == 0, "{config:?}");
+            (status, grown, hits)
+        };
+        let (ample, grown, expected) = build(1 << 20, 1 << 16);
+        assert!(ample.complete && grown.is_none());
+        let (nodes, fringe) = (demand(&ample, "nodes"), demand(&ample, "fringe"));
+        assert!(fringe > 100, "{ample:?}");
+        // Which pages are begun depends on which threads meet.
+        let all = if storage == Storage::Paged { nodes + nodes / 8 } else { nodes };
+        for room in [0, 1, fringe / 2, fringe - 1, fringe] {
+            let (status, grown, hits) = build(all, room);
+            assert_eq!(demand(&status, "fringe"), fringe, "{storage:?}: room for {room}");
+            if room == fringe {
+                assert!(status.complete && hits == expected, "{storage:?}");
+            } else {
+                assert_eq!(grown, Some((all, fringe)), "{storage:?}: room for {room}");
+                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+            }
+        }
+        let (status, grown, _) = build(nodes / 2, 0);
+        assert_eq!(demand(&status, "fringe"), 0, "what stands for what is not known");
+        assert!(grown.is_some_and(|(room, fringe)| room >= nodes && fringe == 0), "{grown:?}");
+    }
+}
+
+#[test]
+fn every_fault_of_a_fringe_is_noticed() {
+    let bench = Bench::new();
+    let (geometry, config) = (bench.geometry(&scene()), beside(Storage::Dllb));
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    let sizes = plan(&config, Demand { fringe: 1 << 16, ..room(50_000, 64) }).expect("in range");
+    structure.resize(bench.device(), &sizes).expect("it fits");
+    assert!(bench.build_once(&mut structure, EYE).complete);
+    let good = check_well_formed(&bench, &structure);
+    let cells = rasray_abuffer::cell_count(&config) as usize;
+    // Marks follow, fewer than there are cells.
+    let stride = good.bounds.len() / cells;
+    let head = (0..cells)
+        .map(|cell| (cell + 1) * stride - 1)
+        .find(|&word| good.bounds[word] != 0)
+        .expect("a cell has a fringe");
+    let node = good.bounds[head] as usize - 1;
+    let broken = |spoil: &dyn Fn(&mut Contents)| {
+        let mut contents = good.clone();
+        spoil(&mut contents);
+        well_formed(&contents).expect_err("the fault is noticed")
+    };
+    assert!(matches!(broken(&|c| c.header.fringe_demand += 1), Fault::Count { .. }));
+    assert!(matches!(broken(&|c| c.bounds[head] = 0), Fault::Count { .. }));
+    assert!(matches!(broken(&|c| c.bounds[head] = u32::MAX), Fault::Fringe { .. }));
+    assert!(matches!(broken(&|c| c.fringe[2 * node + 1] = c.bounds[head]), Fault::Fringe { .. }));
+    // Traces end whatever links say, and count what names nothing.
+    let mut dangling = good.clone();
+    for cell in 0..cells {
+        dangling.bounds[(cell + 1) * stride - 1] = u32::MAX;
+    }
+    structure.upload(bench.device(), &dangling).expect("the device works");
+    // Rays from the eye pass no other cell than their own.
+    let mut random = Random::new(900);
+    let rays: Vec<Ray> = (0..4000).map(|_| Ray::new(EYE, random.direction())).collect();
+    trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+    assert!(structure.status().expect("readable").corrupted > 0);
+}
+
 #[test]
 fn a_structure_that_was_never_built_is_not_ready() {
     let bench = Bench::new();
@@ -165,11 +253,15 @@ fn formula_equals_allocations_without_slack() {
         [Storage::Dllb, Storage::Sb].map(|storage| Config { march: March::Pyramid, ..config(storage) }),
     );
     configs.extend([1, 2, 8].map(|page| Config { page, ..config(Storage::Paged) }));
+    configs.extend([Storage::Ll, Storage::Dllb, Storage::Paged].map(beside));
     for config in configs {
         let before = bench.device().allocated_bytes();
         let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
         structure
-            .resize(bench.device(), &plan(&config, room(50_000, 7)).expect("in range"))
+            .resize(
+                bench.device(),
+                &plan(&config, Demand { fringe: 50_000, ..room(50_000, 7) }).expect("in range"),
+            )
             .expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete);
@@ -181,11 +273,11 @@ fn formula_equals_allocations_without_slack() {
             Storage::Paged => structure.header().expect("the header is readable").fragments.into(),
             _ => demand(&status, "nodes"),
         };
-        assert_eq!(report.stored, Some(fragments));
-        assert_eq!(
-            report.formula_bytes,
-            formula_bytes(&config, room(demand(&status, "nodes"), demand(&status, "near"))).total()
-        );
+        let fringe = demand(&status, "fringe");
+        assert_eq!(fringe > 0, config.coverage == Coverage::Conservative);
+        assert_eq!(report.stored, Some(fragments + fringe));
+        let counted = Demand { fringe, ..room(demand(&status, "nodes"), demand(&status, "near")) };
+        assert_eq!(report.formula_bytes, formula_bytes(&config, counted).total());
         // What is reported is what was allocated: downloads have that size, and so has device memory.
         assert_eq!(report.bytes(), structure.sizes().bytes());
         let contents = check_well_formed(&bench, &structure);
@@ -195,8 +287,8 @@ fn formula_equals_allocations_without_slack() {
             &contents.nodes,
             &contents.data,
             &contents.near,
-            &contents.sums,
-            &contents.long,
+            &contents.scratch,
+            &contents.fringe,
         ]
         .iter()
         .map(|pool| pool.len())

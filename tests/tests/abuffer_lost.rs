@@ -1,11 +1,11 @@
-//! Triangles that cover no cell's centre are counted.
+//! Triangles that cover no cell's centre are counted, and with conservative coverage found.
 
 use std::collections::HashSet;
 
-use rasray_abuffer::{ABuffer, Config, Coverage, Storage, Views};
-use rasray_ads::Structure;
+use rasray_abuffer::{ABuffer, Config, Coverage, March, Storage, Views};
+use rasray_ads::{BruteForce, Hit, Ray, Structure};
 use rasray_gpu::Timing;
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
 use rasray_tracer::build_until_complete;
@@ -73,6 +73,104 @@ fn triangles_without_a_fragment_are_counted() {
     println!("{counts:?} of {WITH_AREA} triangles cover no centre");
     assert!(counts[0] > 200 && counts[3] < counts[0] && counts[3] >= 50, "{counts:?}");
     assert_eq!(counts[0], counts[1]);
+}
+
+/// Rays from anywhere to points of the triangles.
+fn rays(triangles: &[Triangle]) -> Vec<Ray> {
+    let mut random = Random::new(42);
+    let mut rays = Vec::new();
+    for triangle in &triangles[..WITH_AREA as usize] {
+        for _ in 0..10 {
+            let origin = random.point(-6.0, 6.0);
+            let (mut u, mut v) = (random.between(0.0, 1.0), random.between(0.0, 1.0));
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let [a, b, c] = triangle;
+            let direction = std::array::from_fn(|axis| {
+                (1.0 - u - v) * a[axis] + u * b[axis] + v * c[axis] - origin[axis]
+            });
+            rays.push(Ray::new(origin, direction));
+        }
+    }
+    rays
+}
+
+/// Triangles that no fragment names are met where rays meet them, but for those another's plane stands for; exact coverage
+/// loses nearly all.
+#[test]
+fn conservative_coverage_finds_what_would_be_lost() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
+    let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    let expected = bench.trace(&brute, &rays).hits;
+    for resolution in [32, 128] {
+        let exact = built(&bench, Config::robust(resolution), &triangles);
+        let contents = exact.download(bench.device()).expect("the device works");
+        let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
+        let right = |hit: &Hit, expected: &Hit| (hit.t - expected.t).abs() <= 1.0e-4 * expected.t;
+        // Of rays that meet what no fragment names, and of all others, those that are answered right.
+        let rates = |hits: &[Hit]| {
+            let mut counts = [[0_u32; 2]; 2];
+            for (hit, expected) in hits.iter().zip(&expected).filter(|(_, expected)| expected.is_hit()) {
+                let count = &mut counts[usize::from(named.contains(&expected.primitive))];
+                count[0] += u32::from(right(hit, expected));
+                count[1] += 1;
+            }
+            counts.map(|[right, all]| f64::from(right) / f64::from(all))
+        };
+        let conservative = Config { coverage: Coverage::Conservative, ..Config::robust(resolution) };
+        let kept = built(&bench, conservative, &triangles);
+        let before = rates(&bench.trace(&exact, &rays).hits);
+        let after = rates(&bench.trace(&kept, &rays).hits);
+        let lost = kept.report().expect("the header is readable").lost;
+        println!(
+            "{resolution} cells: right of lost and of named {before:?}, conservative {after:?}, lost {lost:?}"
+        );
+        assert!(before[0] < 0.3, "{before:?}");
+        assert!(after[0] > 0.97 && after[1] > 0.97 && after[1] > before[1], "{after:?}");
+    }
+}
+
+/// Neither storage nor leaps nor pauses change a hit, and small budgets end within long fringes.
+#[test]
+fn fringes_are_searched_alike() {
+    let bench = Bench::new();
+    let mut triangles = scene();
+    // All of it within a cell or two beside a large room.
+    triangles.extend(closed_box([-90.0; 3], [90.0; 3]));
+    let small: Vec<Triangle> = scene()[60..]
+        .iter()
+        .map(|triangle| triangle.map(|p| std::array::from_fn(|axis| 40.0 + 0.05 * p[axis])))
+        .collect();
+    triangles.extend(small);
+    let geometry = bench.geometry(&triangles);
+    let mut rays = rays(&triangles);
+    let mut random = Random::new(43);
+    rays.extend((0..2000).map(|_| {
+        let (origin, offset) = (random.point(-20.0, 20.0), random.point(-0.2, 0.2));
+        Ray::new(origin, std::array::from_fn(|axis| 40.0 + offset[axis] - origin[axis]))
+    }));
+    let conservative = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
+    let mut expected: Option<Vec<[u32; 4]>> = None;
+    let mut configs: Vec<Config> = Storage::ALL.map(|storage| Config { storage, ..conservative }).into();
+    configs.push(Config { march: March::Pyramid, ..conservative });
+    configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..conservative });
+    configs.push(Config { sort: false, skip: false, ..conservative });
+    configs.push(Config { work_budget: Some(3), ..conservative });
+    configs.push(Config { work_budget: Some(17), march: March::Pyramid, ..conservative });
+    for config in configs {
+        let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
+        let found: Vec<_> = bench.build_and_trace(&mut structure, EYE, &rays).iter().map(bits).collect();
+        match &expected {
+            Some(expected) => {
+                let different = (0..found.len()).filter(|&ray| found[ray] != expected[ray]).count();
+                assert_eq!(different, 0, "{config:?}");
+            }
+            None => expected = Some(found),
+        }
+    }
 }
 
 /// More triangles than there are marks for are no answer, but a reason to grow.

@@ -1,7 +1,7 @@
 //! Pools of every edge capacity: exact demands, no partial answers, bytes as the formula says, lists well
 //! formed; and the check of lists notices every fault.
 
-use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
+use rasray_ads::{Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;

@@ -1,7 +1,7 @@
 //! Voxels whose cells keep every triangle that reaches into them against brute force, bit for bit; and cells that
 //! keep less are noticed.
 
-use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind};
+use rasray_ads::{BruteForce, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;

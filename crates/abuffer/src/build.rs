@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, SceneBind
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
-use crate::layout::{cell_count, draws};
+use crate::layout::{cell_count, draws, long_capacity};
 use crate::{Config, March, Payload, Storage};
 
 /// Pipelines of the build.
@@ -15,6 +15,7 @@ pub(crate) struct Build {
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: RasterPipeline,
+    fringe: Option<RasterPipeline>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
     reorder: Option<Reorder>,
@@ -73,6 +74,10 @@ impl Build {
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: raster(store)?,
+            fringe: config
+                .has_fringe()
+                .then(|| pipelines.raster("build_raster.fringe", "build_7_fringe"))
+                .transpose()?,
             lost: pipelines.compute("build_7_lost")?,
             pyramid: (config.march == March::Pyramid)
                 .then(|| Pyramid::new(pipelines, "build_7_pyramid"))
@@ -113,6 +118,9 @@ impl Build {
             lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
         target.raster_views(recorder, "abuffer/build_6_store", &self.store, &draws);
+        if let Some(fringe) = &self.fringe {
+            target.raster_views(recorder, "abuffer/build_7_fringe", fringe, &draws);
+        }
         let marks = groups(triangles.div_ceil(32));
         target.compute_pass(recorder, "abuffer/build_7_lost", &self.lost, marks, 0, Access::COMPUTE);
         if let Some(pyramid) = &self.pyramid {
@@ -129,7 +137,7 @@ impl Build {
                 0,
                 readers,
             );
-            let long = groups(target.pools.sizes().elements("long"));
+            let long = groups(long_capacity(config, target.pools.sizes()));
             let (label, rounds) = ("abuffer/build_8_reorder_long", ABUFFER_LONG_ROUNDS);
             target.rounds_pass(recorder, label, &reorder.long, long, rounds, readers);
         }

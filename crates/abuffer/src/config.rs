@@ -53,6 +53,9 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
+    /// The same, and a triangle that reaches into a cell beside its centre, where no fragment stands for it, is kept in the
+    /// cell's fringe: edge-on ones, silhouettes, and what is smaller than a cell. Needs [`Accept::Plane`].
+    Conservative,
 }
 
 /// Which views are drawn.
@@ -272,7 +275,19 @@ impl Config {
                 expected: "the acceptances plane and slope need the payload `index`, which names the triangle",
             });
         }
+        if self.has_fringe() && self.accept != Accept::Plane {
+            return Err(AdsError::Option {
+                option: "coverage",
+                value: "conservative".to_owned(),
+                expected: "conservative coverage keeps triangles beside planes: it needs `accept=plane`",
+            });
+        }
         Ok(())
+    }
+
+    /// Whether cells keep triangles beside their centres.
+    pub(crate) fn has_fringe(&self) -> bool {
+        self.coverage == Coverage::Conservative
     }
 
     /// Whether cells know the smallest and largest depth of their fragments.
@@ -321,6 +336,7 @@ impl Config {
                 match self.coverage {
                     Coverage::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
                     Coverage::Exact => numbers::ABUFFER_COVERAGE_EXACT,
+                    Coverage::Conservative => numbers::ABUFFER_COVERAGE_CONSERVATIVE,
                 },
             ),
             (17, self.storage.number()),

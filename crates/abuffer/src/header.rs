@@ -48,10 +48,14 @@ pub struct Header {
     pub camera_y: [f32; 3],
     /// Third row: depth.
     pub camera_z: [f32; 3],
-    /// Triangles with an area that cover no cell's centre in any view.
+    /// Triangles with an area that no cell of any view keeps.
     pub lost: u32,
     /// Triangles of the geometry that there are marks for.
     pub triangles: u32,
+    /// Triangles kept beside centres, also those beyond the capacity; only with conservative coverage.
+    pub fringe_demand: u32,
+    /// Triangles the fringe holds.
+    pub fringe_capacity: u32,
     /// Device address of the bounds; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the list heads and tails.
@@ -62,8 +66,8 @@ pub struct Header {
     pub data_address: [u32; 2],
     /// Device address of the near list.
     pub near_address: [u32; 2],
-    /// Device address of the sums of the scan.
-    pub sums_address: [u32; 2],
-    /// Device address of the long lists.
-    pub long_address: [u32; 2],
+    /// Device address of the scratch: sums of the scan, and long lists.
+    pub scratch_address: [u32; 2],
+    /// Device address of the fringe.
+    pub fringe_address: [u32; 2],
 }

@@ -3,10 +3,11 @@
 use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 
-use crate::{Accept, Config, Header, March, Payload, Storage, Views};
+use crate::{Accept, Config, Coverage, Header, March, Payload, Storage, Views};
 
 /// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 8] = ["header", "bounds", "lists", "nodes", "data", "near", "sums", "long"];
+pub(crate) const POOLS: [&str; 8] =
+    ["header", "bounds", "lists", "nodes", "data", "near", "scratch", "fringe"];
 
 /// Pages that a word of a list can name beside how many of its slots are used (`PAGE_LIMIT` of the shaders).
 const MOST_PAGES: u64 = 0x0FFF_FFFE;
@@ -41,6 +42,8 @@ pub struct Demand {
     pub long_lists: u64,
     /// Triangles of the geometry.
     pub triangles: u64,
+    /// Triangles kept beside centres.
+    pub fringe: u64,
 }
 
 /// Words of a fragment's payload.
@@ -85,14 +88,14 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
 }
 
 /// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at the extent, and
-/// beside buckets their scale.
+/// beside buckets their scale; with conservative coverage the head of the fringe.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     let extent = match (config.accept.needs_triangles(), config.storage.is_bucketed()) {
         (true, true) => 2,
         (true, false) => 1,
         (false, _) => 0,
     };
-    extent + if config.has_ends() { 2 } else { 0 }
+    extent + if config.has_ends() { 2 } else { 0 } + u64::from(config.has_fringe())
 }
 
 /// Words of the bounds of all blocks of cells.
@@ -103,6 +106,17 @@ fn pyramid_words(config: &Config) -> u64 {
 /// Words of the bounds of all cells and blocks.
 pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config)
+}
+
+/// Words for the sums of the scan of contiguous lists, and for two of each long list behind them.
+pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
+    let lists = cell_count(config) * u64::from(config.lists());
+    (if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }) + 2 * long_lists
+}
+
+/// Long lists that such pools have room for.
+pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
 }
 
 /// What an A-buffer of this configuration allocates to hold what a build may ask for.
@@ -120,8 +134,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (demand.nodes, 4 * node_words(config)),
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
         (demand.near_triangles, 4),
-        (if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }, 4),
-        (demand.long_lists, 8),
+        (scratch_words(config, demand.long_lists), 4),
+        (if config.has_fringe() { demand.fringe } else { 0 }, 8),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -140,10 +154,20 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// The first guess where nothing has been counted: a fragment a cell.
+/// The first guess where nothing has been counted: a fragment a cell, and a triangle beside every fourth centre.
 pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
-    let fragments = config.fragments.unwrap_or_else(|| cell_count(config));
-    plan(config, Demand { nodes: fragments, near_triangles: 64, long_lists: 0, triangles: triangles.into() })
+    let cells = cell_count(config);
+    let fragments = config.fragments.unwrap_or(cells);
+    plan(
+        config,
+        Demand {
+            nodes: fragments,
+            near_triangles: 64,
+            long_lists: 0,
+            triangles: triangles.into(),
+            fringe: cells / 4,
+        },
+    )
 }
 
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.
@@ -158,6 +182,8 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
+    /// With conservative coverage: per cell 4, per triangle beside its centre 8.
+    pub fringe: u64,
     /// Header, 4 per triangle of the near list, 8 per long list, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles
     /// for their marks.
     pub rest: u64,
@@ -166,7 +192,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.plane + self.pyramid + self.fragments + self.rest
+        self.cells + self.plane + self.pyramid + self.fragments + self.fringe + self.rest
     }
 }
 
@@ -211,7 +237,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        rest: 196
+        fringe: if config.coverage == Coverage::Conservative { 4 * cells + 8 * demand.fringe } else { 0 },
+        rest: 204
             + 4 * demand.near_triangles
             + 8 * demand.long_lists
             + 4 * sums
@@ -223,7 +250,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 mod tests {
     use super::*;
 
-    const DEMAND: Demand = Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0 };
+    const DEMAND: Demand =
+        Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0, fringe: 77 };
 
     #[test]
     fn plan_equals_formula() {
@@ -239,6 +267,8 @@ mod tests {
             ] {
                 let page = if inline { 8 } else { 2 };
                 let views = Views::ALL[buckets as usize % 3];
+                let kept = accept == Accept::Plane && march == March::Pyramid;
+                let coverage = if kept { Coverage::Conservative } else { Coverage::Exact };
                 let config = Config {
                     storage,
                     inline,
@@ -248,6 +278,7 @@ mod tests {
                     payload,
                     march,
                     views,
+                    coverage,
                     camera_resolution: 24,
                     ..Config::robust(64)
                 };
@@ -255,6 +286,8 @@ mod tests {
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
                 let more = Demand { nodes: DEMAND.nodes + 1, ..DEMAND };
                 assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
+                let beside = Demand { fringe: DEMAND.fringe + 1, ..DEMAND };
+                assert_eq!(kept, bytes != formula_bytes(&config, beside).total(), "{config:?}");
                 let marked = Demand { triangles: 33, ..DEMAND };
                 let bytes = plan(&config, marked).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, marked).total(), "{config:?}");

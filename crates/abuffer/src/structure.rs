@@ -6,10 +6,12 @@ use rasray_ads::{
     TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
+use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 
 use crate::build::Build;
-use crate::layout::{Demand, bounds_and_blocks, first_plan, formula_bytes, plan};
+use crate::layout::{
+    Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, plan, scratch_words,
+};
 use crate::{Accept, Config, Contents, Header, Storage};
 
 /// A multiview, multilayer A-buffer.
@@ -112,7 +114,7 @@ impl ABuffer {
         Ok(Header {
             capacity: self.pools.sizes().elements("nodes") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
-            long_capacity: self.pools.sizes().elements("long") as u32,
+            long_capacity: long_capacity(config, self.pools.sizes()) as u32,
             resolution: self.config.resolution,
             samples: self.config.samples,
             thickness: self.config.thickness,
@@ -131,8 +133,9 @@ impl ABuffer {
             nodes_address: self.pools.address_of("nodes"),
             data_address: self.pools.address_of("data"),
             near_address: self.pools.address_of("near"),
-            sums_address: self.pools.address_of("sums"),
-            long_address: self.pools.address_of("long"),
+            scratch_address: self.pools.address_of("scratch"),
+            fringe_capacity: self.pools.sizes().elements("fringe") as u32,
+            fringe_address: self.pools.address_of("fringe"),
             ..Header::default()
         })
     }
@@ -164,8 +167,8 @@ impl ABuffer {
             nodes: words("nodes")?,
             data: words("data")?,
             near: words("near")?,
-            sums: words("sums")?,
-            long: words("long")?,
+            scratch: words("scratch")?,
+            fringe: words("fringe")?,
         })
     }
 
@@ -181,8 +184,8 @@ impl ABuffer {
         device.upload_slice(self.pools.pool("nodes"), 0, &contents.nodes)?;
         device.upload_slice(self.pools.pool("data"), 0, &contents.data)?;
         device.upload_slice(self.pools.pool("near"), 0, &contents.near)?;
-        device.upload_slice(self.pools.pool("sums"), 0, &contents.sums)?;
-        device.upload_slice(self.pools.pool("long"), 0, &contents.long)
+        device.upload_slice(self.pools.pool("scratch"), 0, &contents.scratch)?;
+        device.upload_slice(self.pools.pool("fringe"), 0, &contents.fringe)
     }
 }
 
@@ -239,6 +242,11 @@ impl Structure for ABuffer {
                     demand: header.long_demand.into(),
                     capacity: header.long_capacity.into(),
                 },
+                PoolStatus {
+                    name: "fringe",
+                    demand: header.fringe_demand.into(),
+                    capacity: header.fringe_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -257,13 +265,23 @@ impl Structure for ABuffer {
             nodes += nodes / 64;
         }
         let triangles = u64::from(self.geometry.triangle_count()).max(32 * self.mark_words());
-        let demand = Demand { nodes, near_triangles: grown("near"), long_lists: grown("long"), triangles };
+        let demand = Demand {
+            nodes,
+            near_triangles: grown("near"),
+            long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
+            triangles,
+            fringe: grown("fringe"),
+        };
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
-        16
+        // One cell may hold all of the fringe: a small object in a large world.
+        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let room = self.pools.sizes().elements("fringe") as u32;
+        // Before the first build the header may hold anything.
+        16 + self.header().map_or(0, |header| header.fringe_demand.min(room)).div_ceil(budget)
     }
 
     fn record_trace(
@@ -297,11 +315,13 @@ impl Structure for ABuffer {
             near_triangles: header.near_demand.into(),
             long_lists: header.long_demand.into(),
             triangles: self.geometry.triangle_count().into(),
+            fringe: header.fringe_demand.into(),
         };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "nodes" | "data" => demand.nodes,
             "near" => demand.near_triangles,
-            "long" => demand.long_lists,
+            "scratch" => scratch_words(&self.config, demand.long_lists),
+            "fringe" => demand.fringe,
             "bounds" => bounds_and_blocks(&self.config) + demand.triangles.div_ceil(32),
             _ => pool.elements,
         });
@@ -310,10 +330,13 @@ impl Structure for ABuffer {
             paths: self.config.paths(),
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, demand).total(),
-            stored: Some(match self.config.storage {
-                Storage::Paged => header.fragments.into(),
-                _ => demand.nodes,
-            }),
+            stored: Some(
+                demand.fringe
+                    + match self.config.storage {
+                        Storage::Paged => header.fragments.into(),
+                        _ => demand.nodes,
+                    },
+            ),
             lost: Some(header.lost.into()),
         })
     }

@@ -22,10 +22,10 @@ pub struct Contents {
     pub data: Vec<u32>,
     /// Triangles of the near box.
     pub near: Vec<u32>,
-    /// What the scan of contiguous lists left behind.
-    pub sums: Vec<u32>,
-    /// Lists that one dispatch does not sort, and how far each is.
-    pub long: Vec<u32>,
+    /// What the scan of contiguous lists left behind, and the lists that one dispatch does not sort with how far each is.
+    pub scratch: Vec<u32>,
+    /// Triangle and next link of each node of the fringe.
+    pub fringe: Vec<u32>,
 }
 
 impl Contents {
@@ -81,6 +81,28 @@ impl Contents {
         &self.node(link)[1 + inline..]
     }
 
+    /// The triangles of a cell's fringe, as far as they were stored.
+    ///
+    /// # Errors
+    /// A link names no node, or leads in a circle.
+    pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
+        let mut found = Vec::new();
+        if !self.config.has_fringe() {
+            return Ok(found);
+        }
+        let stored = self.header.fringe_demand.min(self.header.fringe_capacity) as usize;
+        let mut link = self.bounds[(cell + 1) * bounds_words(&self.config) as usize - 1];
+        while link != 0 {
+            let node = 2 * (link as usize - 1);
+            if link as usize > stored || found.len() >= stored {
+                return Err(Fault::Fringe { cell, link });
+            }
+            found.push(self.fringe[node]);
+            link = self.fringe[node + 1];
+        }
+        Ok(found)
+    }
+
     fn head(&self, list: usize) -> u32 {
         if self.config.storage.is_doubly_linked() { self.lists[2 * list] } else { self.lists[list] }
     }
@@ -97,6 +119,14 @@ pub enum Fault {
         cell: usize,
         /// Bucket.
         bucket: usize,
+        /// The link.
+        link: u32,
+    },
+    /// A link of the fringe names no node, or leads in a circle.
+    #[error("cell {cell}: link {link} of the fringe names no node, or leads in a circle")]
+    Fringe {
+        /// Cell.
+        cell: usize,
         /// The link.
         link: u32,
     },
@@ -195,7 +225,8 @@ pub enum Fault {
 }
 
 /// Checks that every allocated node is in exactly one list, that links agree in both directions, that
-/// depths lie within bounds and that lists are sorted where they should be.
+/// depths lie within bounds, that lists are sorted where they should be, and that every node of the fringe is in
+/// exactly one.
 ///
 /// # Errors
 /// The first fault found.
@@ -207,7 +238,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let sorted = config.sort && contents.header.unsorted == 0 && contents.complete();
     let mut named = vec![false; stored];
     let mut pages = vec![false; stored / contents.slots()];
-    let mut linked = 0;
+    let (mut linked, mut beside) = (0, 0);
     let mut place = 0;
     for cell in 0..cell_count(config) as usize {
         for bucket in 0..buckets {
@@ -237,6 +268,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
             }
             linked += links.len();
         }
+        beside += contents.fringe_of(cell)?.len();
     }
     // What lies in pages beyond the capacity cannot be counted.
     let expected = match config.storage {
@@ -244,7 +276,11 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
         Storage::Paged => linked,
         _ => stored,
     };
-    if linked == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked }) }
+    if linked != expected {
+        return Err(Fault::Count { stored: expected, linked });
+    }
+    let expected = contents.header.fringe_demand.min(contents.header.fringe_capacity) as usize;
+    if beside == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked: beside }) }
 }
 
 /// The links of a paged list, as far as its pages were stored.

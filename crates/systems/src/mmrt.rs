@@ -85,8 +85,11 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                 ])?;
             }
             "coverage" => {
-                config.coverage =
-                    given.choice(&[("exact", Coverage::Exact), ("hardware", Coverage::Hardware)])?;
+                config.coverage = given.choice(&[
+                    ("exact", Coverage::Exact),
+                    ("hardware", Coverage::Hardware),
+                    ("conservative", Coverage::Conservative),
+                ])?;
             }
             "addressing" => {
                 config.addressing = given

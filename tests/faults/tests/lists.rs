@@ -6,7 +6,7 @@
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Storage, well_formed};
+use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage, well_formed};
 use rasray_ads::{Hit, TraceMode};
 use rasray_faults::{device, finish, rays, stage};
 use rasray_gpu::Timing;
@@ -155,6 +155,36 @@ const DAMAGES: [Damage; 10] = [
     ),
 ];
 
+/// Changes the link of every node of the fringe; `change` is given the node's own link.
+fn each_fringe_node(contents: &mut Contents, change: impl Fn(u32) -> u32) {
+    let count = contents.header.fringe_demand as usize;
+    for (index, node) in contents.fringe.chunks_exact_mut(2).take(count).enumerate() {
+        node[1] = change(index as u32 + 1);
+    }
+}
+
+/// Damage to what cells keep beside their centres.
+const DAMAGES_OF_FRINGES: [Damage; 4] = [
+    ("every node of a fringe is its own neighbour", |c| each_fringe_node(c, |own| own), Flag::Unfinished),
+    (
+        "links of fringes just past the end",
+        |c| {
+            let past = c.header.fringe_demand + 1;
+            each_fringe_node(c, |_| past);
+        },
+        Flag::Corrupted,
+    ),
+    ("links of fringes far past the end", |c| each_fringe_node(c, |_| u32::MAX), Flag::Corrupted),
+    (
+        "fringes at random",
+        |c| {
+            let mut next = scrambled(0x1234_5677);
+            c.fringe.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+];
+
 /// Damage to any storage.
 const DAMAGES_OF_ANY: [Damage; 3] = [
     (
@@ -252,6 +282,16 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
                 println!("{}, inline: {inline}", storage.name());
                 check(Config { storage, inline, ..Config::robust(32) }, &DAMAGES_OF_ANY);
             }
+        }
+    }
+}
+
+#[test]
+fn damaged_fringes_are_survived_and_told() {
+    if in_child("damaged_fringes_are_survived_and_told") {
+        let config = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            check(Config { addressing, ..config }, &DAMAGES_OF_FRINGES);
         }
     }
 }

@@ -67,6 +67,9 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
+/// The same, with triangles kept beside centres.
+pub(super) const CONSERVATIVE_64: &[Deviation] = &[];
+
 /// Planes in 64 x 64 cells of what a camera sees that looks away from the axes.
 pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),

@@ -78,6 +78,15 @@ pub(super) const ROWS: &[Row] = &[
         robust_law(64),
         deviations::CAMERA_64,
     ),
+    // With what reaches into cells beside their centres.
+    mmrt(
+        "mmrt-conservative-64",
+        Preset::Robust,
+        &[("resolution", "64"), ("coverage", "conservative")],
+        Cases::Shallow,
+        robust_law(64),
+        deviations::CONSERVATIVE_64,
+    ),
     // Triangle ids instead of attributes, which need a scene.
     mmrt(
         "mmrt-published-16",

@@ -15,6 +15,8 @@ fn records_of_the_abuffer() {
         &shaders::ABUFFER_BUILD_5_SCAN_SUMS,
         &shaders::ABUFFER_BUILD_5_SCAN_PLACES,
         &shaders::ABUFFER_BUILD_6_STORE,
+        &shaders::ABUFFER_BUILD_RASTER_FRINGE,
+        &shaders::ABUFFER_BUILD_7_FRINGE,
         &shaders::ABUFFER_BUILD_7_LOST,
         &shaders::ABUFFER_BUILD_7_PYRAMID,
         &shaders::ABUFFER_BUILD_7_REORDER,
@@ -25,7 +27,8 @@ fn records_of_the_abuffer() {
     check_layout!(modules, Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
         thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_resolution,
-        camera_x, camera_y, camera_z, lost, triangles,
-        bounds_address, lists_address, nodes_address, data_address, near_address, sums_address, long_address,
+        camera_x, camera_y, camera_z, lost, triangles, fringe_demand, fringe_capacity,
+        bounds_address, lists_address, nodes_address, data_address, near_address, scratch_address,
+        fringe_address,
     });
 }
