@@ -79,14 +79,22 @@ pub(super) const ROWS: &[Row] = &[
         deviations::CAMERA_64,
     ),
     // With what reaches into cells beside their centres.
-    mmrt(
-        "mmrt-conservative-64",
-        Preset::Robust,
-        &[("resolution", "64"), ("coverage", "conservative")],
-        Cases::Shallow,
-        robust_law(64),
-        deviations::CONSERVATIVE_64,
-    ),
+    Row {
+        tier: Tier::Full,
+        ..mmrt(
+            "mmrt-conservative-64",
+            Preset::Robust,
+            &[("resolution", "64"), ("coverage", "conservative")],
+            Cases::Shallow,
+            Demand::Law {
+                resolution: 64,
+                per_cell: 0.64,
+                depth_tolerance: 1e-3,
+                laws: deviations::CONSERVATIVE_LAWS,
+            },
+            &[],
+        )
+    },
     // Triangle ids instead of attributes, which need a scene.
     mmrt(
         "mmrt-published-16",
