@@ -23,6 +23,9 @@
 // Bricks that one step over empty ones crosses at most, its own included.
 #define BRICK_REACH 8u
 
+// Pages that the word of a list can name beside how many of their slots are used.
+#define PAGE_LIMIT 0x0FFFFFFEu
+
 // Threads in a workgroup of the pass that builds a pyramid.
 #define PYRAMID_THREADS 64u
 
