@@ -206,10 +206,7 @@ impl Structure for Voxels {
             // How many pages are begun depends a little on which threads meet.
             entries += entries / 64;
         }
-        let demand = Demand {
-            entries,
-            long_lists: demand("long").max(long_capacity(&self.config, sizes)),
-        };
+        let demand = Demand { entries, long_lists: demand("long").max(long_capacity(&self.config, sizes)) };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
