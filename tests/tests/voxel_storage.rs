@@ -260,7 +260,7 @@ fn budgets_change_no_hit() {
         let expected = bench.trace(&whole, &rays).hits;
         let occluded = bench.occluded(&whole, &rays);
         assert!(occluded.iter().filter(|hit| **hit).count() > rays.len() / 2);
-        for budget in [1, 2, 3, 7, 40] {
+        for budget in [1, 3, 40] {
             let structure = built(&bench, Config { work_budget: Some(budget), ..config }, &triangles);
             assert_eq!(bits(&bench.trace(&structure, &rays).hits), bits(&expected), "{budget}: {config:?}");
             assert_eq!(bench.occluded(&structure, &rays), occluded, "{budget}: {config:?}");
