@@ -1,4 +1,4 @@
-// What: the pages of an A-buffer: taking a slot for a fragment, and going from page to page.
+// What: the pages of an A-buffer: where they are, and taking a slot for a fragment.
 // Reads, writes: lists, nodes, header.demand, header.fragments.
 // Source: not in the paper; see ads/pages.glsl.
 #ifndef ABUFFER_LIST_PAGES_GLSL
@@ -31,6 +31,10 @@ void page_set_next(AbufferRef s, uint page, uint word) {
     }
 }
 
+uint page_next(AbufferRef s, uint page) {
+    return ABUFFER_NODES(s)[page * abuffer_page_stride()];
+}
+
 #include "ads/pages.glsl"
 
 // Takes a slot for a fragment of a list; 0 where its page does not exist.
@@ -38,16 +42,6 @@ uint abuffer_page_allocate(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_HEADER(s).fragments, 1u);
     uint slot = page_take_slot(s, list);
     return slot / ABUFFER_PAGE < ABUFFER_HEADER(s).capacity ? slot + 1u : 0u;
-}
-
-// Link of the first node of the page that a word leads to; 0 at the end.
-uint abuffer_page_link(uint word) {
-    return word >> 4 == 0u ? 0u : page_first_slot(word) + 1u;
-}
-
-// Link of the first node of the page behind that of a node.
-uint abuffer_page_next(AbufferRef s, uint link) {
-    return abuffer_page_link(ABUFFER_NODES(s)[(link - 1u) / ABUFFER_PAGE * abuffer_page_stride()]);
 }
 
 #endif

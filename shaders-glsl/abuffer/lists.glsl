@@ -110,7 +110,7 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
         return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
     }
     if (abuffer_paged()) {
-        return AbufferCursor(abuffer_page_link(ABUFFER_LISTS(s)[list]), 0u, false);
+        return AbufferCursor(page_link(ABUFFER_LISTS(s)[list]), 0u, false);
     }
     uint word = abuffer_head_word(list);
     return AbufferCursor(ABUFFER_LISTS(s)[backward ? word + 1u : word], 0u, backward);
@@ -144,7 +144,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     if (abuffer_contiguous()) {
         cursor.link = link == cursor.last ? 0u : (cursor.backward ? link - 1u : link + 1u);
     } else if (abuffer_paged()) {
-        cursor.link = link % ABUFFER_PAGE == 0u ? abuffer_page_next(s, link) : link + 1u;
+        cursor.link = page_link_behind(s, link);
     } else {
         cursor.link = cursor.backward ? abuffer_prev(s, link) : abuffer_next(s, link);
     }
@@ -153,7 +153,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
 
 // Passes over what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
-    cursor.link = abuffer_paged() ? abuffer_page_next(s, link) : 0u;
+    cursor.link = abuffer_paged() ? page_link_of_next(s, link) : 0u;
 }
 
 #endif

@@ -31,6 +31,9 @@
 // in widths of a cell or, where that is smaller, of the triangle.
 #define FRINGE_DEPTH 0.25
 
+// Pages that the word of a list can name beside how many of their slots are used.
+#define PAGE_LIMIT 0x0FFFFFFEu
+
 // Threads in a workgroup of the pass that builds a pyramid.
 #define PYRAMID_THREADS 64u
 

@@ -46,6 +46,10 @@ void page_set_next(uint s, uint page, uint word) {
     }
 }
 
+uint page_next(uint s, uint page) {
+    return words[page_word(page)];
+}
+
 #include "ads/pages.glsl"
 
 void main() {

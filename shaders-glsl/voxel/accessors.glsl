@@ -1,8 +1,8 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
 // Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
-// A list is a cell of a view. Once all is stored its word holds where its fragments end; they begin with the page
-// after the end of the list before it.
+// A list is a cell of a view: its word is that of voxel/lists.glsl. A place is the number of a fragment, of pages that of a
+// slot.
 #ifndef VOXEL_ACCESSORS_GLSL
 #define VOXEL_ACCESSORS_GLSL
 
@@ -98,14 +98,19 @@ uint voxel_list_count(VoxelRef s) {
     return AXIS_VIEWS * resolution * resolution;
 }
 
-// A length rounded up to whole pages.
-uint voxel_paged(uint length) {
-    return (length + VOXEL_PAGE - 1u) / VOXEL_PAGE * VOXEL_PAGE;
+// Fragments of a list one behind the other, without links.
+bool voxel_contiguous() {
+    return VOXEL_STORAGE == VOXEL_STORAGE_CONTIGUOUS;
 }
 
-// Adds one to the length of a list.
-void voxel_list_count_one(VoxelRef s, uint list) {
-    atomicAdd(VOXEL_LISTS(s)[list], 1u);
+// Fragments in pages that are linked.
+bool voxel_paged() {
+    return VOXEL_STORAGE == VOXEL_STORAGE_PAGED;
+}
+
+// Places that the build has filled, or may have where they are slots of pages.
+uint voxel_stored(VoxelRef s) {
+    return min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand) * (voxel_paged() ? VOXEL_PAGE : 1u);
 }
 
 // Words of a fragment: its depth, a word of payload, and with attributes colour and normal.
@@ -113,12 +118,25 @@ uint voxel_stride() {
     return VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u;
 }
 
+// Words of a page: the word that leads to the next one, and fragments.
+uint voxel_page_stride() {
+    return 1u + VOXEL_PAGE * voxel_stride();
+}
+
+// The first word of a fragment. A linked one has its link behind the others.
+uint voxel_first_word(uint place) {
+    if (voxel_paged()) {
+        return place / VOXEL_PAGE * voxel_page_stride() + 1u + place % VOXEL_PAGE * voxel_stride();
+    }
+    return place * (voxel_contiguous() ? voxel_stride() : voxel_stride() + 1u);
+}
+
 uint voxel_word(VoxelRef s, uint place, uint word) {
-    return VOXEL_FRAGMENTS(s)[voxel_stride() * place + word];
+    return VOXEL_FRAGMENTS(s)[voxel_first_word(place) + word];
 }
 
 void voxel_set_word(VoxelRef s, uint place, uint word, uint value) {
-    VOXEL_FRAGMENTS(s)[voxel_stride() * place + word] = value;
+    VOXEL_FRAGMENTS(s)[voxel_first_word(place) + word] = value;
 }
 
 // Depth at the cell's centre, metres from the lower side of the cube.
@@ -156,29 +174,6 @@ void voxel_swap(VoxelRef s, uint left, uint right) {
         voxel_swap_word(s, left, right, 2u);
         voxel_swap_word(s, left, right, 3u);
     }
-}
-
-// Puts a triangle into a list, whose word holds where the next one goes. What has no room has been counted.
-void voxel_list_store(VoxelRef s, uint list, float z, uint primitive) {
-    uint place = atomicAdd(VOXEL_LISTS(s)[list], 1u);
-    if (place < VOXEL_HEADER(s).capacity) {
-        voxel_set_word(s, place, 0u, floatBitsToUint(z));
-        voxel_set_word(s, place, 1u, primitive);
-    }
-}
-
-// Where the fragments of a list begin and end. A list that leaves the pool is counted and answered as empty.
-uvec2 voxel_list(VoxelRef s, uint list) {
-    if (list >= voxel_list_count(s)) {
-        return uvec2(0u);
-    }
-    uint begin = list == 0u ? 0u : voxel_paged(VOXEL_LISTS(s)[list - 1u]);
-    uint end = VOXEL_LISTS(s)[list];
-    if (begin > end || end > min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand)) {
-        atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
-        return uvec2(0u);
-    }
-    return uvec2(begin, end);
 }
 
 #endif

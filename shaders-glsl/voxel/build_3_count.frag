@@ -1,4 +1,4 @@
-// What: the length of the list of each cell; where views keep everything, also the normals of voxels.
+// What: the length of the list of each cell, contiguous storage only; where views keep everything, also the normals of voxels.
 // Reads: geometry, header, voxels (one axis a voxel). Writes: lists; voxels and normals.
 // Source: Hu et al. section 3.1, the one geometry pass; counted first, so that lists can be stored one behind the other.
 #version 460
@@ -17,12 +17,7 @@ void main() {
         return;
     }
     if (VOXEL_AXES == VOXEL_AXES_ALL) {
-        vec3 a;
-        vec3 b;
-        vec3 c;
-        geometry_vertices(primitive, a, b, c);
-        voxel_mark(voxel_built, found.voxel, VOXEL_OCCUPIED);
-        voxel_add_normal(voxel_built, found.voxel, voxel_unit_normal(a, b, c));
+        voxel_fill(primitive, found);
     } else if (!voxel_keeps(voxel_built, found.voxel, axis)) {
         return;
     }

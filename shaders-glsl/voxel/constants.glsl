@@ -24,6 +24,12 @@
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
 
+// How the fragments of a cell are kept: one behind the other, after they were counted; linked to one another; or in linked
+// pages of several.
+#define VOXEL_STORAGE_CONTIGUOUS 0u
+#define VOXEL_STORAGE_LINKED 1u
+#define VOXEL_STORAGE_PAGED 2u
+
 // Which cells a triangle is kept in: those whose centre the rasterizer, or the shared function, says it covers; or all that
 // it reaches into, and then hits are those of triangles alone.
 #define VOXEL_COVERAGE_HARDWARE 0u
@@ -43,17 +49,17 @@
 // Unit normals are added up as whole numbers of this many steps.
 #define VOXEL_NORMAL_STEPS 127.0
 
-// Longest list that a parity takes where it is not sorted: it reads all of it for every point, without a pause.
-#define VOXEL_PARITY_LIMIT 2048u
-
 // Lists longer than this are entered by bisection where they are sorted.
 #define VOXEL_BISECT_FROM 8u
 
-// Halvings by which the place of a hit is refined between two points of a ray.
+// Halvings by which the place of a hit is refined between two points of a ray; 8 at most, whose outcomes a paused ray keeps.
 #define VOXEL_REFINEMENTS 8u
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell.
 #define VOXEL_PLANE_REACH 2.0
+
+// Fragments of a list that one invocation counts: drivers may end all loops after 65,535 iterations.
+#define VOXEL_LONGEST_LIMIT 60000u
 
 // Threads in a workgroup of the build's compute passes.
 #define VOXEL_GROUP_SIZE 64u

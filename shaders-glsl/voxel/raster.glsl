@@ -1,12 +1,12 @@
 // What: the fragment's side of the draws of the axis A-buffers: triangles pulled from the geometry, one instance a view,
 // or one in all where a triangle is drawn only into the view that it faces most.
-// Reads: geometry, header. Writes: nothing.
+// Reads: geometry, header. Writes: voxels, normals.
 // Without attachments no layers are needed: the view travels as a varying.
 #ifndef VOXEL_RASTER_GLSL
 #define VOXEL_RASTER_GLSL
 
 #include "ads/geometry.glsl"
-#include "voxel/accessors.glsl"
+#include "voxel/lists.glsl"
 
 layout(push_constant, scalar) uniform VoxelBuildConstants {
     VoxelRef voxel_built;
@@ -83,6 +83,16 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
     ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(voxel_built).grid) - 1);
     found.voxel = voxel_index(voxel_built, axis_to_world(voxel, axis));
     return true;
+}
+
+// Marks the voxel that a fragment lies in, and adds the normal of its triangle.
+void voxel_fill(uint primitive, VoxelFound found) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    voxel_mark(voxel_built, found.voxel, VOXEL_OCCUPIED);
+    voxel_add_normal(voxel_built, found.voxel, voxel_unit_normal(a, b, c));
 }
 
 #endif

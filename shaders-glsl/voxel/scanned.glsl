@@ -1,4 +1,4 @@
-// What: the numbers that the scan of lists runs over: lengths become places, and their sum, in whole pages, the demand.
+// What: the numbers that the scan of lists runs over, contiguous storage only: lengths become places, and their sum the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef VOXEL_SCANNED_GLSL
 #define VOXEL_SCANNED_GLSL
@@ -11,9 +11,8 @@ uint scan_count(VoxelRef s, uint step) {
     return voxel_list_count(s);
 }
 
-// Places are whole pages already, so that rounding changes none of them.
 uint scan_number(VoxelRef s, uint step, uint i) {
-    return voxel_paged(VOXEL_LISTS(s)[i]);
+    return VOXEL_LISTS(s)[i];
 }
 
 void scan_set_number(VoxelRef s, uint step, uint i, uint number) {

@@ -33,7 +33,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     uint resolution = VOXEL_HEADER(s).resolution;
     float width = VOXEL_HEADER(s).cell;
     uint index = axis_cell_index(walk.axis, walk.cell.xy, resolution);
-    uvec2 list = voxel_list(s, index);
+    VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, index, walk.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
     // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises by a cell at
     // most from the centre to a corner. A cell more finds triangles that the ray meets in the next cell, whose centre
@@ -50,19 +50,25 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     float low = min(z_in, z_out) - slack;
     float high = max(z_in, z_out) + slack;
     PlaneCell plane_cell = PlaneCell(vec3(0.0), 0.0, width, VOXEL_PLANE_REACH, true);
-    uint place = walk.place;
     if (!walk.in_list) {
-        trace_log(STEP_LIST, index, list.x, list.y, low, high);
-        place = sorted && list.y - list.x > VOXEL_BISECT_FROM ? voxel_bisect(s, list, low, state, work) : list.x;
+        trace_log(STEP_LIST, index, max(cursor.link, 1u) - 1u, cursor.last, low, high);
+        if (sorted && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
+            uint first = voxel_bisect(s, uvec2(cursor.link - 1u, cursor.last), low, state, work);
+            cursor.link = first < cursor.last ? first + 1u : 0u;
+        }
     }
     walk.in_list = false;
-    for (; place < list.y; place++) {
+    while (cursor.link != 0u) {
         if (work >= WORK_BUDGET) {
-            walk.place = place;
+            walk.link = cursor.link;
             walk.in_list = true;
             return true;
         }
         work++;
+        uint place = voxel_list_next(s, cursor);
+        if (place == VOXEL_NO_PLACE) {
+            return false;
+        }
         state.entries++;
         float z = voxel_z(s, place);
         trace_log(STEP_ENTRY, place, 0u, 0u, z, z);

@@ -1,11 +1,11 @@
-// What: the elements of a list for the shared sort: fragments by depth, ties by triangle or by what else they carry.
+// What: the elements of a contiguous list for the shared sort: fragments by depth, ties by triangle or by what else they carry.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
 #ifndef VOXEL_SORT_GLSL
 #define VOXEL_SORT_GLSL
 
 #include "ads/constants.glsl"
-#include "voxel/accessors.glsl"
+#include "voxel/lists.glsl"
 
 #define SortRef VoxelRef
 

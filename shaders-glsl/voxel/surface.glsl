@@ -12,7 +12,7 @@
 // The surface of the fragment that a hit names. One that names none is counted.
 Surface voxel_stored_surface(VoxelRef s, Ray ray, Hit hit) {
     uint place = floatBitsToUint(hit.a);
-    if (place >= min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand)) {
+    if (place >= voxel_stored(s)) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
         return surface_miss(ray);
     }

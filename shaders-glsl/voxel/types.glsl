@@ -12,22 +12,24 @@ layout(constant_id = 70) const uint VOXEL_AXES = VOXEL_AXES_TRIANGLE;
 layout(constant_id = 71) const uint VOXEL_MARCH = VOXEL_MARCH_EXACT;
 layout(constant_id = 72) const uint VOXEL_ACCEPT = VOXEL_ACCEPT_PLANE;
 layout(constant_id = 73) const uint VOXEL_COVERAGE = VOXEL_COVERAGE_EXACT;
-layout(constant_id = 74) const uint VOXEL_PAGE = 1u;
+layout(constant_id = 74) const uint VOXEL_PAGE = 4u;
 layout(constant_id = 75) const uint VOXEL_SORT = 1u;
 layout(constant_id = 76) const uint VOXEL_PAYLOAD = VOXEL_PAYLOAD_INDEX;
+layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
 
-// State and sizes of one value. 112 bytes.
+// State and sizes of one value. 116 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // entries of all pages, also those beyond the capacity
-    uint capacity;        // entries the pool holds
-    uint fragments;       // fragments met by the build, without what is left of their pages
-    uint unsorted;        // lists longer than the sort passes sort, or than parities may take unsorted
+    uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
+    uint capacity;        // fragments or pages the pool holds
+    uint fragments;       // fragments met by the build
+    uint unsorted;        // lists longer than the sort passes sort
     uint long_demand;     // lists too long for one dispatch of the sort
     uint long_capacity;
-    uint corrupted;       // lists that reached beyond the pool
+    uint corrupted;       // lists that reached beyond the pool or came back to themselves
     uint resolution;      // cells a side of a view
     uint grid;            // voxels a side
+    uint longest;         // fragments of the longest list where lists are not sorted; all bits where that is not known
     uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
     float cell;           // metres: side of a cell
     float voxel;          // metres: side of a voxel

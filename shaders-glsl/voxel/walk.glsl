@@ -1,22 +1,24 @@
 // What: a ray's way through the voxels, and through the cells of a view within a voxel, able to stop and go on.
 // Reads: header. Writes: nothing.
 // Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells (ads/march_grid.glsl).
-// cursor: 0 flags and small numbers, 1 voxel, 2 its entry, 3 its neighbours, 4 cell, 5 its entry, 6 place in what is being
-// searched.
+// cursor: 0 flags and small numbers, 1 voxel, 2 its entry, 3 its neighbours, 4 cell and step, 5 its entry, 6 place in the list
+// that is being read, 7 a fragment of it.
 #ifndef VOXEL_WALK_GLSL
 #define VOXEL_WALK_GLSL
 
 #include "contract/trace_state.glsl"
 #include "ads/march_grid.glsl"
-#include "voxel/accessors.glsl"
+#include "voxel/lists.glsl"
 
 #define VOXEL_CURSOR_STARTED 1u
 // The walk through the cells of a view has begun.
 #define VOXEL_CURSOR_SEARCHING 2u
-// The search of the cell has begun: it stands at `place`.
+// The list of the cell has been begun: it stands at `link`.
 #define VOXEL_CURSOR_IN_LIST 4u
 // The point before the next step lies inside (parity).
 #define VOXEL_CURSOR_INSIDE 8u
+// An odd number of fragments has been counted (parity).
+#define VOXEL_CURSOR_ODD 0x20000u
 
 struct VoxelWalk {
     vec3 origin;          // metres from the lower corner of the cube
@@ -28,8 +30,14 @@ struct VoxelWalk {
     ivec3 cell;
     bool searching;
     bool in_list;
-    bool inside;
-    uint place;           // the next fragment, or the next step
+    uint link;            // the next fragment
+    // Parity only (voxel/parity.glsl).
+    bool inside;          // of the point before the step
+    uint stage;           // what is being done: VOXEL_STAGE_*
+    uint step;
+    uint halvings;        // a one, and behind it a bit a halving: whether its middle took the place of the far point
+    bool odd;             // fragments before the point, so far
+    uint held;            // the fragment nearest to the point, so far
 };
 
 // Starts the walk through the voxels; false where the ray does not meet them.
@@ -42,8 +50,13 @@ bool voxel_begin(VoxelRef s, Ray ray, out VoxelWalk walk) {
     walk.axis = 0u;
     walk.searching = false;
     walk.in_list = false;
+    walk.link = 0u;
     walk.inside = false;
-    walk.place = 0u;
+    walk.stage = 0u;
+    walk.step = 0u;
+    walk.halvings = 1u;
+    walk.odd = false;
+    walk.held = VOXEL_NO_PLACE;
     bool meets = grid_begin(origin * scale, ray.direction * scale, ivec3(VOXEL_HEADER(s).grid), ray.t_min, ray.t_max, walk.voxels);
     walk.voxel = walk.voxels.cell;
     return meets;
@@ -105,13 +118,19 @@ void voxel_save(VoxelWalk walk, inout TraceState state) {
     state.cursor[1] = uint(walk.voxels.cell.x) | uint(walk.voxels.cell.y) << 10 | uint(walk.voxels.cell.z) << 20;
     state.cursor[2] = floatBitsToUint(walk.voxels.t_in);
     state.cursor[3] = walk.voxels.neighbours;
-    state.cursor[6] = walk.place;
+    state.cursor[6] = walk.link;
+    state.cursor[7] = walk.held;
     if (walk.searching) {
-        // Of the cells around a cell of a view only the nine at its depth exist.
-        state.cursor[0] |= uint(walk.cells.entry_axis + 1) << 13 | voxel_beside(walk.cell, walk.cells.cell) << 15
-            | (walk.cells.neighbours >> 9 & 511u) << 20;
-        state.cursor[4] = uint(walk.cells.cell.x) | uint(walk.cells.cell.y) << 16;
+        state.cursor[0] |= uint(walk.cells.entry_axis + 1) << 13;
+        state.cursor[4] = uint(walk.cells.cell.x) | uint(walk.cells.cell.y) << 13 | walk.step << 26;
         state.cursor[5] = floatBitsToUint(walk.cells.t_in);
+        if (VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY) {
+            // Cells beside those that the ray crosses are left out.
+            state.cursor[0] |= walk.stage << 15 | (walk.odd ? VOXEL_CURSOR_ODD : 0u) | walk.halvings << 18;
+        } else {
+            // Of the cells around a cell of a view only the nine at its depth exist.
+            state.cursor[0] |= voxel_beside(walk.cell, walk.cells.cell) << 15 | (walk.cells.neighbours >> 9 & 511u) << 20;
+        }
     }
 }
 
@@ -126,15 +145,26 @@ void voxel_restore(TraceState state, inout VoxelWalk walk) {
     walk.searching = (flags & VOXEL_CURSOR_SEARCHING) != 0u;
     walk.in_list = (flags & VOXEL_CURSOR_IN_LIST) != 0u;
     walk.inside = (flags & VOXEL_CURSOR_INSIDE) != 0u;
-    walk.place = state.cursor[6];
+    walk.link = state.cursor[6];
+    walk.held = state.cursor[7];
 }
 
 // The same for the walk through the cells of a view.
 void voxel_restore_cells(TraceState state, inout VoxelWalk walk) {
     uint flags = state.cursor[0];
-    grid_resume(walk.cells, ivec3(state.cursor[4] & 0xFFFFu, state.cursor[4] >> 16, 0), uintBitsToFloat(state.cursor[5]),
-        int(flags >> 13 & 3u) - 1, (flags >> 20 & 511u) << 9);
-    walk.cell = voxel_from_beside(flags >> 15 & 31u, walk.cells.cell);
+    uint cell = state.cursor[4];
+    bool parity = VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY;
+    grid_resume(walk.cells, ivec3(cell & 8191u, cell >> 13 & 8191u, 0), uintBitsToFloat(state.cursor[5]),
+        int(flags >> 13 & 3u) - 1, parity ? 0u : (flags >> 20 & 511u) << 9);
+    walk.cell = walk.cells.cell;
+    if (parity) {
+        walk.stage = flags >> 15 & 3u;
+        walk.odd = (flags & VOXEL_CURSOR_ODD) != 0u;
+        walk.halvings = flags >> 18 & 511u;
+        walk.step = cell >> 26;
+    } else {
+        walk.cell = voxel_from_beside(flags >> 15 & 31u, walk.cells.cell);
+    }
 }
 
 #endif

@@ -156,6 +156,12 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     (hit.t.to_bits(), surface.primitive, met)
                 };
                 assert!(stored.iter().map(key).eq(by_address.iter().map(key)), "{system} by address");
+                // However lists are kept: fragments without ids are told apart by their words.
+                for storage in if system == "ldc" { &[][..] } else { &["sb", "ll", "paged"] } {
+                    let options = [("resolution", resolution), ("storage", storage)];
+                    let kept = surfaces(&bench, made(&bench, &scene, system, &options).as_ref(), &rays);
+                    assert!(stored.iter().map(key).eq(kept.iter().map(key)), "{system} with {storage}");
+                }
             }
             let (mut met, mut turned, mut other) = (0, 0.0_f32, 0);
             for (ray, ((hit, expected), (stored_hit, surface))) in named.iter().zip(&stored).enumerate() {

@@ -105,6 +105,27 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
                 ..VoxelConfig::published_hu(RESOLUTION)
             },
         ),
+        voxels(
+            bench,
+            geometry,
+            VoxelConfig {
+                counters,
+                work_budget,
+                march: rasray_voxel::March::Exact,
+                payload: rasray_voxel::Payload::Index,
+                ..VoxelConfig::published_selective(RESOLUTION)
+            },
+        ),
+        voxels(
+            bench,
+            geometry,
+            VoxelConfig {
+                counters,
+                work_budget,
+                storage: rasray_voxel::Storage::Linked,
+                ..VoxelConfig::robust(RESOLUTION)
+            },
+        ),
         cube(
             bench,
             geometry,

@@ -8,8 +8,8 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
 use rasray_voxel::{
-    Accept, Addressing, Config, Contents, Demand, Fault, Payload, Storage, Voxels, formula_bytes, plan,
-    well_formed,
+    Accept, Addressing, Axes, Config, Contents, Coverage, Demand, Fault, March, Payload, Storage, Voxels,
+    formula_bytes, plan, well_formed,
 };
 
 /// Layers, and a room around them.
@@ -59,7 +59,7 @@ fn every_edge_capacity(config: Config) {
     let status = bench.build_once(&mut structure, [0.0; 3]);
     assert!(status.complete, "{status:?}");
     let demand = status.pools[0].demand;
-    assert!(demand > 1000, "{status:?}");
+    assert!(demand > 500, "{status:?}");
     let contents = structure.download(bench.device()).expect("the device works");
     well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
     let expected = trace(&bench, &structure, &rays);
@@ -81,7 +81,9 @@ fn every_edge_capacity(config: Config) {
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {entries}");
         }
         let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {entries} does not grow") };
-        assert_eq!(sizes.elements("fragments"), demand);
+        // Pages come with a little more room: how many are begun depends on which threads meet.
+        let extra = if config.storage == Storage::Paged { demand / 64 } else { 0 };
+        assert_eq!(sizes.elements("fragments"), demand + extra);
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(
             bench.build_once(&mut structure, [0.0; 3]).complete,
@@ -104,14 +106,30 @@ fn every_edge_capacity_of_all_views() {
 }
 
 #[test]
-fn every_edge_capacity_of_pages() {
+fn every_edge_capacity_of_one_view_a_voxel() {
     every_edge_capacity(selective(32));
 }
 
 #[test]
+fn every_edge_capacity_of_every_storage() {
+    for storage in Storage::ALL {
+        every_edge_capacity(Config { storage, ..Config::robust(32) });
+        every_edge_capacity(Config { storage, march: March::Exact, ..hu(24) });
+        every_edge_capacity(Config {
+            storage,
+            page: 3,
+            coverage: Coverage::Conservative,
+            ..Config::robust(20)
+        });
+    }
+}
+
+#[test]
 fn every_edge_capacity_by_address() {
-    every_edge_capacity(Config { addressing: Addressing::Address, ..Config::robust(32) });
-    every_edge_capacity(Config { addressing: Addressing::Address, ..selective(32) });
+    for storage in Storage::ALL {
+        every_edge_capacity(Config { storage, addressing: Addressing::Address, ..Config::robust(32) });
+        every_edge_capacity(Config { storage, addressing: Addressing::Address, ..selective(32) });
+    }
 }
 
 /// What is allocated after the exact demand has been met is what the formula says.
@@ -124,11 +142,14 @@ fn bytes_are_those_of_the_formula() {
         Config { grid: Some(9), ..hu(33) },
         selective(50),
         Config { storage: Storage::Paged, page: 8, ..Config::robust(40) },
+        Config { storage: Storage::Linked, ..Config::robust(40) },
+        Config { storage: Storage::Contiguous, ..selective(40) },
     ] {
         let mut structure = made(&bench, config, &triangles);
         structure.resize(bench.device(), &plan(&config, room(0)).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for anything") };
+        assert!(matches!(structure.check(&status), Check::Grow(_)), "there is no room for anything");
+        let sizes = plan(&config, room(status.pools[0].demand)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(status.complete);
@@ -141,18 +162,18 @@ fn bytes_are_those_of_the_formula() {
         assert_ne!(formula.total(), formula_bytes(&config, room(demand + 1)).total());
         let stored = report.stored.expect("fragments are counted");
         match config.storage {
-            Storage::Contiguous => assert_eq!(stored, demand),
+            Storage::Contiguous | Storage::Linked => assert_eq!(stored, demand),
             Storage::Paged => {
-                assert!(stored < demand && demand < stored * u64::from(config.page), "{stored} of {demand}")
+                assert!(demand < stored && stored < demand * u64::from(config.page), "{stored} in {demand}")
             }
         }
     }
 }
 
-/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such lists; planes
-/// and parities find each layer. What is not sorted parities refuse.
+/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such lists, or stay as
+/// they are; planes find each layer, and parities the same whatever the order.
 #[test]
-fn lists_of_ten_thousand_are_sorted() {
+fn lists_of_ten_thousand_are_searched() {
     const LAYERS: usize = 10_000;
     let bench = Bench::new();
     // Two cells a side: one plate covers one centre. From far to near, and not in order.
@@ -167,36 +188,44 @@ fn lists_of_ten_thousand_are_sorted() {
         })
         .collect();
     let base = Config { fragments: Some(1 << 16), ..Config::robust(2) };
-    let published = Config { fragments: Some(1 << 16), ..hu(2) };
-    for config in [base, Config { storage: Storage::Paged, ..base }, published] {
+    let published = Config { fragments: Some(1 << 16), storage: Storage::Contiguous, ..hu(2) };
+    let marched = Config { march: March::Exact, axes: Axes::Triangle, ..published };
+    let mut parities = [None, None];
+    for config in [base, published, marched].into_iter().flat_map(|config| {
+        let others = [Storage::Linked, Storage::Paged].map(|storage| Config { storage, ..config });
+        [config, Config { sort: false, ..config }, others[0], others[1]]
+    }) {
         let mut structure = made(&bench, config, &triangles);
-        let status = bench.build_once(&mut structure, [0.0; 3]);
-        let long = status.demand("long").expect("the pool is counted");
-        assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("there is no room for long lists") };
-        structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = bench.build_once(&mut structure, [0.0; 3]);
+        let mut status = bench.build_once(&mut structure, [0.0; 3]);
+        if config.sorts() {
+            let long = status.demand("long").expect("the pool is counted");
+            assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
+            let Check::Grow(sizes) = structure.check(&status) else {
+                panic!("there is no room for long lists")
+            };
+            structure.resize(bench.device(), &sizes).expect("it fits");
+            status = bench.build_once(&mut structure, [0.0; 3]);
+        }
         assert!(status.complete && status.unsorted == 0, "{status:?}");
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("lists are well formed");
         assert!(
             (0..contents.lists.len()).any(|list| contents.list(list).expect("well formed").len() == LAYERS)
         );
+        let hits = bench.trace(&structure, &rays).hits;
         if config.accept == Accept::Plane {
-            for (k, hit) in bench.trace(&structure, &rays).hits.iter().enumerate() {
+            for (k, hit) in hits.iter().enumerate() {
                 let layer = if k % 2 == 0 { k * 155 + 2 } else { k * 155 + 1 };
                 assert_eq!(hit.primitive as usize * 7919 % LAYERS, layer, "{hit:?}");
             }
+            continue;
         }
+        // The first is that of sorted lists.
+        let expected =
+            parities[usize::from(config.march == March::Exact)].get_or_insert_with(|| hits.clone());
+        assert_eq!(hits, *expected, "{config:?}");
+        assert!(hits.iter().filter(|hit| hit.is_hit()).count() > rays.len() / 4, "{config:?}");
     }
-    let unsorted = Config { sort: false, ..published };
-    let mut structure = made(&bench, unsorted, &triangles);
-    let status = bench.build_once(&mut structure, [0.0; 3]);
-    assert!(!status.complete && status.unsorted > 0, "{status:?}");
-    assert_eq!(structure.check(&status), Check::Complete, "more room does not help");
-    let mut structure = made(&bench, Config { sort: false, ..base }, &triangles);
-    assert!(bench.build_once(&mut structure, [0.0; 3]).complete);
-    assert!(bench.trace(&structure, &rays).hits.iter().all(Hit::is_hit));
 }
 
 #[test]
@@ -204,30 +233,65 @@ fn every_fault_of_a_list_is_noticed() {
     let bench = Bench::new();
     let triangles = scene();
     let count = triangles.len() as u32;
-    for config in [Config::robust(16), selective(16)] {
+    for config in [Config::robust(16), selective(16), hu(16)] {
+        let storage = config.storage;
         let mut structure = made(&bench, Config { fragments: Some(1 << 16), ..config }, &triangles);
         assert!(bench.build_once(&mut structure, [0.0; 3]).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
-        // The first list with two fragments at different depths.
+        // The first list with more fragments than a page has room for, at different depths.
         let is_long = |list: &usize| {
             let fragments = good.list(*list).expect("well formed");
-            fragments.len() > 1 && fragments[0].z < fragments[1].z
+            fragments.len() > config.page as usize && fragments[0].z != fragments[1].z
         };
         let long = (0..good.lists.len()).find(is_long).expect("a long list");
-        let first = good.lists[long] as usize - good.list(long).expect("well formed").len();
+        let other = (long + 1..good.lists.len()).find(is_long).expect("another one");
+        let places = good.places(long).expect("well formed");
+        // A fragment is two words; a link is another one behind them, and in front of the four of a page.
+        let word = |place: u32| match storage {
+            Storage::Contiguous => 2 * place as usize,
+            Storage::Linked => 3 * place as usize,
+            Storage::Paged => (place / 4 * 9 + 1 + place % 4 * 2) as usize,
+        };
+        let first = word(places[0]);
         let broken = |change: &dyn Fn(&mut Contents)| {
             let mut contents = good.clone();
             change(&mut contents);
             well_formed(&contents, count).expect_err("the fault is noticed")
         };
         assert!(matches!(broken(&|c| c.lists[20] = u32::MAX), Fault::Dangling { .. }));
-        assert!(matches!(broken(&|c| c.fragments[2 * first + 1] = count), Fault::Primitive { .. }));
-        assert!(matches!(broken(&|c| c.fragments[2 * first] = f32::NAN.to_bits()), Fault::Depth { .. }));
-        assert!(matches!(broken(&|c| c.fragments[2 * first] = (-1.0_f32).to_bits()), Fault::Depth { .. }));
-        assert!(matches!(broken(&|c| c.fragments.swap(2 * first, 2 * first + 2)), Fault::Order { .. }));
+        assert!(matches!(broken(&|c| c.fragments[first + 1] = count), Fault::Primitive { .. }));
+        assert!(matches!(broken(&|c| c.fragments[first] = f32::NAN.to_bits()), Fault::Depth { .. }));
+        assert!(matches!(broken(&|c| c.fragments[first] = (-1.0_f32).to_bits()), Fault::Depth { .. }));
         assert!(matches!(broken(&|c| c.header.fragments += 1), Fault::Count { .. }));
         let marked = good.voxels.iter().position(|word| word & 15 != 0).expect("something lies in a voxel");
         assert!(matches!(broken(&|c| c.voxels[marked] &= !7), Fault::Voxel { .. }));
+        match storage {
+            Storage::Contiguous => {
+                assert!(matches!(broken(&|c| c.fragments.swap(first, first + 2)), Fault::Order { .. }));
+            }
+            Storage::Linked => {
+                assert!(matches!(broken(&|c| c.fragments[first + 2] = places[0] + 1), Fault::Circle { .. }));
+                let last = word(*places.last().expect("it is long"));
+                assert!(matches!(broken(&|c| c.fragments[last + 2] = c.lists[long]), Fault::Circle { .. }));
+                let past = good.header.demand + 1;
+                assert!(matches!(broken(&|c| c.fragments[last + 2] = past), Fault::Dangling { .. }));
+                assert!(matches!(broken(&|c| c.lists[other] = c.lists[long]), Fault::Shared { .. }));
+                assert!(matches!(broken(&|c| c.fragments[first + 2] = 0), Fault::Count { .. }));
+            }
+            Storage::Paged => {
+                let page = places[0] as usize / 4 * 9;
+                assert!(matches!(broken(&|c| c.fragments[page] = c.lists[long]), Fault::Circle { .. }));
+                let past = (good.header.demand + 1) << 4 | 1;
+                assert!(matches!(broken(&|c| c.fragments[page] = past), Fault::Dangling { .. }));
+                assert!(matches!(broken(&|c| c.lists[long] &= !15), Fault::Page { used: 0, .. }));
+                assert!(matches!(
+                    broken(&|c| c.lists[long] = c.lists[long] & !15 | 5),
+                    Fault::Page { used: 5, .. }
+                ));
+                assert!(matches!(broken(&|c| c.lists[other] = c.lists[long]), Fault::Shared { .. }));
+                assert!(matches!(broken(&|c| c.fragments[page] = 0), Fault::Count { .. }));
+            }
+        }
     }
 }

@@ -54,8 +54,12 @@ fn cells_that_keep_all_that_reaches_into_them_lose_no_hit() {
         kept(16),
         kept(37),
         Config { grid: Some(40), ..kept(64) },
-        Config { sort: false, storage: Storage::Paged, ..kept(16) },
+        Config { sort: false, ..kept(16) },
+        Config { storage: Storage::Linked, ..kept(16) },
+        Config { storage: Storage::Paged, ..kept(16) },
         Config { addressing: Addressing::Address, ..kept(16) },
+        Config { addressing: Addressing::Address, storage: Storage::Linked, ..kept(16) },
+        Config { addressing: Addressing::Address, storage: Storage::Paged, page: 7, ..kept(16) },
     ] {
         assert_eq!(different(config), (StructureKind::Primitive, 0), "{config:?}");
     }

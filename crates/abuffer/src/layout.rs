@@ -2,15 +2,13 @@
 
 use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
+use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
 use crate::{Accept, Config, Coverage, Header, March, Payload, Storage, Views};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
     ["header", "bounds", "lists", "nodes", "data", "near", "scratch", "fringe"];
-
-/// Pages that a word of a list can name beside how many of its slots are used (`PAGE_LIMIT` of the shaders).
-const MOST_PAGES: u64 = 0x0FFF_FFFE;
 
 /// Cells of all views, each with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
@@ -142,7 +140,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         .zip(sizes)
         .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
         .collect();
-    if config.storage == Storage::Paged && demand.nodes > MOST_PAGES {
+    if config.storage == Storage::Paged && demand.nodes > u64::from(PAGE_LIMIT) {
         return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: "nodes", elements: demand.nodes });
     }
     // Words of a pool are counted in 32 bits by the shaders, and one value is kept to mean "none".

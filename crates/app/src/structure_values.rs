@@ -19,7 +19,7 @@ pub enum Storage {
     Sb,
     /// One behind the other in cells of tile and depth slice, in bricks that say where nothing is
     Bricks,
-    /// Pages of several, linked or one behind the other
+    /// Linked pages of several
     Paged,
 }
 

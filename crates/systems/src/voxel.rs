@@ -60,7 +60,7 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
                 ])?;
             }
             "storage" => {
-                config.storage = given.choice(&[("sb", Storage::Contiguous), ("paged", Storage::Paged)])?;
+                config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
             }
             "addressing" => {
                 config.addressing = given

@@ -6,19 +6,31 @@ use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Config, Payload};
+use crate::{Axes, Config, Payload, Storage};
+
+/// What counts the lengths of contiguous lists and turns them into places.
+#[derive(Debug)]
+struct Lengths {
+    count: RasterPipeline,
+    scan: Scan,
+}
+
+/// What sorts contiguous lists.
+#[derive(Debug)]
+struct Sort {
+    all: ComputePipeline,
+    long: ComputePipeline,
+}
 
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
     voxels: Option<RasterPipeline>,
     axes: Option<ComputePipeline>,
-    count: RasterPipeline,
-    scan: Scan,
+    lengths: Option<Lengths>,
     store: RasterPipeline,
-    attributes: Option<ComputePipeline>,
-    sort: ComputePipeline,
-    sort_long: ComputePipeline,
+    sort: Option<Sort>,
+    longest: Option<ComputePipeline>,
     status: ComputePipeline,
 }
 
@@ -35,22 +47,29 @@ impl Build {
         if stored {
             SceneBinding::for_attributes(scene)?;
         }
-        let [count, store] = if alpha {
-            ["build_3_count.alpha", "build_5_store.alpha"]
-        } else {
-            ["build_3_count", "build_5_store"]
+        let count = if alpha { "build_3_count.alpha" } else { "build_3_count" };
+        let store = match (stored, alpha) {
+            (true, _) => "build_5_store.attributes",
+            (false, true) => "build_5_store.alpha",
+            (false, false) => "build_5_store",
         };
         let voxels = || pipelines.raster("build_columns", "build_1_voxels");
+        let lengths = || -> Result<Lengths, AdsError> {
+            let count = pipelines.raster("build_raster", count)?;
+            Ok(Lengths { count, scan: Scan::new(pipelines, "build_4_scan")? })
+        };
+        let sort = || -> Result<Sort, AdsError> {
+            let all = pipelines.compute("build_6_sort")?;
+            Ok(Sort { all, long: pipelines.compute("build_7_sort_long")? })
+        };
         Ok(Self {
             voxels: (config.axes != Axes::All).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
-            count: pipelines.raster("build_raster", count)?,
-            scan: Scan::new(pipelines, "build_4_scan")?,
+            lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
             store: pipelines.raster("build_raster", store)?,
-            attributes: stored.then(|| pipelines.compute("build_6_attributes")).transpose()?,
-            sort: pipelines.compute("build_7_sort")?,
-            sort_long: pipelines.compute("build_8_sort_long")?,
-            status: pipelines.compute("build_9_status")?,
+            sort: config.sorts().then(sort).transpose()?,
+            longest: (!config.sorts()).then(|| pipelines.compute("build_6_longest")).transpose()?,
+            status: pipelines.compute("build_8_status")?,
         })
     }
 
@@ -81,27 +100,25 @@ impl Build {
         if config.axes == Axes::Voxel {
             axes(recorder);
         }
-        target.raster_pass(recorder, "voxel/build_3_count", &self.count, side, views);
+        if let Some(lengths) = &self.lengths {
+            target.raster_pass(recorder, "voxel/build_3_count", &lengths.count, side, views);
+            lengths.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
+        }
+        target.raster_pass(recorder, "voxel/build_5_store", &self.store, side, views);
         if config.axes == Axes::All {
             axes(recorder);
         }
-        self.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
-        target.raster_pass(recorder, "voxel/build_5_store", &self.store, side, views);
-        if let Some(attributes) = &self.attributes {
-            let groups = target.pools.sizes().elements("fragments").div_ceil(group);
-            target.compute_pass(recorder, "voxel/build_6_attributes", attributes, groups, 0, shaders);
+        if let Some(sort) = &self.sort {
+            let (label, groups) = ("voxel/build_6_sort", lists.div_ceil(group));
+            target.compute_pass(recorder, label, &sort.all, groups, 0, Access::COMPUTE);
+            let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
+            let (label, rounds) = ("voxel/build_7_sort_long", LONG_LIST_ROUNDS);
+            target.rounds_pass(recorder, label, &sort.long, long, rounds, Access::COMPUTE);
         }
-        target.compute_pass(
-            recorder,
-            "voxel/build_7_sort",
-            &self.sort,
-            lists.div_ceil(group),
-            0,
-            Access::COMPUTE,
-        );
-        let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
-        let (label, rounds) = ("voxel/build_8_sort_long", LONG_LIST_ROUNDS);
-        target.rounds_pass(recorder, label, &self.sort_long, long, rounds, Access::COMPUTE);
-        target.status_pass(recorder, "voxel/build_9_status", &self.status);
+        if let Some(longest) = &self.longest {
+            let (label, groups) = ("voxel/build_6_longest", lists.div_ceil(group));
+            target.compute_pass(recorder, label, longest, groups, 0, Access::COMPUTE);
+        }
+        target.status_pass(recorder, "voxel/build_8_status", &self.status);
     }
 }

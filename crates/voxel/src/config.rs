@@ -47,10 +47,34 @@ pub enum Coverage {
 /// How the lists of cells are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Fragments one behind the other.
+    /// Fragments one behind the other: counted, then stored. Such lists can be sorted.
     Contiguous,
-    /// The same in whole pages of [`Config::page`] fragments: the room that paged lists take.
+    /// Each fragment linked to the one before it in its list; stored at once.
+    Linked,
+    /// Linked pages of [`Config::page`] fragments; stored at once.
     Paged,
+}
+
+impl Storage {
+    /// Every storage.
+    pub const ALL: [Self; 3] = [Self::Contiguous, Self::Linked, Self::Paged];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Contiguous => "sb",
+            Self::Linked => "ll",
+            Self::Paged => "paged",
+        }
+    }
+
+    fn number(self) -> u32 {
+        match self {
+            Self::Contiguous => numbers::VOXEL_STORAGE_CONTIGUOUS,
+            Self::Linked => numbers::VOXEL_STORAGE_LINKED,
+            Self::Paged => numbers::VOXEL_STORAGE_PAGED,
+        }
+    }
 }
 
 /// What a fragment carries beside its depth.
@@ -88,11 +112,11 @@ pub struct Config {
     pub storage: Storage,
     /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Sort lists, so that a search can begin and end within. Changes no hit.
+    /// Sort lists, so that a search can begin and end within; only for [`Storage::Contiguous`]. Changes no hit.
     pub sort: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    /// Fragments, or pages of them, to make room for before the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,
@@ -122,7 +146,8 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, what is shaded in each fragment, three steps in a voxel, and parities.
+    /// Hu et al.: everything in all views, linked in one pass, what is shaded in each fragment, three steps in a voxel, and
+    /// parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,
@@ -130,6 +155,7 @@ impl Config {
             accept: Accept::Parity,
             coverage: Coverage::Hardware,
             payload: Payload::Material,
+            storage: Storage::Linked,
             ..Self::robust(resolution)
         }
     }
@@ -150,12 +176,9 @@ impl Config {
         self.grid.unwrap_or(balanced as u32).clamp(1, numbers::VOXEL_GRID_LIMIT)
     }
 
-    /// Fragments a page: one where lists are not paged.
-    pub fn page(&self) -> u32 {
-        match self.storage {
-            Storage::Contiguous => 1,
-            Storage::Paged => self.page,
-        }
+    /// Whether lists are sorted: only those that lie one behind the other.
+    pub fn sorts(&self) -> bool {
+        self.sort && self.storage == Storage::Contiguous
     }
 
     /// Checks ranges and combinations.
@@ -231,30 +254,29 @@ impl Config {
             (71, march),
             (72, accept),
             (73, coverage),
-            (74, self.page()),
-            (75, u32::from(self.sort)),
+            (74, self.page),
+            (75, u32::from(self.sorts())),
             (76, payload),
+            (77, self.storage.number()),
         ]
     }
 
     /// Options as name and value, for reports.
     pub fn options(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
-        let storage = match self.storage {
-            Storage::Contiguous => "sb",
-            Storage::Paged => "paged",
-        };
         let payload = if self.payload == Payload::Index { "index" } else { "attributes" };
         let mut options = vec![
-            ("storage", storage.to_owned()),
+            ("storage", self.storage.name().to_owned()),
             ("resolution", self.resolution.to_string()),
             ("grid", self.grid().to_string()),
             ("axes", lower(&self.axes)),
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
             ("payload", payload.to_owned()),
-            ("sort", if self.sort { "on" } else { "off" }.to_owned()),
         ];
+        if self.storage == Storage::Contiguous {
+            options.push(("sort", if self.sort { "on" } else { "off" }.to_owned()));
+        }
         if self.storage == Storage::Paged {
             options.push(("page", self.page.to_string()));
         }
@@ -276,7 +298,7 @@ impl Config {
 }
 
 impl Payload {
-    /// Bytes of a fragment with its depth.
+    /// Bytes of a fragment with its depth, without links.
     pub fn fragment_bytes(self) -> u64 {
         match self {
             Self::Index => 8,

@@ -8,24 +8,26 @@ use bytemuck::{Pod, Zeroable};
 pub struct Header {
     /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
     pub status: u32,
-    /// Entries of all pages, also those beyond the capacity.
+    /// Fragments met by the build, or pages begun for them, also those beyond the capacity.
     pub demand: u32,
-    /// Entries the pool holds.
+    /// Fragments or pages the pool holds.
     pub capacity: u32,
-    /// Fragments met by the build, without what is left of their pages.
+    /// Fragments met by the build.
     pub fragments: u32,
-    /// Lists longer than the sort passes sort, or than parities may take unsorted.
+    /// Lists longer than the sort passes sort.
     pub unsorted: u32,
     /// Lists too long for one dispatch of the sort.
     pub long_demand: u32,
     /// Long lists that the pool of them has room for.
     pub long_capacity: u32,
-    /// Lists that reached beyond the pool.
+    /// Lists that reached beyond the pool or came back to themselves.
     pub corrupted: u32,
     /// Cells a side of a view.
     pub resolution: u32,
     /// Voxels a side.
     pub grid: u32,
+    /// Fragments of the longest list where lists are not sorted; all bits set where that is not known.
+    pub longest: u32,
     /// Steps in a voxel.
     pub samples: u32,
     /// Side of a cell, metres.

@@ -1,8 +1,9 @@
 //! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{Axes, Config, Header, Payload};
+use crate::{Axes, Config, Header, Payload, Storage};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "scratch"];
@@ -15,9 +16,9 @@ pub fn list_count(resolution: u32) -> u64 {
 /// What a build found: how much of each pool it asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Fragments, and what is left of their pages.
+    /// Fragments, or pages of them.
     pub entries: u64,
-    /// Lists that one dispatch does not sort.
+    /// Lists that one dispatch does not sort; only where lists are sorted.
     pub long_lists: u64,
 }
 
@@ -35,7 +36,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (voxels.div_ceil(8), 4),
         (normals, 12),
         (lists, 4),
-        (demand.entries, config.payload.fragment_bytes()),
+        (demand.entries, 4 * entry_words(config)),
         (scratch_words(config, demand.long_lists), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
@@ -43,6 +44,13 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         .zip(sizes)
         .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
         .collect();
+    if config.storage == Storage::Paged && demand.entries > u64::from(PAGE_LIMIT) {
+        return Err(AdsError::PoolTooLarge {
+            structure: "voxel",
+            pool: "fragments",
+            elements: demand.entries,
+        });
+    }
     // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
     if let Some(pool) =
         pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
@@ -52,9 +60,22 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// Words for the sums of the scan, and for two of each long list behind them.
+/// Words of a fragment, with its link where it has one; or of a page of them, with that to the next page.
+pub(crate) fn entry_words(config: &Config) -> u64 {
+    let words = config.payload.fragment_bytes() / 4;
+    match config.storage {
+        Storage::Contiguous => words,
+        Storage::Linked => words + 1,
+        Storage::Paged => 1 + u64::from(config.page) * words,
+    }
+}
+
+/// Words for the sums of the scan, and for two of each long list behind them; none where nothing is counted or sorted.
 pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
-    Scan::sums(list_count(config.resolution)) + 2 * long_lists
+    match config.storage {
+        Storage::Contiguous => Scan::sums(list_count(config.resolution)) + 2 * long_lists,
+        Storage::Linked | Storage::Paged => 0,
+    }
 }
 
 /// Long lists that such pools have room for.
@@ -92,9 +113,9 @@ pub struct FormulaBytes {
     pub voxels: u64,
     /// Per cell of three views: 4.
     pub lists: u64,
-    /// Per entry: 8, or 16 with attributes.
+    /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its fragments.
     pub fragments: u64,
-    /// Header; a sum of 4 per 1024 lists for the scan; 8 per long list.
+    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list.
     pub rest: u64,
 }
 
@@ -110,11 +131,17 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let grid = u64::from(config.grid());
     let cells = u64::from(config.resolution) * u64::from(config.resolution) * 3;
     let averaged = config.axes != Axes::Triangle;
+    let per_fragment = if config.payload == Payload::Index { 8 } else { 16 };
+    let (per_entry, sums) = match config.storage {
+        Storage::Contiguous => (per_fragment, cells.div_ceil(1024) * 4 + demand.long_lists * 8),
+        Storage::Linked => (per_fragment + 4, 0),
+        Storage::Paged => (4 + u64::from(config.page) * per_fragment, 0),
+    };
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
-        fragments: demand.entries * if config.payload == Payload::Index { 8 } else { 16 },
-        rest: 112 + cells.div_ceil(1024) * 4 + demand.long_lists * 8,
+        fragments: demand.entries * per_entry,
+        rest: 116 + sums,
     }
 }
 
@@ -131,13 +158,17 @@ mod tests {
                 Config { grid, ..Config::published_hu(resolution) },
                 Config { grid, payload: Payload::Index, ..Config::published_hu(resolution) },
                 Config { grid, ..Config::published_selective(resolution) },
+                Config { grid, storage: Storage::Contiguous, ..Config::published_selective(resolution) },
+                Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
+                Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
             ] {
                 let demand = Demand { entries: 12_345, long_lists: 3 };
                 let sizes = plan(&config, demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
-                for more in [Demand { entries: 12_346, ..demand }, Demand { long_lists: 4, ..demand }] {
-                    assert_ne!(sizes.bytes(), formula_bytes(&config, more).total());
-                }
+                let more = formula_bytes(&config, Demand { entries: 12_346, ..demand }).total();
+                assert_ne!(sizes.bytes(), more);
+                let longer = formula_bytes(&config, Demand { long_lists: 4, ..demand }).total();
+                assert_eq!(sizes.bytes() != longer, config.storage == Storage::Contiguous);
             }
         }
     }
@@ -157,6 +188,11 @@ mod tests {
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, long_lists: 0 };
         assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
+        // A word of a list names fewer pages than 32 bits could.
+        let paged = Config { storage: Storage::Paged, page: 1, ..Config::robust(64) };
+        let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, long_lists: 0 };
+        assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));
+        assert!(plan(&paged, Demand { entries: PAGE_LIMIT.into(), ..many }).is_ok());
     }
 
     #[test]

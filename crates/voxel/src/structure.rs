@@ -7,10 +7,11 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
 use crate::layout::{Demand, cube, first_plan, formula_bytes, long_capacity, plan, scratch_words};
-use crate::{Config, Contents, Coverage, Header};
+use crate::{Accept, Config, Contents, Coverage, Header, March, Storage};
 
 /// A voxel grid over three axis A-buffers.
 #[derive(Debug)]
@@ -118,6 +119,18 @@ impl Voxels {
             fragments: words("fragments")?,
         })
     }
+
+    /// Writes back what [`Voxels::download`] returned, or what was made of it. Submits and waits: for tests and tools.
+    /// Traces end within their bounds whatever voxels, lists and fragments say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// A pool is larger than what was allocated, or the device failed.
+    pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
+        device.upload_slice(self.pools.pool("voxels"), 0, &contents.voxels)?;
+        device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
+        device.upload_slice(self.pools.pool("fragments"), 0, &contents.fragments)
+    }
 }
 
 impl Structure for Voxels {
@@ -188,19 +201,37 @@ impl Structure for Voxels {
         }
         let demand = |name| status.demand(name).unwrap_or(0);
         let sizes = self.pools.sizes();
-        let demand = Demand {
-            entries: demand("fragments").max(sizes.elements("fragments")),
-            long_lists: demand("long").max(long_capacity(&self.config, sizes)),
-        };
+        let mut entries = demand("fragments").max(sizes.elements("fragments"));
+        if self.config.storage == Storage::Paged && entries > sizes.elements("fragments") {
+            // How many pages are begun depends a little on which threads meet.
+            entries += entries / 64;
+        }
+        let demand = Demand { entries, long_lists: demand("long").max(long_capacity(&self.config, sizes)) };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
 
     fn rounds(&self) -> u32 {
-        // Three views' cells and the voxels along a ray, and lists that hold every triangle.
+        // Three views' cells and the voxels along a ray, and lists that hold every triangle, or as many as the longest has
+        // where they are not sorted: there each point of a parity reads one, where a voxel is entered, the steps in it,
+        // halvings, and for the nearest.
         let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
         let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
-        16 + (steps + u64::from(self.geometry.triangle_count())).div_ceil(budget) as u32
+        let points = match (self.config.accept, self.config.march) {
+            (Accept::Plane, _) => 1,
+            (Accept::Parity, March::Samples) => 1 + u64::from(self.config.samples),
+            (Accept::Parity, March::Exact) => 2,
+        };
+        let parity = self.config.accept == Accept::Parity && !self.config.sorts();
+        let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
+        let triangles = self.geometry.triangle_count();
+        let longest = match self.config.sorts() {
+            true => triangles,
+            // Before the first build the header may hold anything.
+            false => self.header().map_or(triangles, |header| header.longest.min(triangles)),
+        };
+        let entries = reads * u64::from(longest);
+        16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
     }
 
     fn record_trace(

@@ -1,6 +1,7 @@
 //! Checks the contents of built voxels and axis A-buffers.
 
-use crate::{Config, Header, Payload, list_count};
+use crate::layout::entry_words;
+use crate::{Config, Header, Payload, Storage, list_count};
 
 /// What rays read, as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -11,9 +12,11 @@ pub struct Contents {
     pub header: Header,
     /// Four bits a voxel: the axes it is searched along, and whether something lies in it.
     pub voxels: Vec<u32>,
-    /// Where the fragments of each cell end.
+    /// Of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads to the newest
+    /// page. 0 where a linked list is empty.
     pub lists: Vec<u32>,
-    /// Depth and triangle of each fragment; or depth, triangle or terms of the material, colour and normal.
+    /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal; where it is
+    /// linked its link behind these. Of a page the word that leads to the next one, and fragments.
     pub fragments: Vec<u32>,
 }
 
@@ -31,14 +34,38 @@ pub struct Fragment {
 #[non_exhaustive]
 pub enum Fault {
     /// A list reaches beyond the pool, or ends before it begins.
-    #[error("list {list} ends at {end}, which is not in the pool behind its beginning")]
+    #[error("list {list} leads to {place}, which is not in the pool, or not behind its beginning")]
     Dangling {
         /// The list: view, row and column as one number.
         list: usize,
-        /// Where it ends.
-        end: u32,
+        /// Where it ends, or what it leads to: a fragment or a page.
+        place: u32,
     },
-    /// A fragment is in no list, or in more than one.
+    /// A word that leads to a page says that none of its slots is used, or more than there are.
+    #[error("list {list}: of page {page} {used} slots are used")]
+    Page {
+        /// The list.
+        list: usize,
+        /// Number of the page.
+        page: u32,
+        /// Slots in use, as it is said.
+        used: u32,
+    },
+    /// A list comes back to itself.
+    #[error("list {list} is longer than all that is stored")]
+    Circle {
+        /// The list.
+        list: usize,
+    },
+    /// A fragment is in more than one list.
+    #[error("list {list}: the fragment at {place} is in two lists")]
+    Shared {
+        /// The second list.
+        list: usize,
+        /// Place of the fragment.
+        place: u32,
+    },
+    /// A fragment is in no list.
     #[error("{stored} fragments were counted and {listed} are in lists")]
     Count {
         /// Fragments counted.
@@ -81,43 +108,119 @@ pub enum Fault {
 }
 
 impl Contents {
-    /// The fragments of a list.
+    /// Places of fragments that a build may have filled; of pages all slots.
+    fn stored(&self) -> u32 {
+        let entries = self.header.demand.min(self.header.capacity);
+        if self.config.storage == Storage::Paged { entries * self.config.page } else { entries }
+    }
+
+    /// The first word of a fragment.
+    fn first_word(&self, place: u32) -> usize {
+        let entry = entry_words(&self.config) as usize;
+        if self.config.storage == Storage::Paged {
+            let (page, slot) = ((place / self.config.page) as usize, (place % self.config.page) as usize);
+            return page * entry + 1 + slot * (self.config.payload.fragment_bytes() / 4) as usize;
+        }
+        place as usize * entry
+    }
+
+    /// Where the fragments of a list are, in the order in which they are read.
     ///
     /// # Errors
-    /// The list leaves the pool.
-    pub fn list(&self, list: usize) -> Result<Vec<Fragment>, Fault> {
-        let page = self.config.page();
-        let stored = self.header.demand.min(self.header.capacity);
-        let begin = if list == 0 { 0 } else { self.lists[list - 1].next_multiple_of(page) };
-        let end = self.lists[list];
-        if begin > end || end > stored {
-            return Err(Fault::Dangling { list, end });
+    /// The list leaves the pool or comes back to itself.
+    pub fn places(&self, list: usize) -> Result<Vec<u32>, Fault> {
+        match self.config.storage {
+            Storage::Contiguous => {
+                let begin = if list == 0 { 0 } else { self.lists[list - 1] };
+                let end = self.lists[list];
+                if begin > end || end > self.stored() {
+                    return Err(Fault::Dangling { list, place: end });
+                }
+                Ok((begin..end).collect())
+            }
+            Storage::Linked => self.follow(list),
+            Storage::Paged => self.turn_pages(list),
         }
-        let stride = self.config.payload.fragment_bytes() as usize / 4;
+    }
+
+    fn follow(&self, list: usize) -> Result<Vec<u32>, Fault> {
+        let (stored, link) = (self.stored(), (self.config.payload.fragment_bytes() / 4) as usize);
+        let mut places = Vec::new();
+        let mut next = self.lists[list];
+        while let Some(place) = next.checked_sub(1) {
+            if place >= stored {
+                return Err(Fault::Dangling { list, place });
+            }
+            if places.len() >= stored as usize {
+                return Err(Fault::Circle { list });
+            }
+            places.push(place);
+            next = self.fragments[self.first_word(place) + link];
+        }
+        Ok(places)
+    }
+
+    fn turn_pages(&self, list: usize) -> Result<Vec<u32>, Fault> {
+        let (stored, slots) = (self.stored(), self.config.page);
+        let mut places = Vec::new();
+        let mut word = self.lists[list];
+        while word != 0 {
+            let (page, used) = ((word >> 4).wrapping_sub(1), word & 15);
+            if page >= stored / slots {
+                return Err(Fault::Dangling { list, place: page });
+            }
+            if used == 0 || used > slots {
+                return Err(Fault::Page { list, page, used });
+            }
+            if places.len() >= stored as usize {
+                return Err(Fault::Circle { list });
+            }
+            // A page is filled from its end.
+            places.extend(slots * (page + 1) - used..slots * (page + 1));
+            word = self.fragments[page as usize * entry_words(&self.config) as usize];
+        }
+        Ok(places)
+    }
+
+    fn fragment(&self, place: u32) -> Fragment {
+        let word = self.first_word(place);
         let named = self.config.payload != Payload::Material;
-        let words = &self.fragments[stride * begin as usize..stride * end as usize];
-        Ok(words
-            .chunks_exact(stride)
-            .map(|node| Fragment { z: f32::from_bits(node[0]), primitive: if named { node[1] } else { 0 } })
-            .collect())
+        let primitive = if named { self.fragments[word + 1] } else { 0 };
+        Fragment { z: f32::from_bits(self.fragments[word]), primitive }
+    }
+
+    /// The fragments of a list, in the order in which they are read.
+    ///
+    /// # Errors
+    /// The list leaves the pool or comes back to itself.
+    pub fn list(&self, list: usize) -> Result<Vec<Fragment>, Fault> {
+        Ok(self.places(list)?.into_iter().map(|place| self.fragment(place)).collect())
     }
 }
 
-/// Checks that every counted fragment is in one list, has a depth within the cube and, where it names a triangle, names
-/// one of `triangles`, that lists are sorted where they should be, and that voxels are searched iff something lies in them.
+/// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and, where it names a
+/// triangle, names one of `triangles`, that lists are sorted where they should be, and that voxels are searched iff something
+/// lies in them.
 ///
 /// # Errors
 /// The first fault found.
 pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let stored = contents.header.fragments as usize;
-    let sorted = contents.config.sort && contents.header.unsorted == 0;
+    let sorted = contents.config.sorts() && contents.header.unsorted == 0;
     let side = contents.header.cell * contents.header.resolution as f32 * 1.0001;
     // Without a name fragments of one depth may stand in any order.
     let named = contents.config.payload != Payload::Material;
     let mut listed = 0;
+    let mut seen = vec![false; contents.stored() as usize];
     for list in 0..list_count(contents.config.resolution) as usize {
-        let fragments = contents.list(list)?;
-        listed += fragments.len();
+        let places = contents.places(list)?;
+        listed += places.len();
+        for &place in &places {
+            if std::mem::replace(&mut seen[place as usize], true) {
+                return Err(Fault::Shared { list, place });
+            }
+        }
+        let fragments: Vec<Fragment> = places.iter().map(|&place| contents.fragment(place)).collect();
         for (index, fragment) in fragments.iter().enumerate() {
             if fragment.primitive >= triangles {
                 return Err(Fault::Primitive { list, primitive: fragment.primitive });

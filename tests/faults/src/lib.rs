@@ -3,12 +3,16 @@
 //! The faults themselves are in `rasray_gpu::faults`, which exists only where the feature `fault-injection` of
 //! `rasray-gpu` is on: in the tests of this package.
 
+mod child;
 mod error;
 mod picture;
+mod random;
 mod scene;
 
+pub use child::in_child;
 pub use error::Failure;
 pub use picture::picture;
+pub use random::scrambled;
 pub use scene::{hits, rays, spec, specs, stage};
 
 use rasray_gpu::{Device, DeviceDesc, Feature, GpuError, Requirements};

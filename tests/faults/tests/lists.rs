@@ -3,48 +3,15 @@
 //! Nothing checks the accesses but the shaders themselves: robust buffer access is never switched on. So everything
 //! runs in a process of its own, which may crash or hang without taking the tests along.
 
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage, well_formed};
 use rasray_ads::{Hit, TraceMode};
-use rasray_faults::{device, finish, rays, stage};
+use rasray_faults::{device, finish, in_child, rays, scrambled, stage};
 use rasray_gpu::Timing;
 use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
 
-/// Set for the process that may crash.
-const CHILD: &str = "RASRAY_FAULTS_CHILD";
-
-/// How long that process may take.
-const PATIENCE: Duration = Duration::from_secs(240);
-
 const RAYS: u32 = 96;
-
-/// Runs the test of this name again in a process of its own; true in that process.
-fn in_child(test: &str) -> bool {
-    if std::env::var_os(CHILD).is_some() {
-        return true;
-    }
-    let mut child = Command::new(std::env::current_exe().expect("the path of this test"))
-        .args(["--exact", test, "--nocapture"])
-        .env(CHILD, "1")
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("this test can be run again");
-    let start = Instant::now();
-    while child.try_wait().expect("a child").is_none() {
-        if start.elapsed() > PATIENCE {
-            child.kill().expect("a child that runs");
-            panic!("traces through damaged lists do not end");
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    let output = child.wait_with_output().expect("its output");
-    let text = String::from_utf8_lossy(&output.stdout);
-    assert!(output.status.success() && text.contains("1 passed"), "{:?}: {text}", output.status);
-    print!("{text}");
-    false
-}
 
 /// How traces say that something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,16 +44,6 @@ fn each_node(contents: &mut Contents, change: impl Fn(u32) -> [u32; 2]) {
     let count = stored(contents) as usize;
     for (index, node) in contents.nodes.chunks_exact_mut(3).take(count).enumerate() {
         [node[1], node[2]] = change(index as u32 + 1);
-    }
-}
-
-/// A generator of numbers whose sequence is fixed (Marsaglia's xorshift).
-fn scrambled(mut state: u32) -> impl FnMut() -> u32 {
-    move || {
-        state ^= state << 13;
-        state ^= state >> 17;
-        state ^= state << 5;
-        state
     }
 }
 

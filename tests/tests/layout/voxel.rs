@@ -16,15 +16,16 @@ fn records_of_voxels() {
         &shaders::VOXEL_BUILD_4_SCAN_SUMS,
         &shaders::VOXEL_BUILD_4_SCAN_PLACES,
         &shaders::VOXEL_BUILD_5_STORE,
-        &shaders::VOXEL_BUILD_6_ATTRIBUTES,
-        &shaders::VOXEL_BUILD_7_SORT,
-        &shaders::VOXEL_BUILD_8_SORT_LONG,
-        &shaders::VOXEL_BUILD_9_STATUS,
+        &shaders::VOXEL_BUILD_5_STORE_ATTRIBUTES,
+        &shaders::VOXEL_BUILD_6_LONGEST,
+        &shaders::VOXEL_BUILD_6_SORT,
+        &shaders::VOXEL_BUILD_7_SORT_LONG,
+        &shaders::VOXEL_BUILD_8_STATUS,
         &shaders::VOXEL_TRACE_CLOSEST,
         &shaders::VOXEL_TRACE_OCCLUDED,
     ];
     check_layout!(modules, rasray_voxel::Header as "VoxelHeader" {
-        status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, samples, cell, voxel,
+        status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, longest, samples, cell, voxel,
         cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
         fragments_address, scratch_address,
     });

@@ -1,0 +1,29 @@
+// What: how many fragments the longest list has, where lists are not sorted: so many entries a ray may have to read at a time.
+// Reads: lists, fragments. Writes: header.longest.
+// Source: not in the papers, whose rays read lists to their ends however long that takes.
+#version 460
+#include "contract/extensions.glsl"
+#include "voxel/lists.glsl"
+
+layout(local_size_x = VOXEL_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform VoxelBuildConstants {
+    VoxelRef voxel_built;
+};
+
+void main() {
+    uint list = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (list >= voxel_list_count(voxel_built) || VOXEL_HEADER(voxel_built).demand > VOXEL_HEADER(voxel_built).capacity) {
+        return;
+    }
+    uint length = 0u;
+    VoxelCursor cursor = voxel_list_begin(voxel_built, list);
+    while (cursor.link != 0u && length < VOXEL_LONGEST_LIMIT) {
+        voxel_list_next(voxel_built, cursor);
+        length++;
+    }
+    // Most lists are shorter than one that has been seen.
+    if (length > VOXEL_HEADER(voxel_built).longest) {
+        atomicMax(VOXEL_HEADER(voxel_built).longest, length < VOXEL_LONGEST_LIMIT ? length : 0xFFFFFFFFu);
+    }
+}

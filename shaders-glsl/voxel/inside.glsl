@@ -1,0 +1,131 @@
+// What: reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is nearest to it.
+// Reads: header, lists, fragments. Writes: header.corrupted.
+// Source: Hu et al. section 3.2. Sorted lists are entered by bisection; others are read to their end, in dispatches of bounded
+// work. The order of a list has no influence on what is found.
+#ifndef VOXEL_INSIDE_GLSL
+#define VOXEL_INSIDE_GLSL
+
+#include "contract/trace_log.glsl"
+#include "voxel/search.glsl"
+
+// A point of the ray in a cell.
+struct VoxelPoint {
+    float t;
+    ivec2 cell;
+    uint list;
+    float depth;
+};
+
+VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell) {
+    uint list = axis_cell_index(walk.axis, cell, VOXEL_HEADER(s).resolution);
+    return VoxelPoint(t, cell, list, walk.origin[walk.axis] + t * walk.direction[walk.axis]);
+}
+
+// Reads the depth of a fragment.
+float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work) {
+    float z = voxel_z(s, place);
+    state.entries++;
+    work++;
+    trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+    return z;
+}
+
+// The first fragment of a sorted list that lies at a depth or beyond.
+uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
+    uint place = voxel_bisect(s, list, depth, state, work);
+    for (uint k = 0u; k < VOXEL_BISECT_FROM && place < list.y; k++) {
+        if (voxel_read(s, place, state, work) >= depth) {
+            break;
+        }
+        place++;
+    }
+    return place;
+}
+
+// Lets a fragment with a depth take the place of the one that is held as nearest to a point, if it is nearer in depth; of
+// equals the one before the point, and on one side the one that comes first. A total order: no order of reading matters.
+void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint held, inout float held_z) {
+    if (held == VOXEL_NO_PLACE) {
+        held = place;
+        held_z = z;
+        return;
+    }
+    bool before = z < depth;
+    bool held_before = held_z < depth;
+    float away = before ? depth - z : z - depth;
+    float held_away = held_before ? depth - held_z : held_z - depth;
+    bool nearer = away < held_away;
+    if (away == held_away) {
+        // Rounded distances may be equal where depths are not.
+        bool farther = before ? z < held_z : z > held_z;
+        nearer = before != held_before ? before : !farther && (z != held_z || voxel_comes_first(s, place, held));
+    }
+    if (nearer) {
+        held = place;
+        held_z = z;
+    }
+}
+
+// The same for sorted lists, of which only the last fragment before the point and the first that is not are read.
+uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
+    uint held = VOXEL_NO_PLACE;
+    float held_z = 0.0;
+    uint first = voxel_first_from(s, list, depth, state, work);
+    if (first > list.x) {
+        float z = voxel_read(s, first - 1u, state, work);
+        // Of several at one depth the first.
+        uint place = voxel_first_from(s, uvec2(list.x, first), z, state, work);
+        voxel_hold_nearer(s, depth, place, z, held, held_z);
+    }
+    if (first < list.y) {
+        voxel_hold_nearer(s, depth, first, voxel_read(s, first, state, work), held, held_z);
+    }
+    return held;
+}
+
+// Counts the fragments of a point's cell that lie before it, or looks for the one nearest to it: walk.odd, walk.held. True if
+// the work budget ended first.
+bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk walk, inout TraceState state,
+    inout uint work) {
+    if (!walk.in_list) {
+        walk.odd = false;
+        walk.held = VOXEL_NO_PLACE;
+        if (!nearest) {
+            state.cells++;
+            work++;
+            trace_log(STEP_CELL, walk.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
+        }
+    }
+    if (voxel_lists_sorted(s)) {
+        uvec2 list = voxel_list(s, point.list);
+        if (nearest) {
+            walk.held = voxel_nearest_sorted(s, list, point.depth, state, work);
+        } else {
+            walk.odd = ((voxel_first_from(s, list, point.depth, state, work) - list.x) & 1u) != 0u;
+        }
+        return false;
+    }
+    VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, point.list, walk.link) : voxel_list_begin(s, point.list);
+    float held_z = walk.held == VOXEL_NO_PLACE ? 0.0 : voxel_z(s, walk.held);
+    walk.in_list = false;
+    while (cursor.link != 0u) {
+        if (work >= WORK_BUDGET) {
+            walk.link = cursor.link;
+            walk.in_list = true;
+            return true;
+        }
+        uint place = voxel_list_next(s, cursor);
+        if (place == VOXEL_NO_PLACE) {
+            break;
+        }
+        float z = voxel_read(s, place, state, work);
+        if (nearest) {
+            voxel_hold_nearer(s, point.depth, place, z, walk.held, held_z);
+        } else if (z < point.depth) {
+            walk.odd = !walk.odd;
+        }
+    }
+    return false;
+}
+
+#endif

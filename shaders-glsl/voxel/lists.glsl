@@ -1,0 +1,108 @@
+// What: the list of a cell, behind which stands one of three storages: how a fragment is put into it, and how it is read.
+// Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
+// Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of several.
+// The word of a list, contiguous: first its length, then where the next fragment goes, and once all is stored where its
+// fragments end; they begin where those of the list before it end. Linked: a link to the newest. Paged: the word that leads to
+// the newest page. A link is a place + 1; 0 names none.
+#ifndef VOXEL_LISTS_GLSL
+#define VOXEL_LISTS_GLSL
+
+#include "voxel/list_pages.glsl"
+
+// Stands for no place.
+#define VOXEL_NO_PLACE 0xFFFFFFFFu
+
+// Adds one to the length of a contiguous list.
+void voxel_list_count_one(VoxelRef s, uint list) {
+    atomicAdd(VOXEL_LISTS(s)[list], 1u);
+}
+
+// Takes a place for a fragment of a list; VOXEL_NO_PLACE where there is no room, which is counted.
+uint voxel_allocate(VoxelRef s, uint list) {
+    uint capacity = VOXEL_HEADER(s).capacity;
+    if (voxel_paged()) {
+        atomicAdd(VOXEL_HEADER(s).fragments, 1u);
+        uint slot = page_take_slot(s, list);
+        return slot / VOXEL_PAGE < capacity ? slot : VOXEL_NO_PLACE;
+    }
+    uint place = voxel_contiguous() ? atomicAdd(VOXEL_LISTS(s)[list], 1u) : atomicAdd(VOXEL_HEADER(s).demand, 1u);
+    return place < capacity ? place : VOXEL_NO_PLACE;
+}
+
+// Links a place in front of its list, where fragments are linked.
+void voxel_link(VoxelRef s, uint list, uint place) {
+    if (!voxel_contiguous() && !voxel_paged()) {
+        voxel_set_word(s, place, voxel_stride(), atomicExchange(VOXEL_LISTS(s)[list], place + 1u));
+    }
+}
+
+// Where the fragments of a contiguous list begin and end. A list that leaves the pool is counted and answered as empty.
+uvec2 voxel_list(VoxelRef s, uint list) {
+    if (list >= voxel_list_count(s)) {
+        return uvec2(0u);
+    }
+    uint begin = list == 0u ? 0u : VOXEL_LISTS(s)[list - 1u];
+    uint end = VOXEL_LISTS(s)[list];
+    if (begin > end || end > voxel_stored(s)) {
+        atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
+        return uvec2(0u);
+    }
+    return uvec2(begin, end);
+}
+
+// A list that is being read.
+struct VoxelCursor {
+    uint link;            // the next fragment; 0 at the end
+    uint last;            // the one that ends the list, contiguous only
+    uint mark;            // a link that has been passed; the others only
+    uint left;            // links until the mark moves on
+    uint reach;           // and those until it moves on after that
+};
+
+// Goes on with a list at a link.
+VoxelCursor voxel_list_resume(VoxelRef s, uint list, uint link) {
+    return VoxelCursor(link, voxel_contiguous() ? voxel_list(s, list).y : 0u, link, 1u, 1u);
+}
+
+// Begins a list.
+VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
+    if (voxel_contiguous()) {
+        uvec2 range = voxel_list(s, list);
+        return VoxelCursor(range.x < range.y ? range.x + 1u : 0u, range.y, 0u, 0u, 0u);
+    }
+    uint word = list < voxel_list_count(s) ? VOXEL_LISTS(s)[list] : 0u;
+    return voxel_list_resume(s, list, voxel_paged() ? page_link(word) : word);
+}
+
+// Ends a list that has come back to the mark, and counts it. The mark moves on after twice as many links as before (Brent
+// 1980), so every circle is noticed within three times its links.
+void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
+    if (cursor.link == cursor.mark) {
+        atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
+        cursor.link = 0u;
+    } else if (--cursor.left == 0u) {
+        cursor.mark = cursor.link;
+        cursor.reach *= 2u;
+        cursor.left = cursor.reach;
+    }
+}
+
+// The place of the next fragment of a list that has not ended. A link past the end is counted, ends the list and gives
+// VOXEL_NO_PLACE.
+uint voxel_list_next(VoxelRef s, inout VoxelCursor cursor) {
+    uint place = cursor.link - 1u;
+    if (place >= voxel_stored(s)) {
+        atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
+        cursor.link = 0u;
+        return VOXEL_NO_PLACE;
+    }
+    if (voxel_contiguous()) {
+        cursor.link = cursor.link < cursor.last ? cursor.link + 1u : 0u;
+        return place;
+    }
+    cursor.link = voxel_paged() ? page_link_behind(s, cursor.link) : voxel_word(s, place, voxel_stride());
+    voxel_list_guard(s, cursor);
+    return place;
+}
+
+#endif
