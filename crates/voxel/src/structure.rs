@@ -13,6 +13,9 @@ use crate::build::Build;
 use crate::layout::{Demand, cube, first_plan, formula_bytes, long_capacity, plan, scratch_words};
 use crate::{Accept, Config, Contents, Coverage, Header, March, Storage};
 
+/// Lists as long as the longest that a ray is given the rounds to read.
+const LONG_LISTS_A_RAY: u32 = 64;
+
 /// A voxel grid over three axis A-buffers.
 #[derive(Debug)]
 pub struct Voxels {
@@ -212,9 +215,9 @@ impl Structure for Voxels {
     }
 
     fn rounds(&self) -> u32 {
-        // Three views' cells and the voxels along a ray, and lists that hold every triangle, or as many as the longest has
-        // where they are not sorted: there each point of a parity reads one, where a voxel is entered, the steps in it,
-        // halvings, and for the nearest.
+        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are not sorted at most
+        // so many as are as long as the longest: there each point of a parity reads one, where a voxel is entered, the steps
+        // in it, halvings, and for the nearest.
         let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
         let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
         let points = match (self.config.accept, self.config.march) {
@@ -228,7 +231,9 @@ impl Structure for Voxels {
         let longest = match self.config.sorts() {
             true => triangles,
             // Before the first build the header may hold anything.
-            false => self.header().map_or(triangles, |header| header.longest.min(triangles)),
+            false => self
+                .header()
+                .map_or(triangles, |header| header.longest.saturating_mul(LONG_LISTS_A_RAY).min(triangles)),
         };
         let entries = reads * u64::from(longest);
         16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
