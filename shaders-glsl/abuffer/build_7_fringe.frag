@@ -88,5 +88,5 @@ void main() {
         }
     }
     abuffer_mark(abuffer_built, primitive);
-    abuffer_add_fringe(abuffer_built, cell, primitive);
+    fringe_add(abuffer_built, cell, primitive);
 }

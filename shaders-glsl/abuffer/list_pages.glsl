@@ -8,33 +8,10 @@
 
 #define PageRef AbufferRef
 #define PAGE_SIZE ABUFFER_PAGE
-
-uint page_list(AbufferRef s, uint list) {
-    return ABUFFER_LISTS(s)[list];
-}
-
-uint page_list_exchange(AbufferRef s, uint list, uint word) {
-    return atomicExchange(ABUFFER_LISTS(s)[list], word);
-}
-
-uint page_list_replace(AbufferRef s, uint list, uint expected, uint word) {
-    return atomicCompSwap(ABUFFER_LISTS(s)[list], expected, word);
-}
-
-uint page_take(AbufferRef s) {
-    return atomicAdd(ABUFFER_HEADER(s).demand, 1u);
-}
-
-void page_set_next(AbufferRef s, uint page, uint word) {
-    if (page < ABUFFER_HEADER(s).capacity) {
-        ABUFFER_NODES(s)[page * abuffer_page_stride()] = word;
-    }
-}
-
-uint page_next(AbufferRef s, uint page) {
-    return ABUFFER_NODES(s)[page * abuffer_page_stride()];
-}
-
+#define PAGE_LIST(s, list) ABUFFER_LISTS(s)[list]
+#define PAGE_NEXT(s, page) ABUFFER_NODES(s)[(page) * abuffer_page_stride()]
+#define PAGE_DEMAND(s) ABUFFER_HEADER(s).demand
+#define PAGE_CAPACITY(s) ABUFFER_HEADER(s).capacity
 #include "ads/pages.glsl"
 
 // Takes a slot for a fragment of a list; 0 where its page does not exist.

@@ -110,7 +110,7 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
         return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
     }
     if (abuffer_paged()) {
-        return AbufferCursor(page_link(ABUFFER_LISTS(s)[list]), 0u, false);
+        return AbufferCursor(page_link(s, ABUFFER_LISTS(s)[list]), 0u, false);
     }
     uint word = abuffer_head_word(list);
     return AbufferCursor(ABUFFER_LISTS(s)[backward ? word + 1u : word], 0u, backward);

@@ -43,7 +43,7 @@ uvec2 abuffer_pyramid_fringe(AbufferRef s, uint view, uint cell) {
         if (i == ABUFFER_PYRAMID_FRINGE) {
             return uvec2(~0u, 0x7F800000u);
         }
-        uvec2 node = abuffer_fringe_node(s, link);
+        uvec2 node = fringe_node(s, link);
         link = node.y;
         if (node.x == PRIMITIVE_NONE) {
             continue;

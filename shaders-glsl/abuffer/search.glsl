@@ -60,7 +60,7 @@ bool abuffer_search_fringe(AbufferRef s, Ray ray, inout AbufferSearch search, in
         }
         work++;
         state.entries++;
-        uvec2 node = abuffer_fringe_node(s, link);
+        uvec2 node = fringe_node(s, link);
         link = node.y;
         if (node.x != PRIMITIVE_NONE) {
             state.tests++;

@@ -17,39 +17,16 @@ layout(push_constant, scalar) uniform Constants {
     uint page_capacity;
 };
 
-#define PageRef uint
-#define PAGE_SIZE page_size
-
-uint page_list(uint s, uint list) {
-    return words[1u + list];
-}
-
-uint page_list_exchange(uint s, uint list, uint word) {
-    return atomicExchange(words[1u + list], word);
-}
-
-uint page_list_replace(uint s, uint list, uint expected, uint word) {
-    return atomicCompSwap(words[1u + list], expected, word);
-}
-
-uint page_take(uint s) {
-    return atomicAdd(words[0], 1u);
-}
-
 uint page_word(uint page) {
     return 1u + list_count + page * (1u + page_size);
 }
 
-void page_set_next(uint s, uint page, uint word) {
-    if (page < page_capacity) {
-        words[page_word(page)] = word;
-    }
-}
-
-uint page_next(uint s, uint page) {
-    return words[page_word(page)];
-}
-
+#define PageRef uint
+#define PAGE_SIZE page_size
+#define PAGE_LIST(s, list) words[1u + (list)]
+#define PAGE_NEXT(s, page) words[page_word(page)]
+#define PAGE_DEMAND(s) words[0]
+#define PAGE_CAPACITY(s) page_capacity
 #include "ads/pages.glsl"
 
 void main() {

@@ -1,21 +1,17 @@
-// What: traces every ray through two structures in one shader and files both answers, for tests. One is a tree; the
-// other is primitive lists, or (PARITY_TREES, by address) another tree.
+// What: traces every ray through two structures in one shader and files both answers, for tests. FIRST and SECOND say which.
 // Reads: geometry, both structures, rays. Writes: hits (two a ray).
 #version 460
 #include "contract/extensions.glsl"
+#include "contract/structures.glsl"
 
 #define STRUCTURE_SET 1
-#include "bvh/trace.glsl"
-#undef STRUCTURE_SET
+#define TEST_STRUCTURE FIRST
+#define TEST_TRACE trace_first
+#include "ads/test_structure.glsl"
 #define STRUCTURE_SET 2
-#ifdef PARITY_TREES
-#define OtherRef BvhRef
-#define OTHER_TRACE_CLOSEST bvh_trace_closest
-#else
-#include "primitive/trace.glsl"
-#define OtherRef PrimitiveRef
-#define OTHER_TRACE_CLOSEST primitive_trace_closest
-#endif
+#define TEST_STRUCTURE SECOND
+#define TEST_TRACE trace_second
+#include "ads/test_structure.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -23,8 +19,8 @@ layout(set = 3, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 3, binding = 1, scalar) buffer HitBuffer { Hit hits[]; };
 
 layout(push_constant, scalar) uniform Constants {
-    BvhRef tree;
-    OtherRef other;
+    uvec2 first;
+    uvec2 second;
     uint count;
 };
 
@@ -41,7 +37,7 @@ void main() {
     TraceState state = trace_state_begin(ray);
     uint result = TRACE_PAUSED;
     for (uint pauses = 0u; pauses < MOST_PAUSES && result == TRACE_PAUSED; pauses++) {
-        result = bvh_trace_closest(tree, ray, state, hit);
+        result = trace_first(first, ray, state, hit);
     }
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[2u * index] = hit;
@@ -49,7 +45,7 @@ void main() {
     state = trace_state_begin(ray);
     result = TRACE_PAUSED;
     for (uint pauses = 0u; pauses < MOST_PAUSES && result == TRACE_PAUSED; pauses++) {
-        result = OTHER_TRACE_CLOSEST(other, ray, state, hit);
+        result = trace_second(second, ray, state, hit);
     }
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[2u * index + 1u] = hit;

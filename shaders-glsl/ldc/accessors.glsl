@@ -183,28 +183,4 @@ void ldc_set_bits(LdcRef s, uint place, uint bits) {
     }
 }
 
-// Puts a triangle into a cell's fringe, or counts that there was no room for it. Links are node number + 1; 0
-// ends a list.
-void ldc_add_fringe(LdcRef s, uint cell, uint primitive) {
-    uint node = atomicAdd(LDC_HEADER(s).fringe_demand, 1u);
-    if (node < LDC_HEADER(s).fringe_capacity) {
-        LDC_FRINGE(s)[2u * node] = primitive;
-        LDC_FRINGE(s)[2u * node + 1u] = atomicExchange(LDC_HEADS(s)[cell], node + 1u);
-    }
-}
-
-// The first link of a cell's fringe.
-uint ldc_fringe_head(LdcRef s, uint cell) {
-    return LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? LDC_HEADS(s)[cell] : 0u;
-}
-
-// Primitive and next of the node behind a link. A link past the end is counted and answers the end.
-uvec2 ldc_fringe_node(LdcRef s, uint link) {
-    if (link - 1u >= min(LDC_HEADER(s).fringe_capacity, LDC_HEADER(s).fringe_demand)) {
-        atomicAdd(LDC_HEADER(s).corrupted, 1u);
-        return uvec2(PRIMITIVE_NONE, 0u);
-    }
-    return uvec2(LDC_FRINGE(s)[2u * link - 2u], LDC_FRINGE(s)[2u * link - 1u]);
-}
-
 #endif

@@ -6,6 +6,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "ldc/blocks.glsl"
+#include "ldc/fringe.glsl"
 #include "ldc/raster.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
@@ -66,7 +67,7 @@ void main() {
     if (is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
         return;
     }
-    ldc_add_fringe(ldc_built, cell, primitive);
+    fringe_add(ldc_built, cell, primitive);
     float extent = axis_extent(view, a, b, c);
     // The part of the triangle within the cell.
     float z_low = clamp(z_center - extent, z_nearest, z_farthest);

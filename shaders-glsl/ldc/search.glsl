@@ -7,7 +7,7 @@
 
 #include "ads/judge.glsl"
 #include "ads/judge_plane.glsl"
-#include "ldc/accessors.glsl"
+#include "ldc/fringe.glsl"
 
 // Lists at least this long are entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
@@ -168,7 +168,7 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
         work++;
         state.entries++;
         trace_log(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-        uvec2 node = ldc_fringe_node(s, search.place);
+        uvec2 node = fringe_node(s, search.place);
         search.place = node.y;
         if (node.x != PRIMITIVE_NONE) {
             state.tests++;

@@ -21,15 +21,6 @@ VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell) {
     return VoxelPoint(t, cell, list, walk.origin[walk.axis] + t * walk.direction[walk.axis]);
 }
 
-// Reads the depth of a fragment.
-float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work) {
-    float z = voxel_z(s, place);
-    state.entries++;
-    work++;
-    trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
-    return z;
-}
-
 // The first fragment of a sorted list that lies at a depth or beyond.
 uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     uint place = voxel_bisect(s, list, depth, state, work);

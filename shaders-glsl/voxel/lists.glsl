@@ -71,7 +71,7 @@ VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
         return VoxelCursor(range.x < range.y ? range.x + 1u : 0u, range.y, 0u, 0u, 0u);
     }
     uint word = list < voxel_list_count(s) ? VOXEL_LISTS(s)[list] : 0u;
-    return voxel_list_resume(s, list, voxel_paged() ? page_link(word) : word);
+    return voxel_list_resume(s, list, voxel_paged() ? page_link(s, word) : word);
 }
 
 // Ends a list that has come back to the mark, and counts it. The mark moves on after twice as many links as before (Brent

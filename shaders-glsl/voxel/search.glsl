@@ -14,15 +14,21 @@ bool voxel_lists_sorted(VoxelRef s) {
     return VOXEL_SORT != 0u && VOXEL_HEADER(s).unsorted == 0u;
 }
 
+// Reads the depth of a fragment.
+float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work) {
+    float z = voxel_z(s, place);
+    state.entries++;
+    work++;
+    trace_log(STEP_ENTRY, place, 0u, 0u, z, z);
+    return z;
+}
+
 // The first fragment of a sorted list that lies at a depth or beyond, but for the last few steps.
 uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     // Each step halves what is left.
     for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
         uint middle = list.x + (list.y - list.x) / 2u;
-        float z = voxel_z(s, middle);
-        state.entries++;
-        work++;
-        trace_log(STEP_ENTRY, middle, 0u, 0u, z, z);
+        float z = voxel_read(s, middle, state, work);
         list = z < depth ? uvec2(middle + 1u, list.y) : uvec2(list.x, middle);
     }
     return list.x;

@@ -40,9 +40,15 @@ struct VoxelWalk {
     uint held;            // the fragment nearest to the point, so far
 };
 
+// The lower corner of the cube. A function of its own because the shader compiler does not end where `precise` values of
+// several structures depend on memory that is reached by address.
+vec3 voxel_lower(VoxelRef s) {
+    return VOXEL_HEADER(s).lower;
+}
+
 // Starts the walk through the voxels; false where the ray does not meet them.
 bool voxel_begin(VoxelRef s, Ray ray, out VoxelWalk walk) {
-    vec3 lower = VOXEL_HEADER(s).lower;
+    vec3 lower = voxel_lower(s);
     precise vec3 origin = ray.origin - lower;
     float scale = VOXEL_HEADER(s).voxels_per_metre;
     walk.origin = origin;

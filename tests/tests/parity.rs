@@ -1,17 +1,18 @@
 //! Several structures in one shader that is not ours: their GLSL functions called side by side find what the queue
-//! kernels find, with pools in descriptors and by address, and two of a kind by address.
+//! kernels find; every pair of structures, with pools in descriptors and by address, and two of a kind by address.
+
+use std::collections::BTreeMap;
 
 use rasray_ads::{Hit, InlineTrace, Ray, Structure};
-use rasray_ads_primitive::PrimitiveLists;
-use rasray_bvh::{Addressing, Builder, Bvh};
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Feature, MemoryLocation, Timing};
-use rasray_shaders_glsl::{ADS_TEST_PARITY, ADS_TEST_PARITY_ADDRESS, ADS_TEST_PARITY_TREES_ADDRESS, Shader};
+use rasray_shaders_glsl::{ALL, Shader};
+use rasray_systems::{SYSTEMS, Spec};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
 
-const RAYS: usize = 2000;
+const RAYS: usize = 1000;
 
 fn scene() -> Vec<Triangle> {
     let mut triangles = sphere([0.5, 0.25, 0.75], 1.0, 24);
@@ -31,8 +32,7 @@ fn side_by_side(
     bench: &Bench,
     shader: &Shader,
     triangles: &[Triangle],
-    tree: &InlineTrace<'_>,
-    other: &InlineTrace<'_>,
+    [first, second]: [&InlineTrace<'_>; 2],
     rays: &[Ray],
 ) -> Vec<[Hit; 2]> {
     let device = bench.device();
@@ -50,24 +50,24 @@ fn side_by_side(
     device.upload_slice(&output, 0, &vec![unanswered; 2 * rays.len()]).expect("the device takes hits");
     let layout = device.create_set_layout("parity", 2).expect("a set layout");
     let set = device.create_binding_set(&layout, "parity", &[&input, &output]).expect("a set");
-    let mut constants = tree.constants.clone();
-    constants.extend(&other.constants);
+    let mut constants = first.constants.clone();
+    constants.extend(&second.constants);
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
             spirv: shader.words(),
-            sets: &[geometry.layout(), tree.layout, other.layout, &layout],
+            sets: &[geometry.layout(), first.layout, second.layout, &layout],
             push_constant_bytes: 20,
             constants: &constants,
         })
         .expect("the kernel compiles");
     let words = |address: u64| [address as u32, (address >> 32) as u32];
-    let ([a, b], [c, d]) = (words(tree.address), words(other.address));
+    let ([a, b], [c, d]) = (words(first.address), words(second.address));
     device
         .submit(|recorder| {
             recorder.bind_compute(&pipeline);
             recorder.bind_sets(0, &[geometry.set()]);
-            for (index, trace) in [(1, tree), (2, other)] {
+            for (index, trace) in [(1, first), (2, second)] {
                 if let Some(set) = trace.set {
                     recorder.bind_sets(index, &[set]);
                 }
@@ -85,63 +85,79 @@ fn differences(found: &[[Hit; 2]], expected: [&[Hit]; 2]) -> usize {
     (0..found.len()).filter(|&ray| (0..2).any(|k| bits(&found[ray][k]) != bits(&expected[k][ray]))).count()
 }
 
-fn tree(bench: &Bench, triangles: &[Triangle], builder: Builder, addressing: Addressing) -> Bvh {
-    let geometry = bench.geometry(triangles);
-    let config = rasray_bvh::Config { addressing, ..rasray_bvh::Config::new(builder) };
-    let mut structure = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None).expect("it is built");
-    structure
+/// A structure in a shader, and what the queue kernels find in it.
+struct Traced {
+    structure: Box<dyn Structure>,
+    hits: Vec<Hit>,
 }
 
-fn lists(bench: &Bench, triangles: &[Triangle], addressing: Addressing) -> PrimitiveLists {
-    let geometry = bench.geometry(triangles);
-    let config = rasray_ads_primitive::Config { addressing, ..rasray_ads_primitive::Config::robust(64) };
-    let mut structure =
-        PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None).expect("it is built");
-    structure
+impl Traced {
+    fn new(bench: &Bench, spec: &Spec) -> Self {
+        let geometry = bench.geometry(&scene());
+        let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), &mut *structure, [0.0; 3], Timing::None).expect("it is built");
+        let hits = bench.trace(&*structure, &rays()).hits;
+        let met = hits.iter().filter(|hit| hit.is_hit()).count();
+        assert!((RAYS / 4..RAYS).contains(&met), "{}: {met} of {RAYS} rays hit", spec.system().name);
+        Self { structure, hits }
+    }
 }
 
-fn check(bench: &Bench, shader: &Shader, tree: &dyn Structure, other: &dyn Structure) {
-    let (triangles, rays) = (scene(), rays());
-    let expected = [bench.trace(tree, &rays).hits, bench.trace(other, &rays).hits];
-    let hits = expected[0].iter().filter(|hit| hit.is_hit()).count();
-    assert!((RAYS / 4..RAYS).contains(&hits), "{hits} of {RAYS} rays hit");
-    let inline = [tree, other].map(|structure| structure.inline_trace().expect("it can be called"));
-    let found = side_by_side(bench, shader, &triangles, &inline[0], &inline[1], &rays);
-    assert_eq!(differences(&found, [&expected[0], &expected[1]]), 0, "{}", shader.name);
-    assert_eq!(
-        differences(&found, [&expected[1], &expected[0]]),
-        0,
-        "{}: exact structures agree",
-        shader.name
-    );
+/// The default of every structure that can be called from another shader, by its folder of shaders, reached as
+/// `addressing` says.
+fn structures(bench: &Bench, addressing: &str) -> BTreeMap<&'static str, Traced> {
+    let mut structures = BTreeMap::new();
+    for system in SYSTEMS.iter().filter(|system| system.options.contains(&"addressing")) {
+        let options = [("addressing".to_owned(), addressing.to_owned())];
+        let spec = Spec::new(system.name, "robust", options).expect("the options are valid");
+        structures
+            .entry(spec.structure().trim_start_matches("ads-"))
+            .or_insert_with(|| Traced::new(bench, &spec));
+    }
+    structures
+}
+
+fn shader(name: &str) -> &'static Shader {
+    ALL.iter().find(|shader| shader.name == name).unwrap_or_else(|| panic!("{name} is no permutation"))
+}
+
+fn check(bench: &Bench, name: &str, traced: [&Traced; 2]) {
+    let inline = traced.map(|one| one.structure.inline_trace().expect("it can be called"));
+    let found = side_by_side(bench, shader(name), &scene(), [&inline[0], &inline[1]], &rays());
+    assert_eq!(differences(&found, [&traced[0].hits, &traced[1].hits]), 0, "{name}");
     // The comparison notices answers to other rays.
-    let mut moved = expected[0].clone();
+    let mut moved = traced[0].hits.clone();
     moved.rotate_left(1);
-    assert_ne!(differences(&found, [&moved, &expected[1]]), 0);
+    assert_ne!(differences(&found, [&moved, &traced[1].hits]), 0, "{name}");
+}
+
+/// Every pair of structures: the names of their shaders end in `suffix`.
+fn check_pairs(bench: &Bench, structures: &BTreeMap<&str, Traced>, suffix: &str) {
+    assert_eq!(structures.len(), 5, "{:?}", structures.keys());
+    for (first, one) in structures {
+        for (second, other) in structures.iter().filter(|(second, _)| *second > first) {
+            check(bench, &format!("ads/test_parity.{first}.{second}{suffix}"), [one, other]);
+        }
+    }
 }
 
 #[test]
-fn two_structures_share_a_shader() {
+fn any_two_structures_share_a_shader() {
     let bench = Bench::new();
-    let triangles = scene();
-    let tree = tree(&bench, &triangles, Builder::Sah, Addressing::Descriptor);
-    let lists = lists(&bench, &triangles, Addressing::Descriptor);
-    check(&bench, &ADS_TEST_PARITY, &tree, &lists);
+    check_pairs(&bench, &structures(&bench, "descriptor"), "");
 }
 
 #[test]
-fn by_address_two_of_a_kind_share_a_shader() {
+fn by_address_any_two_and_two_of_a_kind_share_a_shader() {
     let bench = Bench::new();
     if !bench.device().has(Feature::BufferDeviceAddress) {
         println!("skipped: the device has no buffer device addresses");
         return;
     }
-    let triangles = scene();
-    let sah = tree(&bench, &triangles, Builder::Sah, Addressing::Address);
-    let lbvh = tree(&bench, &triangles, Builder::Lbvh, Addressing::Address);
-    let lists = lists(&bench, &triangles, Addressing::Address);
-    check(&bench, &ADS_TEST_PARITY_ADDRESS, &sah, &lists);
-    check(&bench, &ADS_TEST_PARITY_TREES_ADDRESS, &sah, &lbvh);
+    let structures = structures(&bench, "address");
+    check_pairs(&bench, &structures, ".address");
+    let options = [("addressing", "address"), ("builder", "lbvh")];
+    let options = options.map(|(name, value)| (name.to_owned(), value.to_owned()));
+    let lbvh = Traced::new(&bench, &Spec::new("bvh", "robust", options).expect("the options are valid"));
+    check(&bench, "ads/test_parity.bvh.bvh.address", [&structures["bvh"], &lbvh]);
 }
