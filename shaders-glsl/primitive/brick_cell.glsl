@@ -67,17 +67,18 @@ uvec2 brick_entries(PrimitiveRef s, BrickWalk walk, uint list) {
     return uvec2(0u);
 }
 
-// Tests a candidate with the corners kept here, or with those of the geometry.
+// Tests a candidate with the corners kept here, or with those of the geometry. One that names no triangle is counted.
 void brick_test(PrimitiveRef s, uint primitive, Ray ray, inout TraceState state) {
-    if (PRIMITIVE_CORNERS_KEPT == 0u) {
+    bool kept = PRIMITIVE_CORNERS_KEPT != 0u;
+    if (primitive >= (kept ? PRIMITIVE_HEADER(s).triangle_capacity : geometry_triangle_count())) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        return;
+    }
+    if (!kept) {
         primitive_test(primitive, ray, state);
         return;
     }
     float infinity = uintBitsToFloat(0x7F800000u);
-    if (primitive >= PRIMITIVE_HEADER(s).triangle_capacity) {
-        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
-        return;
-    }
     state.tests++;
     test_corners(ray, primitive, PRIMITIVE_CORNERS(s)[3u * primitive], PRIMITIVE_CORNERS(s)[3u * primitive + 1u],
         PRIMITIVE_CORNERS(s)[3u * primitive + 2u], -infinity, infinity, state.best);

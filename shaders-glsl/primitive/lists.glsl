@@ -6,6 +6,7 @@
 #ifndef PRIMITIVE_LISTS_GLSL
 #define PRIMITIVE_LISTS_GLSL
 
+#include "ads/geometry.glsl"
 #include "primitive/accessors.glsl"
 
 // A list that is being read.
@@ -32,7 +33,7 @@ bool primitive_list_ended(PrimitiveCursor cursor) {
 }
 
 // The next triangle of a list that has not ended. An entry past the end of the pool is counted and ends
-// the list with PRIMITIVE_NONE.
+// the list with PRIMITIVE_NONE; one that names no triangle is counted and is PRIMITIVE_NONE.
 uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     uint stored = min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
     uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
@@ -41,12 +42,19 @@ uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
         cursor = PrimitiveCursor(0u, 0u);
         return PRIMITIVE_NONE;
     }
+    uint primitive;
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
         cursor.at = PRIMITIVE_ENTRIES(s)[2u * entry + 1u];
-        return PRIMITIVE_ENTRIES(s)[2u * entry];
+        primitive = PRIMITIVE_ENTRIES(s)[2u * entry];
+    } else {
+        cursor.at += 1u;
+        primitive = PRIMITIVE_ENTRIES(s)[entry];
     }
-    cursor.at += 1u;
-    return PRIMITIVE_ENTRIES(s)[entry];
+    if (primitive >= geometry_triangle_count()) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        return PRIMITIVE_NONE;
+    }
+    return primitive;
 }
 
 // Adds one to the length of a list, contiguous only.

@@ -190,6 +190,19 @@ impl PrimitiveLists {
             near: words("near")?,
         })
     }
+
+    /// Writes these pools back, as [`PrimitiveLists::download`] returned them or changed. Submits and waits: for tests
+    /// and tools. Traces end within their bounds whatever lists say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// A pool is larger than what was allocated, or the device failed.
+    pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
+        device.upload_slice(self.pools.pool(cells_pool(self.config.storage)), 0, &contents.bounds)?;
+        device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
+        device.upload_slice(self.pools.pool("entries"), 0, &contents.entries)?;
+        device.upload_slice(self.pools.pool("near"), 0, &contents.near)
+    }
 }
 
 impl Structure for PrimitiveLists {

@@ -111,6 +111,17 @@ impl Bvh {
         })
     }
 
+    /// Writes the tree back, as [`Bvh::download`] returned it or changed. Submits and waits: for tests and tools. Traces end
+    /// within their bounds whatever nodes say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// The tree is larger than what was allocated, or the device failed.
+    pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
+        device.upload_slice(self.pools.pool("nodes"), 0, &contents.nodes)?;
+        device.upload_slice(self.pools.pool("records"), 0, &contents.records)
+    }
+
     fn target(&self) -> BuildTarget<'_> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None }
     }

@@ -1,31 +1,28 @@
-//! Lists that were damaged after a build: traces end, say so, and touch nothing that is not theirs.
-//!
-//! Nothing checks the accesses but the shaders themselves: robust buffer access is never switched on. So everything
-//! runs in a process of its own, which may crash or hang without taking the tests along.
-
-use std::time::Instant;
+//! Damaged lists of the A-buffer.
 
 use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage, well_formed};
-use rasray_ads::{Hit, TraceMode};
-use rasray_faults::{device, finish, in_child, rays, scrambled, stage};
-use rasray_gpu::Timing;
-use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
+use rasray_faults::{in_child, scrambled};
+use rasray_gpu::{Device, GpuError};
 
-const RAYS: u32 = 96;
+use crate::survive::{self, Damageable, Flag, survive};
 
-/// How traces say that something is wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Flag {
-    /// Rays that go round and round are given up and counted.
-    Unfinished,
-    /// Entries that name nothing are counted.
-    Corrupted,
-    /// A trace cannot know: the entries name something, only not what they should. The check of the contents does.
-    Contents,
+type Damage = survive::Damage<Contents>;
+
+impl Damageable for ABuffer {
+    type Contents = Contents;
+
+    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
+        self.download(device)
+    }
+
+    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        self.upload(device, contents)
+    }
+
+    fn fault(contents: &Contents, _: u32) -> Option<String> {
+        well_formed(contents).err().map(|fault| fault.to_string())
+    }
 }
-
-/// Damage, and what traces say of it.
-type Damage = (&'static str, fn(&mut Contents), Flag);
 
 /// Applies a change to the head, the tail and the nodes of every list that is not empty.
 fn each_list(contents: &mut Contents, mut change: impl FnMut(&mut [u32], &mut Vec<u32>)) {
@@ -157,83 +154,36 @@ const DAMAGES_OF_ANY: [Damage; 3] = [
 ];
 
 fn check(config: Config, damages: &[Damage]) {
-    let device = device().expect("a device");
-    let scene = stage(&device).expect("a scene");
-    let mut structure =
-        ABuffer::new(&device, config, scene.geometry(), Some(scene.binding())).expect("valid options");
-    build_until_complete(&device, &mut structure, scene.eye(), Timing::None).expect("a build");
-    let tracer = BatchTracer::new(&device, RAYS).expect("a queue");
-    let rays = rays(&scene, RAYS);
-    let trace = |structure: &ABuffer, mode| {
-        tracer.trace(structure, &rays, mode, Timing::None).map(|outcome| outcome.hits)
-    };
-    let whole = structure.download(&device).expect("contents");
-    well_formed(&whole).expect("an undamaged build");
-    let expected = trace(&structure, TraceMode::Closest).expect("hits");
-    let found = expected.iter().filter(|hit| hit.is_hit()).count();
-    // At this resolution the published preset loses many hits.
-    assert!(found > 8, "{found} hits");
-    for &(name, damage, flag) in damages {
-        let mut contents = whole.clone();
-        damage(&mut contents);
-        assert!(well_formed(&contents).is_err(), "{name}: the check of the contents finds nothing");
-        structure.upload(&device, &contents).expect("damaged contents");
-        for mode in [TraceMode::Closest, TraceMode::Occluded] {
-            let start = Instant::now();
-            let result = trace(&structure, mode);
-            println!("{name}, {mode:?}: {} in {:?}", words(&result), start.elapsed());
-            // A ray that is answered at its first hit need not come to the damage.
-            let any = mode == TraceMode::Occluded && flag == Flag::Unfinished;
-            let flagged = match flag {
-                Flag::Unfinished => matches!(result, Err(TracerError::Unfinished { .. })),
-                Flag::Corrupted => matches!(result, Err(TracerError::Corrupted { .. })),
-                Flag::Contents => result.is_ok(),
-            };
-            assert!(flagged || any && result.is_ok(), "{name}, {mode:?}: {}", words(&result));
-            // Damage counts once: the next trace is judged by itself.
-            structure.upload(&device, &contents).expect("damaged contents");
-        }
-    }
-    structure.upload(&device, &whole).expect("contents");
-    assert_eq!(trace(&structure, TraceMode::Closest).expect("hits"), expected, "the damage outlives it");
-    let again = build_until_complete(&device, &mut structure, scene.eye(), Timing::None).expect("a build");
-    assert_eq!(again.status.corrupted, 0);
-    assert_eq!(trace(&structure, TraceMode::Closest).expect("hits"), expected);
-    drop((tracer, structure, scene));
-    assert_eq!(finish(device), Vec::<String>::new());
-}
-
-fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
-    match result {
-        Ok(hits) => format!("{} hits", hits.iter().filter(|hit| hit.is_hit()).count()),
-        Err(error) => error.to_string(),
-    }
+    survive(
+        |device, geometry, scene| ABuffer::new(device, config, geometry, Some(scene)).expect("valid options"),
+        damages,
+    );
 }
 
 #[test]
 fn damaged_lists_reached_by_descriptor_are_survived_and_told() {
-    if in_child("damaged_lists_reached_by_descriptor_are_survived_and_told") {
+    if in_child("abuffer::damaged_lists_reached_by_descriptor_are_survived_and_told") {
         check(Config::robust(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_reached_by_address_are_survived_and_told() {
-    if in_child("damaged_lists_reached_by_address_are_survived_and_told") {
+    if in_child("abuffer::damaged_lists_reached_by_address_are_survived_and_told") {
         check(Config { addressing: Addressing::Address, ..Config::robust(32) }, &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_of_the_published_preset_are_survived_and_told() {
-    if in_child("damaged_lists_of_the_published_preset_are_survived_and_told") {
+    if in_child("abuffer::damaged_lists_of_the_published_preset_are_survived_and_told") {
         check(Config::published(32), &DAMAGES);
     }
 }
 
 #[test]
 fn damaged_lists_of_every_storage_are_survived_and_told() {
-    if in_child("damaged_lists_of_every_storage_are_survived_and_told") {
+    if in_child("abuffer::damaged_lists_of_every_storage_are_survived_and_told") {
         for storage in Storage::ALL {
             for inline in [false, true] {
                 println!("{}, inline: {inline}", storage.name());
@@ -245,7 +195,7 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
 
 #[test]
 fn damaged_fringes_are_survived_and_told() {
-    if in_child("damaged_fringes_are_survived_and_told") {
+    if in_child("abuffer::damaged_fringes_are_survived_and_told") {
         let config = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..config }, &DAMAGES_OF_FRINGES);

@@ -1,0 +1,104 @@
+//! Damaged lists of the layered depth cube.
+
+use rasray_faults::{in_child, scrambled};
+use rasray_gpu::{Device, GpuError};
+use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube, well_formed};
+
+use crate::survive::{self, Damageable, Flag, survive};
+
+type Damage = survive::Damage<Contents>;
+
+impl Damageable for LayeredDepthCube {
+    type Contents = Contents;
+
+    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
+        self.download(device)
+    }
+
+    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        self.upload(device, contents)
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+}
+
+/// Changes the link of every node of the fringe; `change` is given the node's own link.
+fn each_fringe_node(contents: &mut Contents, change: impl Fn(u32) -> u32) {
+    let count = contents.header.fringe_demand as usize;
+    for (index, node) in contents.fringe.chunks_exact_mut(2).take(count).enumerate() {
+        node[1] = change(index as u32 + 1);
+    }
+}
+
+/// Damage to lists of fragments.
+const OF_LISTS: [Damage; 4] = [
+    ("lists that end just past the pool", |c| c.lists.fill(c.header.demand + 1), Flag::Corrupted),
+    ("lists that are all ones", |c| c.lists.fill(u32::MAX), Flag::Corrupted),
+    ("lists that run backwards", |c| c.lists.reverse(), Flag::Corrupted),
+    (
+        "lists, depths, payload and blocks at random",
+        |c| {
+            let mut next = scrambled(0x2545_F491);
+            c.lists.fill_with(&mut next);
+            c.depths.fill_with(&mut next);
+            c.payload.fill_with(&mut next);
+            c.blocks.fill_with(&mut next);
+            // Some ends of blocks are no numbers; these hold everything.
+            c.blocks.iter_mut().step_by(2).for_each(|word| *word = u32::MAX);
+        },
+        Flag::Corrupted,
+    ),
+];
+
+/// Damage to fringes.
+const OF_FRINGES: [Damage; 4] = [
+    ("every node of a fringe is its own neighbour", |c| each_fringe_node(c, |own| own), Flag::Unfinished),
+    (
+        "links of fringes just past the end",
+        |c| {
+            let past = c.header.fringe_demand + 1;
+            each_fringe_node(c, |_| past);
+        },
+        Flag::Corrupted,
+    ),
+    ("heads of fringes that are all ones", |c| c.heads.fill(u32::MAX), Flag::Corrupted),
+    (
+        "heads and fringes at random",
+        |c| {
+            let mut next = scrambled(0x1234_5677);
+            c.heads.fill_with(&mut next);
+            c.fringe.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+];
+
+fn check(config: Config, damages: &[Damage]) {
+    survive(
+        |device, geometry, scene| {
+            LayeredDepthCube::new(device, config, geometry, Some(scene)).expect("valid options")
+        },
+        damages,
+    );
+}
+
+#[test]
+fn damaged_lists_of_layered_depth_cubes_are_survived_and_told() {
+    if in_child("ldc::damaged_lists_of_layered_depth_cubes_are_survived_and_told") {
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            check(Config { addressing, ..Config::robust(32) }, &OF_LISTS);
+        }
+        check(Config::published(32), &OF_LISTS);
+    }
+}
+
+#[test]
+fn damaged_fringes_of_layered_depth_cubes_are_survived_and_told() {
+    if in_child("ldc::damaged_fringes_of_layered_depth_cubes_are_survived_and_told") {
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            check(Config { addressing, ..Config::robust(32) }, &OF_FRINGES);
+        }
+    }
+}

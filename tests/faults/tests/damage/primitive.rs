@@ -1,0 +1,148 @@
+//! Damaged primitive lists: linked, contiguous, and in bricks.
+
+use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage, Views, well_formed};
+use rasray_faults::{in_child, scrambled};
+use rasray_gpu::{Device, GpuError};
+
+use crate::survive::{self, Damageable, Flag, survive};
+
+type Damage = survive::Damage<Contents>;
+
+impl Damageable for PrimitiveLists {
+    type Contents = Contents;
+
+    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
+        self.download(device)
+    }
+
+    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
+        self.upload(device, contents)
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+}
+
+fn stored(contents: &Contents) -> u32 {
+    contents.header.demand.min(contents.header.capacity)
+}
+
+/// Changes the link of every node; `change` is given the node's own link.
+fn each_link(contents: &mut Contents, change: impl Fn(u32) -> u32) {
+    let count = stored(contents) as usize;
+    for (index, node) in contents.entries.chunks_exact_mut(2).take(count).enumerate() {
+        node[1] = change(index as u32 + 1);
+    }
+}
+
+/// Damage to linked lists.
+const OF_LINKS: [Damage; 4] = [
+    ("every node is its own neighbour", |c| each_link(c, |own| own), Flag::Unfinished),
+    (
+        "links just past the end",
+        |c| {
+            let past = stored(c) + 1;
+            each_link(c, |_| past);
+        },
+        Flag::Corrupted,
+    ),
+    ("links far past the end", |c| each_link(c, |_| u32::MAX), Flag::Corrupted),
+    (
+        "heads just past the end",
+        |c| {
+            let past = stored(c) + 1;
+            c.lists.iter_mut().filter(|head| **head != 0).for_each(|head| *head = past);
+        },
+        Flag::Corrupted,
+    ),
+];
+
+/// Damage to any storage.
+const OF_ANY: [Damage; 4] = [
+    (
+        "lists at random",
+        |c| {
+            let mut next = scrambled(0x1234_5677);
+            c.lists.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+    ("lists that are all ones", |c| c.lists.fill(u32::MAX), Flag::Corrupted),
+    ("entries that are all ones", |c| c.entries.fill(u32::MAX), Flag::Corrupted),
+    (
+        "lists, entries and bounds at random",
+        |c| {
+            let mut next = scrambled(0x2545_F491);
+            c.lists.fill_with(&mut next);
+            c.entries.fill_with(&mut next);
+            c.bounds.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+];
+
+/// Damage to the words and masks of bricks.
+const OF_BRICKS: [Damage; 3] = [
+    // Every cell lists something, and the numbers of most lists are beyond the last.
+    ("bricks with full masks", |c| c.bounds.fill(u32::MAX >> 8), Flag::Corrupted),
+    (
+        "the list of every cell is another's",
+        |c| {
+            let cells = c.header.cell_demand as usize;
+            c.bounds.chunks_exact_mut(3).filter(|brick| brick[1] | brick[2] != 0).for_each(|brick| {
+                brick[0] = (brick[0] + cells as u32 / 2) % cells as u32;
+            });
+        },
+        Flag::Corrupted,
+    ),
+    (
+        "bricks at random",
+        |c| {
+            let mut next = scrambled(0x9E37_79B9);
+            c.bounds.fill_with(&mut next);
+        },
+        Flag::Corrupted,
+    ),
+];
+
+fn check(config: Config, damages: &[Damage]) {
+    survive(
+        |device, geometry, scene| {
+            PrimitiveLists::new(device, config, geometry, Some(scene)).expect("valid options")
+        },
+        damages,
+    );
+}
+
+#[test]
+fn damaged_links_of_primitives_are_survived_and_told() {
+    if in_child("primitive::damaged_links_of_primitives_are_survived_and_told") {
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            check(Config { storage: Storage::Linked, addressing, ..Config::robust(32) }, &OF_LINKS);
+        }
+        check(Config::published(32), &OF_LINKS);
+    }
+}
+
+#[test]
+fn damaged_lists_of_primitives_of_every_storage_are_survived_and_told() {
+    if in_child("primitive::damaged_lists_of_primitives_of_every_storage_are_survived_and_told") {
+        for storage in [Storage::Linked, Storage::Contiguous, Storage::Bricks] {
+            for corners in [false, true] {
+                println!("{storage:?}, corners kept: {corners}");
+                check(Config { storage, corners, ..Config::robust(32) }, &OF_ANY);
+            }
+        }
+    }
+}
+
+#[test]
+fn damaged_bricks_are_survived_and_told() {
+    if in_child("primitive::damaged_bricks_are_survived_and_told") {
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            check(Config { addressing, ..Config::robust(32) }, &OF_BRICKS);
+        }
+        check(Config { views: Views::Axes, ..Config::robust(32) }, &OF_BRICKS);
+    }
+}

@@ -1,0 +1,93 @@
+//! Damages what a structure has built, one way after the other, and holds traces to what they must say of it.
+
+use std::time::Instant;
+
+use rasray_ads::{Geometry, Hit, SceneBinding, Structure, TraceMode};
+use rasray_faults::{device, finish, rays, stage};
+use rasray_gpu::{Device, GpuError, Timing};
+use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
+
+const RAYS: u32 = 96;
+
+/// How traces say that something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flag {
+    /// Rays that go round and round are given up and counted.
+    Unfinished,
+    /// Entries that name nothing are counted.
+    Corrupted,
+    /// A trace cannot know: the entries name something, only not what they should. The check of the contents does.
+    Contents,
+}
+
+/// Damage by its name, and what traces say of it.
+pub type Damage<C> = (&'static str, fn(&mut C), Flag);
+
+/// A structure whose pools can be read, checked and written.
+pub trait Damageable: Structure {
+    /// Its pools.
+    type Contents: Clone;
+
+    fn download(&self, device: &Device) -> Result<Self::Contents, GpuError>;
+
+    fn upload(&self, device: &Device, contents: &Self::Contents) -> Result<(), GpuError>;
+
+    /// What is wrong with them, with a number of triangles.
+    fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
+}
+
+/// Builds a structure over the room, and checks every damage to it.
+pub fn survive<S: Damageable>(
+    make: impl FnOnce(&Device, &Geometry, &SceneBinding) -> S,
+    damages: &[Damage<S::Contents>],
+) {
+    let device = device().expect("a device");
+    let scene = stage(&device).expect("a scene");
+    let mut structure = make(&device, scene.geometry(), scene.binding());
+    build_until_complete(&device, &mut structure, scene.eye(), Timing::None).expect("a build");
+    let tracer = BatchTracer::new(&device, RAYS).expect("a queue");
+    let rays = rays(&scene, RAYS);
+    let trace =
+        |structure: &S, mode| tracer.trace(structure, &rays, mode, Timing::None).map(|outcome| outcome.hits);
+    let triangles = scene.geometry().triangle_count();
+    let whole = structure.download(&device).expect("contents");
+    assert_eq!(S::fault(&whole, triangles), None, "an undamaged build");
+    let expected = trace(&structure, TraceMode::Closest).expect("hits");
+    let found = expected.iter().filter(|hit| hit.is_hit()).count();
+    // At this resolution published presets lose many hits.
+    assert!(found > 8, "{found} hits");
+    for &(name, damage, flag) in damages {
+        let mut contents = whole.clone();
+        damage(&mut contents);
+        assert!(S::fault(&contents, triangles).is_some(), "{name}: the check of the contents finds nothing");
+        for mode in [TraceMode::Closest, TraceMode::Occluded] {
+            // Damage counts once: each trace is judged by itself.
+            structure.upload(&device, &contents).expect("damaged contents");
+            let start = Instant::now();
+            let result = trace(&structure, mode);
+            println!("{name}, {mode:?}: {} in {:?}", words(&result), start.elapsed());
+            // A ray that is answered at its first hit need not come to the damage.
+            let any = mode == TraceMode::Occluded && flag == Flag::Unfinished;
+            let flagged = match flag {
+                Flag::Unfinished => matches!(result, Err(TracerError::Unfinished { .. })),
+                Flag::Corrupted => matches!(result, Err(TracerError::Corrupted { .. })),
+                Flag::Contents => result.is_ok(),
+            };
+            assert!(flagged || any && result.is_ok(), "{name}, {mode:?}: {}", words(&result));
+        }
+    }
+    structure.upload(&device, &whole).expect("contents");
+    assert_eq!(trace(&structure, TraceMode::Closest).expect("hits"), expected, "the damage outlives it");
+    let again = build_until_complete(&device, &mut structure, scene.eye(), Timing::None).expect("a build");
+    assert_eq!(again.status.corrupted, 0);
+    assert_eq!(trace(&structure, TraceMode::Closest).expect("hits"), expected);
+    drop((tracer, structure, scene));
+    assert_eq!(finish(device), Vec::<String>::new());
+}
+
+fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
+    match result {
+        Ok(hits) => format!("{} hits", hits.iter().filter(|hit| hit.is_hit()).count()),
+        Err(error) => error.to_string(),
+    }
+}
