@@ -15,12 +15,23 @@ struct PrimitiveCursor {
     uint end;             // place after the last entry, contiguous only
 };
 
+// Entries that the build has stored.
+uint primitive_stored(PrimitiveRef s) {
+    return min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
+}
+
+// A list from its begin. A contiguous one that leaves the pool or runs backwards is counted and is empty.
 PrimitiveCursor primitive_list_begin(PrimitiveRef s, uint list) {
     uint word = PRIMITIVE_LISTS(s)[list];
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED) {
         return PrimitiveCursor(word, 0u);
     }
-    return PrimitiveCursor(list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u], word);
+    uint begin = list == 0u ? 0u : PRIMITIVE_LISTS(s)[list - 1u];
+    if (begin > word || word > primitive_stored(s)) {
+        atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
+        return PrimitiveCursor(0u, 0u);
+    }
+    return PrimitiveCursor(begin, word);
 }
 
 // A list that has been read up to `at`.
@@ -35,9 +46,8 @@ bool primitive_list_ended(PrimitiveCursor cursor) {
 // The next triangle of a list that has not ended. An entry past the end of the pool is counted and ends
 // the list with PRIMITIVE_NONE; one that names no triangle is counted and is PRIMITIVE_NONE.
 uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
-    uint stored = min(PRIMITIVE_HEADER(s).capacity, PRIMITIVE_HEADER(s).demand);
     uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
-    if (entry >= stored) {
+    if (entry >= primitive_stored(s)) {
         atomicAdd(PRIMITIVE_HEADER(s).corrupted, 1u);
         cursor = PrimitiveCursor(0u, 0u);
         return PRIMITIVE_NONE;
