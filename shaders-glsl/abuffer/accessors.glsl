@@ -65,16 +65,11 @@ bool abuffer_has_extent() {
     return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 }
 
-// Whether cells keep triangles that reach into them beside their centres.
-bool abuffer_has_fringe() {
-    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
-}
-
 // Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the head of its fringe.
 uint abuffer_bounds_stride() {
     uint ends = abuffer_has_ends() ? 2u : 0u;
     uint extent = abuffer_has_extent() ? (abuffer_bucketed() ? 2u : 1u) : 0u;
-    return ends + extent + (abuffer_has_fringe() ? 1u : 0u);
+    return ends + extent + (abuffer_conservative() ? 1u : 0u);
 }
 
 // Word of the extent among a cell's bounds; the scale is the next one.

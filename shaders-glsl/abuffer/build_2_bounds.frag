@@ -5,7 +5,6 @@
 #include "contract/extensions.glsl"
 #include "abuffer/accessors.glsl"
 #include "abuffer/raster.glsl"
-#include "contract/alpha.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
@@ -13,7 +12,7 @@ void main() {
     uint cell;
     CellCoverage coverage;
     if (!abuffer_fragment(primitive_and_view.x, primitive_and_view.y, gl_FragCoord, cell, coverage)
-        || !alpha_accepts(primitive_and_view.x, coverage.barycentrics)) {
+        || !abuffer_keeps(primitive_and_view.x, coverage)) {
         return;
     }
     abuffer_widen_bounds(abuffer_built, cell, coverage.z);

@@ -5,7 +5,6 @@
 #include "contract/extensions.glsl"
 #include "abuffer/lists.glsl"
 #include "abuffer/raster.glsl"
-#include "contract/alpha.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
@@ -13,7 +12,7 @@ void main() {
     uint cell;
     CellCoverage coverage;
     if (abuffer_fragment(primitive_and_view.x, primitive_and_view.y, gl_FragCoord, cell, coverage)
-        && alpha_accepts(primitive_and_view.x, coverage.barycentrics)) {
+        && abuffer_keeps(primitive_and_view.x, coverage)) {
         abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
     }
 }

@@ -6,7 +6,6 @@
 #include "contract/extensions.glsl"
 #include "abuffer/lists.glsl"
 #include "abuffer/raster.glsl"
-#include "contract/alpha.glsl"
 #ifdef PAYLOAD_ATTRIBUTES
 #include "abuffer/attributes.glsl"
 #endif
@@ -21,7 +20,7 @@ void main() {
         return;
     }
     abuffer_mark(abuffer_built, primitive);
-    if (!alpha_accepts(primitive, coverage.barycentrics)) {
+    if (!abuffer_keeps(primitive, coverage)) {
         return;
     }
     float z = coverage.z;

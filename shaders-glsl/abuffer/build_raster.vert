@@ -21,7 +21,7 @@ void main() {
     abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
 #ifdef FRINGE
     // Half a cell to its sides, and 1/32 for the hardware's grid.
-    float margin = abuffer_fringe_margin(abuffer_built, a, b, c, resolution) + (1.0 + 1.0 / 16.0) / float(resolution);
+    float margin = abuffer_fringe_margin(abuffer_built, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
     gl_Position = coverage_proposal_within(a, b, c, corner, resolution, margin);
 #else
     if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {

@@ -25,14 +25,11 @@
 #define ABUFFER_PAYLOAD_INDEX 0u
 #define ABUFFER_PAYLOAD_ATTRIBUTES 1u
 
-// Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its centre are kept.
+// Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its centre are kept, so
+// that triangles can be tested in place of planes.
 #define ABUFFER_COVERAGE_HARDWARE 0u
 #define ABUFFER_COVERAGE_EXACT 1u
 #define ABUFFER_COVERAGE_CONSERVATIVE 2u
-
-// With conservative coverage a triangle that rises by more than so many widths of a cell within a cell is never stood for by
-// another's plane.
-#define ABUFFER_FRINGE_RISE 2.0
 
 // How the fragments of a cell are kept.
 #define ABUFFER_STORAGE_LL 0u

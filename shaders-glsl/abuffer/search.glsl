@@ -48,8 +48,15 @@ bool abuffer_meets(AbufferRef s, AbufferSearch search, uint link, float z, float
     return depths.x <= ray_z.y && depths.y >= ray_z.x;
 }
 
-// Tests the triangles of the cell's fringe. Returns true if the work budget ended before.
-bool abuffer_search_fringe(AbufferRef s, Ray ray, inout AbufferSearch search, inout TraceState state, inout uint work) {
+// Tests a triangle itself. A hit counts wherever it lies. The caller counts the test.
+void abuffer_test(Ray ray, uint primitive, inout TraceState state) {
+    float infinity = uintBitsToFloat(0x7F800000u);
+    test_triangle(ray, primitive, -infinity, infinity, state.best);
+}
+
+// Tests the triangles of the cell's fringe that the ray's depths meet. Returns true if the work budget ended before.
+bool abuffer_search_fringe(AbufferRef s, Ray ray, float low, float high, inout AbufferSearch search, inout TraceState state,
+    inout uint work) {
     uint link = search.in_fringe ? search.link : abuffer_fringe_head(s, search.cell);
     search.in_fringe = false;
     while (link != 0u) {
@@ -60,11 +67,16 @@ bool abuffer_search_fringe(AbufferRef s, Ray ray, inout AbufferSearch search, in
         }
         work++;
         state.entries++;
-        uvec2 node = fringe_node(s, link);
-        link = node.y;
-        if (node.x != PRIMITIVE_NONE) {
+        FringeNode node = fringe_node(s, link);
+        link = node.next;
+        if (node.primitive == PRIMITIVE_NONE) {
+            continue;
+        }
+        if (ABUFFER_SKIP == 0u || fringe_meets(node, low, high)) {
             state.tests++;
-            test_beside_planes(ray, node.x, search.t_low, search.t_high, state.best);
+            abuffer_test(ray, node.primitive, state);
+        } else {
+            trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
         }
     }
     return false;
@@ -73,7 +85,14 @@ bool abuffer_search_fringe(AbufferRef s, Ray ray, inout AbufferSearch search, in
 // Returns true if the work budget ended before the search did.
 bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bool ordered, inout AbufferSearch search,
     inout TraceState state, inout uint work) {
-    if (abuffer_has_fringe() && !search.in_bucket && abuffer_search_fringe(s, ray, search, state, work)) {
+    float z_in = origin_z + search.t_low * direction_z;
+    float z_out = origin_z + search.t_high * direction_z;
+    float rounding = 4.8e-7 * (abs(origin_z) + max(abs(search.t_low), abs(search.t_high)) * abs(direction_z))
+        + ABUFFER_HEADER(s).rounding;
+    float near_z = min(z_in, z_out);
+    float far_z = max(z_in, z_out);
+    if (abuffer_conservative() && !search.in_bucket
+        && abuffer_search_fringe(s, ray, near_z - rounding, far_z + rounding, search, state, work)) {
         return true;
     }
     AbufferBounds bounds = abuffer_bounds(s, search.cell);
@@ -83,11 +102,6 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
     }
     PlaneCell plane_cell = PlaneCell(ABUFFER_HEADER(s).eye, abuffer_cell_slope(s, search.view), 0.0, ABUFFER_PLANE_REACH,
         false);
-    float z_in = origin_z + search.t_low * direction_z;
-    float z_out = origin_z + search.t_high * direction_z;
-    float rounding = 4.8e-7 * (abs(origin_z) + max(abs(search.t_low), abs(search.t_high)) * abs(direction_z));
-    float near_z = min(z_in, z_out);
-    float far_z = max(z_in, z_out);
     bool away = direction_z >= 0.0;
     // Depths at the cell's centre that an accepted fragment can have.
     float low = near_z;
@@ -164,7 +178,11 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                 }
                 uint primitive = abuffer_data(s, current, 0u);
                 state.tests++;
-                test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
+                if (abuffer_conservative()) {
+                    abuffer_test(ray, primitive, state);
+                } else {
+                    test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
+                }
             } else if (abuffer_meets(s, search, current, z, low, high, vec2(near_z, far_z))) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
                 float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);

@@ -6,43 +6,26 @@
 
 #include "contract/trace_state.glsl"
 #include "contract/trace_log.glsl"
+#include "ads/bounds_interval.glsl"
+#include "ads/constants.glsl"
 #include "ads/judge.glsl"
 #include "abuffer/leap.glsl"
 
-// Tests the triangles of the near box one by one; true if the budget ended first.
-bool abuffer_trace_near(AbufferRef s, Ray ray, inout AbufferWalk walk, inout TraceState state, inout uint work) {
-    uint count = min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
+// Tests triangles one by one: those of the near box, or all; true if the budget ended first.
+bool abuffer_trace_listed(AbufferRef s, Ray ray, bool all_triangles, inout AbufferWalk walk, inout TraceState state, inout uint work) {
+    uint count = all_triangles ? geometry_triangle_count() : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
+    float infinity = uintBitsToFloat(0x7F800000u);
+    float t_low = abuffer_conservative() ? -infinity : walk.segment.t_begin - walk.segment.t_error;
+    float t_high = abuffer_conservative() ? infinity : walk.segment.t_end + walk.segment.t_error;
     for (; walk.place < count; walk.place++) {
         if (work >= WORK_BUDGET) {
             return true;
         }
         work++;
         state.tests++;
-        test_triangle(ray, ABUFFER_NEAR(s)[walk.place], walk.segment.t_begin - walk.segment.t_error,
-            walk.segment.t_end + walk.segment.t_error, state.best);
+        test_triangle(ray, all_triangles ? walk.place : ABUFFER_NEAR(s)[walk.place], t_low, t_high, state.best);
     }
     return false;
-}
-
-// The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
-vec2 abuffer_clip(AbufferRef s, vec3 origin, vec3 direction, Ray ray) {
-    vec2 interval = vec2(ray.t_min, ray.t_max);
-    for (int axis = 0; axis < 3; axis++) {
-        float o = origin[axis];
-        float d = direction[axis];
-        float lower = ABUFFER_HEADER(s).lower[axis];
-        float upper = ABUFFER_HEADER(s).upper[axis];
-        if (d == 0.0) {
-            interval.y = o < lower || o > upper ? -1.0 : interval.y;
-            continue;
-        }
-        float ta = (lower - o) / d;
-        float tb = (upper - o) / d;
-        float slack = 9.6e-7 * max(abs(ta), abs(tb));
-        interval.x = max(interval.x, min(ta, tb) - slack);
-        interval.y = min(interval.y, max(ta, tb) + slack);
-    }
-    return interval;
 }
 
 bool abuffer_finite(vec3 v) {
@@ -61,7 +44,12 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
     vec2 near = near_box_interval(origin, direction, ABUFFER_HEADER(s).near_size);
-    vec2 clip = abuffer_clip(s, origin, direction, ray);
+    // Where triangles are tested a hit counts by its t alone, wherever rounding has moved it.
+    float reach = ABUFFER_HEADER(s).reach;
+    float slack = abuffer_conservative() ? hit_slack(origin, direction, reach) : 0.0;
+    bool distant = abuffer_conservative() && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
+    vec2 clip = bounds_interval(ABUFFER_HEADER(s).lower, ABUFFER_HEADER(s).upper, origin, direction, ray.t_min - slack,
+        ray.t_max + slack);
     AbufferWalk walk;
     AbufferSearch search;
     uint work = 0u;
@@ -74,18 +62,22 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
         if (!restored) {
             // Nothing behind the best hit can be nearer.
-            if (!abuffer_next_segment(s, origin, direction, near, clip, state.best.t, walk.stretch, walk.segment)) {
+            if (!abuffer_next_segment(s, origin, direction, near, clip, state.best.t + slack, walk.stretch, walk.segment)) {
                 break;
             }
+            walk.segment.face = distant ? SEGMENT_NEAR : walk.segment.face;
             abuffer_begin_walk(s, origin, direction, walk);
             trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
             searching = false;
         }
         restored = false;
         if (walk.segment.face == SEGMENT_NEAR) {
-            if (abuffer_trace_near(s, ray, walk, state, work)) {
+            if (abuffer_trace_listed(s, ray, distant, walk, state, work)) {
                 abuffer_save(walk, search, false, state);
                 return TRACE_PAUSED;
+            }
+            if (distant) {
+                break;
             }
         } else {
             bool more = true;
@@ -104,7 +96,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 }
                 bool begun = search.in_bucket || search.in_fringe;
                 searching = false;
-                if (search.t_low > state.best.t) {
+                if (search.t_low > state.best.t + slack) {
                     trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
                     break;
                 }
@@ -113,7 +105,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
                 // A search that was begun goes on: leaps only pass by cells that have not been.
                 if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID && !begun
-                    && abuffer_leap(s, walk, search, state.best.t, work, more)) {
+                    && abuffer_leap(s, walk, search, state.best.t + slack, work, more)) {
                     continue;
                 }
                 if (abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {

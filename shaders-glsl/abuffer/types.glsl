@@ -20,7 +20,12 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 
-// State and sizes of one A-buffer. 204 bytes.
+// Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
+bool abuffer_conservative() {
+    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
+}
+
+// State and sizes of one A-buffer. 212 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -47,6 +52,8 @@ struct AbufferHeader {
     uint triangles;       // of the geometry that there are marks for
     uint fringe_demand;   // triangles kept beside centres, ABUFFER_COVERAGE_CONSERVATIVE only
     uint fringe_capacity;
+    float reach;          // metres: largest coordinate of the geometry relative to the eye
+    float rounding;       // metres: how far rounding moves a triangle against a ray, ABUFFER_COVERAGE_CONSERVATIVE only
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
     uvec2 lists_address;
     uvec2 nodes_address;

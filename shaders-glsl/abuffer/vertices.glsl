@@ -14,12 +14,14 @@ void abuffer_view_vertices(AbufferRef s, uint primitive, uint view, out vec3 a, 
     c = abuffer_view_from_world(s, c - eye, view);
 }
 
-// How far, in x/z, rounding may move a triangle in a view: cells of a fringe reach so far beyond their sides.
-float abuffer_fringe_margin(AbufferRef s, vec3 a, vec3 b, vec3 c, uint resolution) {
-    float near_size = ABUFFER_HEADER(s).near_size;
-    float nearest = max(min(a.z, min(b.z, c.z)), near_size);
-    // The near box is as large as a cell where places are lost in rounding.
-    return near_size / (float(resolution) * max(nearest, 1.0e-30)) + 1.0e-6;
+float abuffer_near_size(AbufferRef s) {
+    return ABUFFER_HEADER(s).near_size;
+}
+
+// How far, in x/z, rounding may move a triangle in a view: cells keep what is so far beyond their sides.
+float abuffer_fringe_margin(AbufferRef s, vec3 a, vec3 b, vec3 c) {
+    float nearest = max(min(a.z, min(b.z, c.z)), ABUFFER_HEADER(s).near_size);
+    return ABUFFER_HEADER(s).rounding / max(nearest, 1.0e-30) + 1.0e-6;
 }
 
 #endif

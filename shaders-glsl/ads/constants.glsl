@@ -31,6 +31,18 @@
 // in widths of a cell or, where that is smaller, of the triangle.
 #define FRINGE_DEPTH 0.25
 
+// Rays whose origin is farther from the centre of the views than this many times the geometry are tested against every
+// triangle where no hit may be lost: their rounding exceeds what the cells near the centre can bear.
+#define ORIGIN_LIMIT 4.0
+
+// Bound of how far rounding moves a triangle against the ray that is marched, over the distance of the
+// geometry: 24 units of rounding for each of the five distances between origin and hit.
+#define TRIANGLE_ROUNDING 7.2e-6
+
+// Half side of the near box over cells a side times the distance of the geometry where no hit may be lost: there a cell is
+// as wide as the guard of the march, 16 units of rounding for each of nine distances.
+#define NEAR_BOX 4.8e-6
+
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu
 

@@ -3,26 +3,53 @@
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
 //   FringeRef                the type that names the structure
 //   FRINGE_HEAD(s, cell)     the first link of a cell
-//   FRINGE_NODES(s)          words of the nodes: triangle and next link
+//   FRINGE_NODES(s)          words of the nodes: triangle, next link, depths in the cell
 //   FRINGE_HEADER(s)         has fringe_demand, fringe_capacity and corrupted
 // Source: not in the papers; MMRT names edge-on triangles as its open limit.
+// Depths are not negative; the upper halves of their bits are kept, the larger one rounded up, so that what is kept holds what
+// was given.
 
-// Puts a triangle into a cell's fringe, or counts that there was no room for it.
-void fringe_add(FringeRef s, uint cell, uint primitive) {
+#ifndef ADS_FRINGE_GLSL
+#define ADS_FRINGE_GLSL
+
+struct FringeNode {
+    uint primitive;
+    uint next;
+    vec2 depths;          // smallest and largest that the triangle has in the cell
+};
+
+uint fringe_pack_depths(vec2 depths) {
+    // Beyond the largest number stands infinity, which stays as it is.
+    uint high = min((floatBitsToUint(depths.y) >> 16) + 1u, 0x7F80u);
+    return floatBitsToUint(depths.x) >> 16 | high << 16;
+}
+
+// Whether a triangle of the fringe may be met at depths between `low` and `high`.
+bool fringe_meets(FringeNode node, float low, float high) {
+    return !(node.depths.x > high) && !(node.depths.y < low);
+}
+#endif
+
+// Puts a triangle, with the smallest and largest depth it has there, into a cell's fringe, or counts that there was no room for it.
+void fringe_add(FringeRef s, uint cell, uint primitive, vec2 depths) {
     uint node = atomicAdd(FRINGE_HEADER(s).fringe_demand, 1u);
     if (node < FRINGE_HEADER(s).fringe_capacity) {
-        FRINGE_NODES(s)[2u * node] = primitive;
-        FRINGE_NODES(s)[2u * node + 1u] = atomicExchange(FRINGE_HEAD(s, cell), node + 1u);
+        FRINGE_NODES(s)[3u * node] = primitive;
+        FRINGE_NODES(s)[3u * node + 1u] = atomicExchange(FRINGE_HEAD(s, cell), node + 1u);
+        FRINGE_NODES(s)[3u * node + 2u] = fringe_pack_depths(depths);
     }
 }
 
-// Primitive and next link of the node behind a link. A link past the end is counted and answers the end.
-uvec2 fringe_node(FringeRef s, uint link) {
+// The node behind a link. A link past the end is counted and answers the end.
+FringeNode fringe_node(FringeRef s, uint link) {
     if (link - 1u >= min(FRINGE_HEADER(s).fringe_capacity, FRINGE_HEADER(s).fringe_demand)) {
         atomicAdd(FRINGE_HEADER(s).corrupted, 1u);
-        return uvec2(PRIMITIVE_NONE, 0u);
+        return FringeNode(PRIMITIVE_NONE, 0u, vec2(0.0));
     }
-    return uvec2(FRINGE_NODES(s)[2u * link - 2u], FRINGE_NODES(s)[2u * link - 1u]);
+    uint word = 3u * (link - 1u);
+    uint depths = FRINGE_NODES(s)[word + 2u];
+    return FringeNode(FRINGE_NODES(s)[word], FRINGE_NODES(s)[word + 1u],
+        vec2(uintBitsToFloat(depths << 16), uintBitsToFloat(depths & 0xFFFF0000u)));
 }
 
 #undef FringeRef

@@ -67,10 +67,11 @@ void main() {
     if (is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
         return;
     }
-    fringe_add(ldc_built, cell, primitive);
     float extent = axis_extent(view, a, b, c);
     // The part of the triangle within the cell.
     float z_low = clamp(z_center - extent, z_nearest, z_farthest);
     float z_high = clamp(z_center + extent, z_nearest, z_farthest);
-    ldc_widen_blocks(ldc_built, view.axis, place, max(z_low, 0.0), max(z_high, 0.0));
+    vec2 depths = max(vec2(z_low, z_high), vec2(0.0));
+    ldc_widen_blocks(ldc_built, view.axis, place, depths.x, depths.y);
+    fringe_add(ldc_built, cell, primitive, depths);
 }

@@ -161,6 +161,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 
 // Searches the nodes of the fringe; true if the work budget ended first.
 bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
+    vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     while (search.place != 0u) {
         if (work >= WORK_BUDGET) {
             return true;
@@ -168,11 +169,16 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
         work++;
         state.entries++;
         trace_log(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-        uvec2 node = fringe_node(s, search.place);
-        search.place = node.y;
-        if (node.x != PRIMITIVE_NONE) {
+        FringeNode node = fringe_node(s, search.place);
+        search.place = node.next;
+        if (node.primitive == PRIMITIVE_NONE) {
+            continue;
+        }
+        if (LDC_SKIP == 0u || fringe_meets(node, depths.x - search.sizes.margin, depths.y + search.sizes.margin)) {
             state.tests++;
-            test_beside_planes(ray, node.x, search.t_low, search.t_high, state.best);
+            test_beside_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
+        } else {
+            trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
         }
     }
     return false;

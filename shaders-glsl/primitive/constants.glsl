@@ -36,14 +36,6 @@
 #define PRIMITIVE_VISIT_COUNT 2
 #define PRIMITIVE_VISIT_STORE 3
 
-// Rays whose origin is farther from the eye than this many times the geometry are tested against every
-// triangle: their rounding exceeds what the cells near the eye can bear.
-#define PRIMITIVE_ORIGIN_LIMIT 4.0
-
-// Bound of how far rounding moves a triangle against the ray that is marched, over the distance of the
-// geometry: 24 units of rounding for each of the five distances between origin and hit.
-#define PRIMITIVE_ROUNDING 7.2e-6
-
 // The same for bricks, whose cells list what lies within the rounding of the test in two coordinates (240 units) and
 // that of the march (96).
 #define PRIMITIVE_BRICK_ROUNDING 2.0e-5
@@ -71,10 +63,6 @@
 #define PRIMITIVE_BIN_TURNS 30000
 // Workgroups a row of that dispatch.
 #define PRIMITIVE_PAIR_ROW 32768u
-
-// Half side of the near box over tiles times the distance of the geometry: there a cell is as wide as the
-// guard of the march, 16 units of rounding for each of nine distances.
-#define PRIMITIVE_NEAR 4.8e-6
 
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u

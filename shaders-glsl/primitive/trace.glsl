@@ -6,6 +6,8 @@
 #ifndef PRIMITIVE_TRACE_GLSL
 #define PRIMITIVE_TRACE_GLSL
 
+#include "ads/bounds_interval.glsl"
+#include "ads/constants.glsl"
 #include "primitive/leap.glsl"
 #include "primitive/brick_trace.glsl"
 
@@ -67,27 +69,6 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
     return false;
 }
 
-// The part of [t_min, t_max], widened by `slack`, in which the ray is inside the bounds of the geometry.
-vec2 primitive_clip(PrimitiveRef s, vec3 origin, vec3 direction, float t_min, float t_max) {
-    vec2 interval = vec2(t_min, t_max);
-    for (int axis = 0; axis < 3; axis++) {
-        float o = origin[axis];
-        float d = direction[axis];
-        float lower = PRIMITIVE_HEADER(s).lower[axis];
-        float upper = PRIMITIVE_HEADER(s).upper[axis];
-        if (d == 0.0) {
-            interval.y = o < lower || o > upper ? -uintBitsToFloat(0x7F800000u) : interval.y;
-            continue;
-        }
-        float ta = (lower - o) / d;
-        float tb = (upper - o) / d;
-        float widening = 9.6e-7 * max(abs(ta), abs(tb));
-        interval.x = max(interval.x, min(ta, tb) - widening);
-        interval.y = min(interval.y, max(ta, tb) + widening);
-    }
-    return interval;
-}
-
 uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_hit) {
     if ((PRIMITIVE_HEADER(s).status & STATUS_COMPLETE) == 0u) {
         return TRACE_NOT_READY;
@@ -95,15 +76,13 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     vec3 origin = ray.origin - PRIMITIVE_HEADER(s).centre;
     vec3 direction = ray.direction;
     float reach = PRIMITIVE_HEADER(s).reach;
-    float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
-    float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-    // How far rounding moves a t, for surfaces that are not met along themselves: 256 units of rounding.
-    float slack = 1.6e-5 * (size + reach) / speed;
+    float slack = hit_slack(origin, direction, reach);
     // Views along axes meet nowhere, so that no near box stands between them.
     vec2 near = PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES ? vec2(1.0, 0.0)
         : near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
-    vec2 clip = primitive_clip(s, origin, direction, ray.t_min - slack, ray.t_max + slack);
-    bool distant = size > PRIMITIVE_ORIGIN_LIMIT * reach;
+    vec2 clip = bounds_interval(PRIMITIVE_HEADER(s).lower, PRIMITIVE_HEADER(s).upper, origin, direction, ray.t_min - slack,
+        ray.t_max + slack);
+    bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS) {
         return brick_trace(s, ray, origin, clip, near, slack, distant, any_hit, state);
     }

@@ -198,7 +198,7 @@ fn every_fault_of_a_list_is_noticed() {
         assert!(matches!(broken(&|c| c.heads[head] = u32::MAX), Fault::Dangling { .. }));
         let ring = broken(&|c| {
             let node = c.heads[head] as usize - 1;
-            c.fringe[2 * node + 1] = c.heads[head];
+            c.fringe[3 * node + 1] = c.heads[head];
         });
         assert!(matches!(ring, Fault::Dangling { .. }), "{ring:?}");
         let exchanged = broken(&|c| match depth {

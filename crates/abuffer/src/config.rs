@@ -53,8 +53,9 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-    /// The same, and a triangle that reaches into a cell beside its centre, where no fragment stands for it, is kept in the
-    /// cell's fringe: edge-on ones, silhouettes, and what is smaller than a cell. Needs [`Accept::Plane`].
+    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe: edge-on ones,
+    /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
+    /// finds ([`Config::is_exact`]). Needs [`Accept::Plane`].
     Conservative,
 }
 
@@ -279,10 +280,16 @@ impl Config {
             return Err(AdsError::Option {
                 option: "coverage",
                 value: "conservative".to_owned(),
-                expected: "conservative coverage keeps triangles beside planes: it needs `accept=plane`",
+                expected: "conservative coverage tests triangles, which fragments name with `accept=plane` only",
             });
         }
         Ok(())
+    }
+
+    /// Whether every hit is that of brute force: cells keep every triangle that reaches into them, and rays visit every cell
+    /// that they cross, all around the eye.
+    pub fn is_exact(&self) -> bool {
+        self.has_fringe() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
     }
 
     /// Whether cells keep triangles beside their centres.

@@ -56,6 +56,10 @@ pub struct Header {
     pub fringe_demand: u32,
     /// Triangles the fringe holds.
     pub fringe_capacity: u32,
+    /// Largest coordinate of the geometry relative to the eye, metres.
+    pub reach: f32,
+    /// How far rounding moves a triangle against a ray, metres; only with conservative coverage.
+    pub rounding: f32,
     /// Device address of the bounds; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the list heads and tails.

@@ -133,7 +133,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
         (demand.near_triangles, 4),
         (scratch_words(config, demand.long_lists), 4),
-        (if config.has_fringe() { demand.fringe } else { 0 }, 8),
+        (if config.has_fringe() { demand.fringe } else { 0 }, 12),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -180,7 +180,7 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative coverage: per cell 4, per triangle beside its centre 8.
+    /// With conservative coverage: per cell 4, per triangle beside its centre 12.
     pub fringe: u64,
     /// Header, 4 per triangle of the near list, 8 per long list, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles
     /// for their marks.
@@ -235,8 +235,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        fringe: if config.coverage == Coverage::Conservative { 4 * cells + 8 * demand.fringe } else { 0 },
-        rest: 204
+        fringe: if config.coverage == Coverage::Conservative { 4 * cells + 12 * demand.fringe } else { 0 },
+        rest: 212
             + 4 * demand.near_triangles
             + 8 * demand.long_lists
             + 4 * sums

@@ -6,6 +6,7 @@ use rasray_ads::{
     TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 
 use crate::build::Build;
@@ -97,18 +98,31 @@ impl ABuffer {
         // The subtraction above rounds, and so does the one in the shaders.
         let rounding = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
         let faces = if config.views.has_cube() { config.resolution } else { 0 };
-        let (camera_rows, camera_cells, camera_width) = camera.map_or_else(Default::default, |camera| {
-            let resolution = config.camera_resolution as f32;
-            let half = camera.half_width.max(camera.half_height);
-            // A point's place in the camera's view is also turned and stretched: twice the rounding, and narrow views more.
-            let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
-            (camera.rows(), stretch * resolution, 2.0 * half / resolution)
-        });
+        let (camera_rows, camera_stretch, camera_cells, camera_width) =
+            camera.map_or_else(Default::default, |camera| {
+                let resolution = config.camera_resolution as f32;
+                let half = camera.half_width.max(camera.half_height);
+                // A point's place in the camera's view is also turned and stretched: twice the rounding, and narrow views more.
+                let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
+                (camera.rows(), stretch, stretch * resolution, 2.0 * half / resolution)
+            });
         let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
+        let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
+        let conservative = config.has_fringe();
+        let triangle_rounding = if conservative { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
         // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
-        let margin = match self.config.accept {
+        let margin = match config.accept {
+            _ if conservative => triangle_rounding,
             Accept::Slope | Accept::Plane => rounding + widest * farthest,
             Accept::Interval | Accept::Thickness => rounding,
+        };
+        let cells = (faces as f32).max(camera_cells);
+        // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be lost the march
+        // needs more, and what a ray meets outside of the near box is not behind the eye.
+        let near_size = if conservative {
+            (NEAR_BOX * cells * farthest).max(2.0 * triangle_rounding).max(1.0e-30)
+        } else {
+            4.8e-7 * cells * farthest
         };
         let [camera_x, camera_y, camera_z] = camera_rows;
         Ok(Header {
@@ -118,8 +132,7 @@ impl ABuffer {
             resolution: self.config.resolution,
             samples: self.config.samples,
             thickness: self.config.thickness,
-            // Closer to the eye than this a point's cell is lost in rounding (docs/core.md).
-            near_size: 4.8e-7 * (faces as f32).max(camera_cells) * farthest,
+            near_size,
             eye,
             lower: lower.map(|x| x - margin),
             upper: upper.map(|x| x + margin),
@@ -128,6 +141,8 @@ impl ABuffer {
             camera_y,
             camera_z,
             triangles: (32 * self.mark_words()).min(u32::MAX.into()) as u32,
+            reach: farthest,
+            rounding: triangle_rounding,
             bounds_address: self.pools.address_of("bounds"),
             lists_address: self.pools.address_of("lists"),
             nodes_address: self.pools.address_of("nodes"),
@@ -195,7 +210,7 @@ impl Structure for ABuffer {
     }
 
     fn kind(&self) -> StructureKind {
-        StructureKind::Fragment
+        if self.config.is_exact() { StructureKind::Primitive } else { StructureKind::Fragment }
     }
 
     fn requirements(&self) -> Requirements {

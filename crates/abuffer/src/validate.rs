@@ -93,7 +93,7 @@ impl Contents {
         let stored = self.header.fringe_demand.min(self.header.fringe_capacity) as usize;
         let mut link = self.bounds[(cell + 1) * bounds_words(&self.config) as usize - 1];
         while link != 0 {
-            let node = 2 * (link as usize - 1);
+            let node = 3 * (link as usize - 1);
             if link as usize > stored || found.len() >= stored {
                 return Err(Fault::Fringe { cell, link });
             }

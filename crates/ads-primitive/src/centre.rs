@@ -1,6 +1,6 @@
 //! Where the faces of the cube meet.
 
-/// Rays from farther than `PRIMITIVE_ORIGIN_LIMIT` times the geometry are tested one by one; eyes stay nearer than this.
+/// Rays from farther than `ORIGIN_LIMIT` times the geometry are tested one by one; eyes stay nearer than this.
 const EYE_LIMIT: f32 = 3.5;
 
 /// Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no fraction at which

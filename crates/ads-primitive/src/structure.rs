@@ -6,6 +6,7 @@ use rasray_ads::{
     TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
@@ -118,10 +119,10 @@ impl PrimitiveLists {
         // centre is from the frame origin.
         let rounding = match self.config.storage {
             Storage::Bricks => numbers::PRIMITIVE_BRICK_ROUNDING,
-            Storage::Linked | Storage::Contiguous => numbers::PRIMITIVE_ROUNDING,
+            Storage::Linked | Storage::Contiguous => TRIANGLE_ROUNDING,
         } * farthest;
         // What a ray outside of the near box meets is not behind the centre, also where tiles are few.
-        let near_size = (numbers::PRIMITIVE_NEAR * self.config.tiles() as f32 * farthest).max(2.0 * rounding);
+        let near_size = (NEAR_BOX * self.config.tiles() as f32 * farthest).max(2.0 * rounding);
         Header {
             capacity: self.pools.sizes().elements("entries") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,

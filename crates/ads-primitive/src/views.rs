@@ -30,7 +30,7 @@ const MOST_CELLS: f64 = 16_777_216.0;
 /// Fewest cells along the longest side where their number is left to the rule.
 const FEWEST_ALONG: f64 = 16.0;
 
-/// Eyes nearer than this many times the geometry need no wider margins: a little less than `PRIMITIVE_ORIGIN_LIMIT`.
+/// Eyes nearer than this many times the geometry need no wider margins: a little less than `ORIGIN_LIMIT`.
 const EYE_LIMIT: f32 = 3.5;
 
 /// Margins of a distant eye are no wider than this share of a cell.

@@ -61,7 +61,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (demand.fragments, config.payload.bytes()),
         (block_count(config), block_bytes),
         (heads, 4),
-        (fringe, 8),
+        (fringe, 12),
         (scratch_words(config, demand), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
@@ -149,7 +149,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         cells: cells * if kept { 8 } else { 4 },
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: payload * fragments + depths,
-        fringe: if kept { 8 * fringe } else { 0 },
+        fringe: if kept { 12 * fringe } else { 0 },
         rest: 168
             + 4 * cells.div_ceil(1024)
             + if config.making == Making::Peel { 4 * layers } else { 8 * long_lists },

@@ -128,7 +128,7 @@ impl Contents {
             if link as usize > stored || found.len() == stored {
                 return Err(Fault::Dangling { cell, link });
             }
-            let node = 2 * (link as usize - 1);
+            let node = 3 * (link as usize - 1);
             found.push(self.fringe[node]);
             link = self.fringe[node + 1];
         }

@@ -4,7 +4,6 @@ const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const EDGE_ON: &str = "its plane holds the eye or nearly so, so that few cells' centres are covered or none";
 const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of what falls towards them";
 const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
-const BESIDE: &str = "triangles of few cells, beside which their planes stand before others";
 const SHELL: &str = "both sides of the shell lie within one step";
 const LEAVING: &str = "a ray that leaves a surface meets the samples beside its own";
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
@@ -46,23 +45,6 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
     line("T4", BORDER, 5.0),
     chances("P1", "spheres inside spheres, seen from outside, half of each at grazing angles", 70.0),
     line("P7", "rays that leave a surface at grazing angles meet the cells beside their own", 16.0),
-];
-
-/// The same where triangles are kept beside centres: what is left is that planes stand for what is beside them.
-pub(super) const CONSERVATIVE_LAWS: &[Law] = &[
-    line("E2-far", COARSE, 5.0),
-    line("E2-400-far", COARSE, 36.0),
-    line("Z2-6", COARSE, 17.0),
-    line("V15-near", "the eye touches the surface, whose cells are seen at grazing angles", 6.5),
-    line("V15-vertex", "as V15-near", 6.5),
-    line("V8", "silhouettes: a plane stands for what is behind it in its cell", 2.2),
-    line("C4", BESIDE, 6.5),
-    chances("C5", BESIDE, 14.0),
-    line("X6", "a cube of a few cells, met at its silhouette as well", 1.4),
-    line("T1", BESIDE, 5.0),
-    line("T4", BESIDE, 4.0),
-    chances("P1", "spheres inside spheres, seen from outside, half of each at grazing angles", 65.0),
-    line("P7", "rays that leave a surface at grazing angles meet the cells beside their own", 12.0),
 ];
 
 /// Planes in 16 x 16 cells a face.

@@ -78,23 +78,34 @@ pub(super) const ROWS: &[Row] = &[
         robust_law(64),
         deviations::CAMERA_64,
     ),
-    // With what reaches into cells beside their centres.
-    Row {
-        tier: Tier::Full,
-        ..mmrt(
-            "mmrt-conservative-64",
-            Preset::Robust,
-            &[("resolution", "64"), ("coverage", "conservative")],
-            Cases::Shallow,
-            Demand::Law {
-                resolution: 64,
-                per_cell: 0.64,
-                depth_tolerance: 1e-3,
-                laws: deviations::CONSERVATIVE_LAWS,
-            },
-            &[],
-        )
-    },
+    // What reaches into a cell is kept there: hits are those of triangles.
+    Row::exact(
+        "mmrt-conservative-16",
+        "mmrt",
+        &[("resolution", "16"), ("coverage", "conservative")],
+        Tier::Quick,
+        Cases::All,
+    ),
+    Row::exact(
+        "mmrt-conservative-64",
+        "mmrt",
+        &[("resolution", "64"), ("coverage", "conservative"), ("march", "pyramid")],
+        Tier::Full,
+        Cases::Shallow,
+    ),
+    Row::exact(
+        "mmrt-conservative-cube-camera-32",
+        "mmrt",
+        &[
+            ("resolution", "32"),
+            ("coverage", "conservative"),
+            ("views", "cube+camera"),
+            ("camera-resolution", "48"),
+            ("storage", "sb"),
+        ],
+        Tier::Full,
+        Cases::Shallow,
+    ),
     // Triangle ids instead of attributes, which need a scene.
     mmrt(
         "mmrt-published-16",

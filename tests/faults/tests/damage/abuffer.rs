@@ -112,7 +112,7 @@ const DAMAGES: [Damage; 10] = [
 /// Changes the link of every node of the fringe; `change` is given the node's own link.
 fn each_fringe_node(contents: &mut Contents, change: impl Fn(u32) -> u32) {
     let count = contents.header.fringe_demand as usize;
-    for (index, node) in contents.fringe.chunks_exact_mut(2).take(count).enumerate() {
+    for (index, node) in contents.fringe.chunks_exact_mut(3).take(count).enumerate() {
         node[1] = change(index as u32 + 1);
     }
 }

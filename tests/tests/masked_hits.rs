@@ -1,0 +1,85 @@
+//! Structures that lose no hit against brute force where masks cut holes into triangles, bit for bit: a candidate counts
+//! by the mask where the ray meets it, wherever and however a structure keeps its triangle.
+
+use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind, TraceMode};
+use rasray_gpu::Timing;
+use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+use rasray_scene::builtin::builtin;
+use rasray_scene::default_view::default_camera;
+use rasray_scene::needs::Needs;
+use rasray_systems::Spec;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::random::Random;
+use rasray_tracer::{BatchTracer, build_until_complete};
+
+const RAYS: usize = 1500;
+
+/// Systems with options that promise every hit.
+const EXACT: &[(&str, &[(&str, &str)])] = &[
+    ("bvh", &[]),
+    ("dirt", &[]),
+    ("dirt", &[("resolution", "64"), ("storage", "sb")]),
+    ("hu", &[("storage", "bricks")]),
+    ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
+    ("mmrt", &[("resolution", "64"), ("coverage", "conservative")]),
+    ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("storage", "sb"), ("march", "pyramid")]),
+];
+
+/// The hall whose banners and plants are cut out by masks.
+fn stage(bench: &Bench) -> GpuScene {
+    let scene = builtin("atrium:detail=0.25").expect("it is built in").expect("its parameter is valid");
+    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
+    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(&scene, origin, &Parts::from(&Needs::all())).expect("valid tables");
+    let view = View { camera, width: 16, height: 16, seed: 1 };
+    GpuScene::upload(bench.device(), &tables, &view).expect("it fits")
+}
+
+fn rays(scene: &GpuScene) -> Vec<Ray> {
+    let [lower, upper] = scene.geometry().bounds();
+    let mut random = Random::new(97);
+    (0..RAYS)
+        .map(|_| {
+            let origin = std::array::from_fn(|axis| random.between(lower[axis], upper[axis]));
+            Ray::new(origin, random.direction())
+        })
+        .collect()
+}
+
+fn hits(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Hit> {
+    let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
+    tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish").hits
+}
+
+fn different(found: &[Hit], expected: &[Hit]) -> usize {
+    found.iter().zip(expected).filter(|(hit, expected)| bits(hit) != bits(expected)).count()
+}
+
+#[test]
+fn masks_are_looked_up_where_rays_meet_triangles() {
+    let bench = Bench::new();
+    let scene = stage(&bench);
+    let rays = rays(&scene);
+    let brute = |binding| {
+        let structure = BruteForce::new(bench.device(), scene.geometry(), binding, false).expect("kernels");
+        hits(&bench, &structure, &rays)
+    };
+    let (expected, opaque) = (brute(Some(scene.binding())), brute(None));
+    let behind_holes = different(&opaque, &expected);
+    println!(
+        "{behind_holes} of {RAYS} rays pass through holes of {} triangles",
+        scene.geometry().triangle_count()
+    );
+    assert!(behind_holes > RAYS / 100, "{behind_holes} rays pass through holes");
+    for (system, options) in EXACT {
+        let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        let spec = Spec::new(system, "robust", given).expect("the options are valid");
+        let mut structure =
+            spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("it is made");
+        assert_ne!(structure.kind(), StructureKind::Fragment, "{system} {options:?}");
+        build_until_complete(bench.device(), &mut *structure, scene.eye(), Timing::None)
+            .expect("it is built");
+        let wrong = different(&hits(&bench, &*structure, &rays), &expected);
+        assert_eq!(wrong, 0, "{system} {options:?}");
+    }
+}
