@@ -67,6 +67,7 @@ bool abuffer_search_fringe(AbufferRef s, Ray ray, float low, float high, inout A
         }
         work++;
         state.entries++;
+        trace_log(STEP_ENTRY, link, 0u, 0u, 0.0, 0.0);
         FringeNode node = fringe_node(s, link);
         link = node.next;
         if (node.primitive == PRIMITIVE_NONE) {

@@ -1,6 +1,6 @@
 //! The replay of one ray: its steps are the work that was counted, and they show where a hit was lost.
 
-use rasray_abuffer::{ABuffer, Config, Payload};
+use rasray_abuffer::{ABuffer, Config, Coverage, Payload};
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, TestVerdict, TraceMode};
 use rasray_ads_primitive::{PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
@@ -94,6 +94,11 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         lists(bench, geometry, Storage::Bricks, counters, Some(5)),
         abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
         abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
+        abuffer(
+            bench,
+            geometry,
+            Config { counters, work_budget, coverage: Coverage::Conservative, ..Config::robust(RESOLUTION) },
+        ),
         voxels(bench, geometry, VoxelConfig { counters, work_budget, ..VoxelConfig::robust(RESOLUTION) }),
         voxels(
             bench,
