@@ -13,11 +13,11 @@ fn as_command() {
     scripted::become_the_command();
 }
 
-fn send(child: &Child, signal: &str) {
-    let status = std::process::Command::new("bash")
-        .args(["-c", &format!("kill -{signal} {}", child.id())])
-        .status()
-        .expect("bash starts");
+/// Sends signals, one right behind the other. Two of a kind would arrive as one.
+fn send(child: &Child, signals: &[&str]) {
+    let kills: Vec<_> = signals.iter().map(|signal| format!("kill -{signal} {}", child.id())).collect();
+    let status =
+        std::process::Command::new("bash").args(["-c", &kills.join(" && ")]).status().expect("bash starts");
     assert!(status.success());
 }
 
@@ -34,10 +34,7 @@ fn interrupted(folder: &Path, line: &str, signals: &[&str]) -> Output {
     wait_until("the command does not begin", &mut child, |_| ready.exists());
     // Some samples shall be whole.
     std::thread::sleep(Duration::from_millis(150));
-    for signal in signals {
-        send(&child, signal);
-        std::thread::sleep(Duration::from_millis(5));
-    }
+    send(&child, signals);
     wait_until("the command does not stop", &mut child, |child| child.try_wait().expect("a child").is_some());
     child.wait_with_output().expect("its output")
 }
@@ -76,9 +73,8 @@ fn one_signal_makes_a_valid_image_of_the_samples_so_far() {
 #[test]
 fn two_signals_leave_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
-    // Nothing is asked between the signals: a wave of this device is longer than their distance.
     let line = "compare cornell --systems mmrt,brute-force --device slow --report r.json";
-    let output = interrupted(folder.path(), line, &["INT", "INT"]);
+    let output = interrupted(folder.path(), line, &["INT", "TERM"]);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
 }
