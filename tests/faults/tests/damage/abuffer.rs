@@ -2,27 +2,12 @@
 
 use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage, well_formed};
 use rasray_faults::{in_child, scrambled};
-use rasray_gpu::{Device, GpuError};
 
-use crate::survive::{self, Damageable, Flag, survive};
+use crate::survive::{self, Flag, damageable, each_fringe_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
-impl Damageable for ABuffer {
-    type Contents = Contents;
-
-    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        self.download(device)
-    }
-
-    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        self.upload(device, contents)
-    }
-
-    fn fault(contents: &Contents, _: u32) -> Option<String> {
-        well_formed(contents).err().map(|fault| fault.to_string())
-    }
-}
+damageable!(ABuffer, Contents, |contents, _| well_formed(contents));
 
 /// Applies a change to the head, the tail and the nodes of every list that is not empty.
 fn each_list(contents: &mut Contents, mut change: impl FnMut(&mut [u32], &mut Vec<u32>)) {
@@ -109,26 +94,26 @@ const DAMAGES: [Damage; 10] = [
     ),
 ];
 
-/// Changes the link of every node of the fringe; `change` is given the node's own link.
-fn each_fringe_node(contents: &mut Contents, change: impl Fn(u32) -> u32) {
-    let count = contents.header.fringe_demand as usize;
-    for (index, node) in contents.fringe.chunks_exact_mut(3).take(count).enumerate() {
-        node[1] = change(index as u32 + 1);
-    }
-}
-
 /// Damage to what cells keep beside their centres.
 const DAMAGES_OF_FRINGES: [Damage; 4] = [
-    ("every node of a fringe is its own neighbour", |c| each_fringe_node(c, |own| own), Flag::Unfinished),
+    (
+        "every node of a fringe is its own neighbour",
+        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |own| own),
+        Flag::Unfinished,
+    ),
     (
         "links of fringes just past the end",
         |c| {
             let past = c.header.fringe_demand + 1;
-            each_fringe_node(c, |_| past);
+            each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| past);
         },
         Flag::Corrupted,
     ),
-    ("links of fringes far past the end", |c| each_fringe_node(c, |_| u32::MAX), Flag::Corrupted),
+    (
+        "links of fringes far past the end",
+        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| u32::MAX),
+        Flag::Corrupted,
+    ),
     (
         "fringes at random",
         |c| {

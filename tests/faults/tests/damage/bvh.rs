@@ -2,27 +2,12 @@
 
 use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, well_formed};
 use rasray_faults::{in_child, scrambled};
-use rasray_gpu::{Device, GpuError};
 
-use crate::survive::{self, Damageable, Flag, survive};
+use crate::survive::{self, Flag, damageable, survive};
 
 type Damage = survive::Damage<Contents>;
 
-impl Damageable for Bvh {
-    type Contents = Contents;
-
-    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        self.download(device)
-    }
-
-    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        self.upload(device, contents)
-    }
-
-    fn fault(contents: &Contents, _: u32) -> Option<String> {
-        well_formed(contents).err().map(|fault| fault.to_string())
-    }
-}
+damageable!(Bvh, Contents, |contents, _| well_formed(contents));
 
 /// Sets both children and the parent of every node; `change` is given the node's number and their values.
 fn each_node(contents: &mut Contents, mut change: impl FnMut(u32, [u32; 3]) -> [u32; 3]) {

@@ -1,36 +1,13 @@
 //! Damaged lists of the layered depth cube.
 
 use rasray_faults::{in_child, scrambled};
-use rasray_gpu::{Device, GpuError};
 use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube, well_formed};
 
-use crate::survive::{self, Damageable, Flag, survive};
+use crate::survive::{self, Flag, damageable, each_fringe_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
-impl Damageable for LayeredDepthCube {
-    type Contents = Contents;
-
-    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        self.download(device)
-    }
-
-    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        self.upload(device, contents)
-    }
-
-    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
-        well_formed(contents, triangles).err().map(|fault| fault.to_string())
-    }
-}
-
-/// Changes the link of every node of the fringe; `change` is given the node's own link.
-fn each_fringe_node(contents: &mut Contents, change: impl Fn(u32) -> u32) {
-    let count = contents.header.fringe_demand as usize;
-    for (index, node) in contents.fringe.chunks_exact_mut(3).take(count).enumerate() {
-        node[1] = change(index as u32 + 1);
-    }
-}
+damageable!(LayeredDepthCube, Contents, well_formed);
 
 /// Damage to lists of fragments.
 const OF_LISTS: [Damage; 4] = [
@@ -54,12 +31,16 @@ const OF_LISTS: [Damage; 4] = [
 
 /// Damage to fringes.
 const OF_FRINGES: [Damage; 4] = [
-    ("every node of a fringe is its own neighbour", |c| each_fringe_node(c, |own| own), Flag::Unfinished),
+    (
+        "every node of a fringe is its own neighbour",
+        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |own| own),
+        Flag::Unfinished,
+    ),
     (
         "links of fringes just past the end",
         |c| {
             let past = c.header.fringe_demand + 1;
-            each_fringe_node(c, |_| past);
+            each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| past);
         },
         Flag::Corrupted,
     ),

@@ -2,27 +2,12 @@
 
 use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage, Views, well_formed};
 use rasray_faults::{in_child, scrambled};
-use rasray_gpu::{Device, GpuError};
 
-use crate::survive::{self, Damageable, Flag, survive};
+use crate::survive::{self, Flag, damageable, survive};
 
 type Damage = survive::Damage<Contents>;
 
-impl Damageable for PrimitiveLists {
-    type Contents = Contents;
-
-    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        self.download(device)
-    }
-
-    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        self.upload(device, contents)
-    }
-
-    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
-        well_formed(contents, triangles).err().map(|fault| fault.to_string())
-    }
-}
+damageable!(PrimitiveLists, Contents, well_formed);
 
 fn stored(contents: &Contents) -> u32 {
     contents.header.demand.min(contents.header.capacity)

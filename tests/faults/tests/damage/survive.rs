@@ -36,6 +36,40 @@ pub trait Damageable: Structure {
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 }
 
+/// Makes a structure [`Damageable`] by its own functions; the last one checks contents with a number of triangles.
+macro_rules! damageable {
+    ($structure:ty, $contents:ty, $check:expr) => {
+        impl crate::survive::Damageable for $structure {
+            type Contents = $contents;
+
+            fn download(&self, device: &rasray_gpu::Device) -> Result<$contents, rasray_gpu::GpuError> {
+                self.download(device)
+            }
+
+            fn upload(
+                &self,
+                device: &rasray_gpu::Device,
+                contents: &$contents,
+            ) -> Result<(), rasray_gpu::GpuError> {
+                self.upload(device, contents)
+            }
+
+            fn fault(contents: &$contents, triangles: u32) -> Option<String> {
+                let check: fn(&$contents, u32) -> Result<_, _> = $check;
+                check(contents, triangles).err().map(|fault| fault.to_string())
+            }
+        }
+    };
+}
+pub(crate) use damageable;
+
+/// Changes the link of every node of a fringe (`ads/fringe.glsl`); `change` is given the node's own link.
+pub fn each_fringe_node(fringe: &mut [u32], count: u32, change: impl Fn(u32) -> u32) {
+    for (index, node) in fringe.chunks_exact_mut(3).take(count as usize).enumerate() {
+        node[1] = change(index as u32 + 1);
+    }
+}
+
 /// Builds a structure over the room, and checks every damage to it.
 pub fn survive<S: Damageable>(
     make: impl FnOnce(&Device, &Geometry, &SceneBinding) -> S,

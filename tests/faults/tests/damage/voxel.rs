@@ -1,28 +1,13 @@
 //! Damaged lists of voxels' views.
 
 use rasray_faults::{in_child, scrambled};
-use rasray_gpu::{Device, GpuError};
 use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels, well_formed};
 
-use crate::survive::{self, Damageable, Flag, survive};
+use crate::survive::{self, Flag, damageable, survive};
 
 type Damage = survive::Damage<Contents>;
 
-impl Damageable for Voxels {
-    type Contents = Contents;
-
-    fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        self.download(device)
-    }
-
-    fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        self.upload(device, contents)
-    }
-
-    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
-        well_formed(contents, triangles).err().map(|fault| fault.to_string())
-    }
-}
+damageable!(Voxels, Contents, well_formed);
 
 /// Words of a fragment or a page, and that of its link among them.
 fn link_word(config: &Config) -> (usize, usize) {
