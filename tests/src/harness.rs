@@ -15,6 +15,10 @@ pub struct Bench {
     _turn: MutexGuard<'static, ()>,
 }
 
+/// Enough for every preset of every system: tests make the same structures again and again, and compiling their shaders is
+/// most of what they wait for.
+const KEPT_PIPELINES: usize = 512;
+
 /// Features that any test may use.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
@@ -34,7 +38,9 @@ impl Bench {
         let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
         let device = DEVICE.get_or_init(|| {
             let desc = DeviceDesc { requirements: requirements(), validation: true, ..DeviceDesc::default() };
-            Device::create(&desc).expect("tests need a Vulkan device and the validation layer")
+            let device = Device::create(&desc).expect("tests need a Vulkan device and the validation layer");
+            device.keep_pipelines(KEPT_PIPELINES);
+            device
         });
         Self { device: device.clone(), _turn: turn }
     }

@@ -15,6 +15,7 @@ use crate::instance::Instance;
 use crate::limits::Limits;
 use crate::memory::{Ledger, PooledMemory};
 use crate::messages::ValidationLog;
+use crate::pipeline_store::PipelineStore;
 
 /// How a device is chosen and made.
 #[derive(Debug, Clone)]
@@ -163,6 +164,7 @@ impl Device {
             commands,
             labels,
             pipeline_cache: parts.pipeline_cache,
+            pipelines: PipelineStore::default(),
             enabled: parts.enabled,
             identity: Identity {
                 name: candidate.name.clone(),

@@ -13,6 +13,7 @@ use crate::instance::Instance;
 use crate::limits::Limits;
 use crate::memory::{Allocation, Ledger, Memory};
 use crate::messages::ValidationLog;
+use crate::pipeline_store::PipelineStore;
 
 /// Commands that are core in Vulkan 1.3 and an extension before.
 pub(crate) struct Commands {
@@ -72,6 +73,7 @@ pub(crate) struct Core {
     /// Names and labels, where `VK_EXT_debug_utils` is enabled.
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
     pub(crate) pipeline_cache: vk::PipelineCache,
+    pub(crate) pipelines: PipelineStore,
     pub(crate) enabled: BTreeSet<Feature>,
     pub(crate) limits: Limits,
     pub(crate) identity: Identity,
@@ -156,6 +158,7 @@ impl Drop for Core {
             std::mem::forget(owned);
             return;
         }
+        self.pipelines.clear(self);
         drop(memory);
         if owned.is_some() {
             // SAFETY: every object made from the device keeps this value alive, so all are destroyed; every

@@ -9,6 +9,7 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
+use crate::pipeline_store::{Made, Recipe};
 
 /// A compute pipeline to be made. The entry point is `main`.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +45,7 @@ pub struct RasterPipelineDesc<'a> {
 }
 
 /// What a raster pipeline can do beyond the common case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct RasterOptions {
     /// Cover every pixel a triangle touches; needs [`Feature::ConservativeRasterization`].
     pub conservative: bool,
@@ -67,6 +68,7 @@ pub struct RasterPipeline {
 
 pub(crate) struct PipelineInner {
     pub(crate) core: Arc<Core>,
+    recipe: Arc<Recipe>,
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) sets: Vec<SetLayout>,
@@ -108,29 +110,37 @@ impl RasterPipeline {
 }
 
 impl Device {
-    /// Makes a compute pipeline.
+    /// A compute pipeline. Asked for again with the same module, constants and layouts it is the same one, as long as there
+    /// is a handle to it or [`Device::keep_pipelines`] keeps it.
     ///
     /// # Errors
     /// [`GpuError::InvalidShader`] for words that are no module, [`GpuError::LimitExceeded`] for too many
     /// sets, buffers or push constants, or what the driver reports, with the name of the pipeline.
     pub fn create_compute_pipeline(&self, desc: &ComputePipelineDesc<'_>) -> Result<ComputePipeline> {
-        let stages = vk::ShaderStageFlags::COMPUTE;
-        let mut inner = self.begin_pipeline(desc.name, desc.sets, desc.push_constant_bytes, stages)?;
-        let module = Module::create(&self.core, desc.name, desc.spirv)?;
-        let values = Specialisation::new(desc.constants);
-        let specialisation = values.info();
-        let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
-        let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(inner.layout);
-        // SAFETY: module and layout are alive and of this device; shader and layout agree (layout reflection
-        // tests hold them together, and validation checks it).
-        let made =
-            unsafe { self.core.device.create_compute_pipelines(self.core.pipeline_cache, &[info], None) };
-        inner.raw = first_pipeline(&self.core, made, "vkCreateComputePipelines", desc.name)?;
-        self.core.name_object(inner.raw, desc.name);
-        Ok(ComputePipeline { inner: Arc::new(inner) })
+        let asked = Asked {
+            name: desc.name,
+            sets: desc.sets,
+            push_constant_bytes: desc.push_constant_bytes,
+            stages: vk::ShaderStageFlags::COMPUTE,
+            bind_point: vk::PipelineBindPoint::COMPUTE,
+        };
+        let recipe = asked.recipe(&[desc.spirv], desc.constants, RasterOptions::default());
+        let inner = self.shared_pipeline(&asked, recipe, |layout| {
+            let module = Module::create(&self.core, desc.name, desc.spirv)?;
+            let values = Specialisation::new(desc.constants);
+            let specialisation = values.info();
+            let stage = module.stage(vk::ShaderStageFlags::COMPUTE, &specialisation);
+            let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
+            // SAFETY: module and layout are alive and of this device; shader and layout agree (layout reflection
+            // tests hold them together, and validation checks it).
+            let made =
+                unsafe { self.core.device.create_compute_pipelines(self.core.pipeline_cache, &[info], None) };
+            first_pipeline(&self.core, made, "vkCreateComputePipelines", desc.name)
+        })?;
+        Ok(ComputePipeline { inner })
     }
 
-    /// Makes a raster pipeline.
+    /// A raster pipeline, shared as compute pipelines are.
     ///
     /// # Errors
     /// As [`Device::create_compute_pipeline`], and [`GpuError::FeatureNotEnabled`] without
@@ -139,7 +149,7 @@ impl Device {
         self.create_raster_pipeline_with(desc, RasterOptions::default())
     }
 
-    /// Makes a raster pipeline with options.
+    /// A raster pipeline with options.
     ///
     /// # Errors
     /// As [`Device::create_raster_pipeline`], and [`GpuError::FeatureNotEnabled`] without the feature of an
@@ -157,66 +167,106 @@ impl Device {
         if options.view_mask != 0 {
             core.require(Feature::Multiview, desc.name)?;
         }
-        let stages = vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT;
-        let mut inner = self.begin_pipeline(desc.name, desc.sets, desc.push_constant_bytes, stages)?;
-        inner.bind_point = vk::PipelineBindPoint::GRAPHICS;
-        inner.view_mask = options.view_mask;
-        let vertex = Module::create(core, desc.name, desc.vertex_spirv)?;
-        let fragment = Module::create(core, desc.name, desc.fragment_spirv)?;
-        let values = Specialisation::new(desc.constants);
-        let specialisation = values.info();
-        let stages = [
-            vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
-            fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
-        ];
-        let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
-            .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
-        let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-        let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
-            .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
-        let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
-            .polygon_mode(vk::PolygonMode::FILL)
-            .cull_mode(vk::CullModeFlags::NONE)
-            .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
-            .line_width(1.0);
-        if options.conservative {
-            rasterization = rasterization.push_next(&mut conservative);
-        }
-        let multisample = vk::PipelineMultisampleStateCreateInfo::default()
-            .rasterization_samples(vk::SampleCountFlags::TYPE_1);
-        let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
-        let blend = vk::PipelineColorBlendStateCreateInfo::default();
-        let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
-        let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
-        let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
-        let info = vk::GraphicsPipelineCreateInfo::default()
-            .stages(&stages)
-            .vertex_input_state(&vertex_input)
-            .input_assembly_state(&assembly)
-            .viewport_state(&viewport)
-            .rasterization_state(&rasterization)
-            .multisample_state(&multisample)
-            .depth_stencil_state(&depth_stencil)
-            .color_blend_state(&blend)
-            .dynamic_state(&dynamic)
-            .layout(inner.layout)
-            .push_next(&mut rendering);
-        // SAFETY: as for compute; the features behind dynamic rendering and the options were checked.
-        let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
-        inner.raw = first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)?;
-        core.name_object(inner.raw, desc.name);
-        Ok(RasterPipeline { inner: Arc::new(inner) })
+        let asked = Asked {
+            name: desc.name,
+            sets: desc.sets,
+            push_constant_bytes: desc.push_constant_bytes,
+            stages: vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT,
+            bind_point: vk::PipelineBindPoint::GRAPHICS,
+        };
+        let recipe = asked.recipe(&[desc.vertex_spirv, desc.fragment_spirv], desc.constants, options);
+        let inner = self.shared_pipeline(&asked, recipe, |layout| {
+            let vertex = Module::create(core, desc.name, desc.vertex_spirv)?;
+            let fragment = Module::create(core, desc.name, desc.fragment_spirv)?;
+            let values = Specialisation::new(desc.constants);
+            let specialisation = values.info();
+            let stages = [
+                vertex.stage(vk::ShaderStageFlags::VERTEX, &specialisation),
+                fragment.stage(vk::ShaderStageFlags::FRAGMENT, &specialisation),
+            ];
+            let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+            let assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+                .topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+            let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
+            let mut conservative = vk::PipelineRasterizationConservativeStateCreateInfoEXT::default()
+                .conservative_rasterization_mode(vk::ConservativeRasterizationModeEXT::OVERESTIMATE);
+            let mut rasterization = vk::PipelineRasterizationStateCreateInfo::default()
+                .polygon_mode(vk::PolygonMode::FILL)
+                .cull_mode(vk::CullModeFlags::NONE)
+                .front_face(vk::FrontFace::COUNTER_CLOCKWISE)
+                .line_width(1.0);
+            if options.conservative {
+                rasterization = rasterization.push_next(&mut conservative);
+            }
+            let multisample = vk::PipelineMultisampleStateCreateInfo::default()
+                .rasterization_samples(vk::SampleCountFlags::TYPE_1);
+            let depth_stencil = vk::PipelineDepthStencilStateCreateInfo::default();
+            let blend = vk::PipelineColorBlendStateCreateInfo::default();
+            let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
+            let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
+            let mut rendering = vk::PipelineRenderingCreateInfo::default().view_mask(options.view_mask);
+            let info = vk::GraphicsPipelineCreateInfo::default()
+                .stages(&stages)
+                .vertex_input_state(&vertex_input)
+                .input_assembly_state(&assembly)
+                .viewport_state(&viewport)
+                .rasterization_state(&rasterization)
+                .multisample_state(&multisample)
+                .depth_stencil_state(&depth_stencil)
+                .color_blend_state(&blend)
+                .dynamic_state(&dynamic)
+                .layout(layout)
+                .push_next(&mut rendering);
+            // SAFETY: as for compute; the features behind dynamic rendering and the options were checked.
+            let made = unsafe { core.device.create_graphics_pipelines(core.pipeline_cache, &[info], None) };
+            first_pipeline(core, made, "vkCreateGraphicsPipelines", desc.name)
+        })?;
+        Ok(RasterPipeline { inner })
     }
 
-    /// Checks what both kinds share and makes the pipeline layout; the pipeline itself is null so far.
-    fn begin_pipeline(
+    /// Keeps up to `count` pipelines that no handle is left to, so that they need not be compiled again; 0 unless set.
+    /// Beyond that the longest unused are destroyed. For those who make structures again and again: a change of options, or
+    /// an experiment over many of them.
+    pub fn keep_pipelines(&self, count: usize) {
+        self.core.pipelines.keep(&self.core, count);
+    }
+
+    /// What was made by the recipe before, or what `compile` makes now.
+    fn shared_pipeline(
         &self,
-        name: &str,
-        sets: &[&SetLayout],
-        push_constant_bytes: u32,
-        stages: vk::ShaderStageFlags,
-    ) -> Result<PipelineInner> {
+        asked: &Asked<'_>,
+        recipe: Recipe,
+        compile: impl FnOnce(vk::PipelineLayout) -> Result<vk::Pipeline>,
+    ) -> Result<Arc<PipelineInner>> {
+        let core = &self.core;
+        self.check_pipeline(asked)?;
+        let view_mask = recipe.options.view_mask;
+        let (recipe, made) = match core.pipelines.find(&recipe) {
+            Some(found) => found,
+            None => {
+                let layout = Layout::create(core, asked)?;
+                let raw = compile(layout.raw)?;
+                core.name_object(raw, asked.name);
+                core.pipelines.insert(core, recipe, Made { raw, layout: layout.into_raw() })
+            }
+        };
+        Ok(Arc::new(PipelineInner {
+            core: core.clone(),
+            recipe,
+            raw: made.raw,
+            layout: made.layout,
+            sets: asked.sets.iter().map(|set| (*set).clone()).collect(),
+            push_constant_bytes: asked.push_constant_bytes,
+            stages: asked.stages,
+            bind_point: asked.bind_point,
+            name: asked.name.to_owned(),
+            view_mask,
+        }))
+    }
+
+    /// Checks what both kinds share.
+    fn check_pipeline(&self, asked: &Asked<'_>) -> Result<()> {
+        let Asked { name, sets, push_constant_bytes, .. } = *asked;
         let core = &self.core;
         let limits = &core.limits;
         let buffers: u64 = sets.iter().map(|set| u64::from(set.inner.storage_buffers)).sum();
@@ -240,38 +290,67 @@ impl Device {
         if sets.iter().any(|set| !Arc::ptr_eq(core, &set.inner.core)) {
             return Err(invalid("a set layout belongs to another device"));
         }
-        let layouts: Vec<_> = sets.iter().map(|set| set.inner.raw).collect();
-        let range = vk::PushConstantRange::default().stage_flags(stages).size(push_constant_bytes);
-        let ranges = if push_constant_bytes == 0 { &[][..] } else { std::slice::from_ref(&range) };
+        Ok(())
+    }
+}
+
+/// What both kinds of pipelines are asked for with.
+struct Asked<'a> {
+    name: &'a str,
+    sets: &'a [&'a SetLayout],
+    push_constant_bytes: u32,
+    stages: vk::ShaderStageFlags,
+    bind_point: vk::PipelineBindPoint,
+}
+
+impl Asked<'_> {
+    fn recipe(&self, modules: &[&[u32]], constants: &[(u32, u32)], options: RasterOptions) -> Recipe {
+        Recipe {
+            modules: modules.iter().map(|words| Box::from(*words)).collect(),
+            constants: constants.into(),
+            sets: self.sets.iter().map(|set| set.inner.storage_buffers).collect(),
+            push_constant_bytes: self.push_constant_bytes,
+            options,
+        }
+    }
+}
+
+/// A pipeline layout, destroyed unless its pipeline is made.
+struct Layout<'a> {
+    core: &'a Core,
+    raw: vk::PipelineLayout,
+}
+
+impl<'a> Layout<'a> {
+    fn create(core: &'a Core, asked: &Asked<'_>) -> Result<Self> {
+        let layouts: Vec<_> = asked.sets.iter().map(|set| set.inner.raw).collect();
+        let range =
+            vk::PushConstantRange::default().stage_flags(asked.stages).size(asked.push_constant_bytes);
+        let ranges = if asked.push_constant_bytes == 0 { &[][..] } else { std::slice::from_ref(&range) };
         let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(ranges);
         // SAFETY: layouts of this device, within its limits.
-        let layout = unsafe { core.device.create_pipeline_layout(&info, None) }
-            .during("vkCreatePipelineLayout", name)?;
-        core.name_object(layout, name);
-        Ok(PipelineInner {
-            core: core.clone(),
-            raw: vk::Pipeline::null(),
-            layout,
-            sets: sets.iter().map(|set| (*set).clone()).collect(),
-            push_constant_bytes,
-            stages,
-            bind_point: vk::PipelineBindPoint::COMPUTE,
-            name: name.to_owned(),
-            view_mask: 0,
-        })
+        let raw = unsafe { core.device.create_pipeline_layout(&info, None) }
+            .during("vkCreatePipelineLayout", asked.name)?;
+        core.name_object(raw, asked.name);
+        Ok(Self { core, raw })
+    }
+
+    /// The layout, for whoever destroys it from now on.
+    fn into_raw(self) -> vk::PipelineLayout {
+        std::mem::ManuallyDrop::new(self).raw
+    }
+}
+
+impl Drop for Layout<'_> {
+    fn drop(&mut self) {
+        // SAFETY: no pipeline was made with it.
+        unsafe { self.core.device.destroy_pipeline_layout(self.raw, None) };
     }
 }
 
 impl Drop for PipelineInner {
     fn drop(&mut self) {
-        if self.core.is_usable() {
-            // SAFETY: submissions that use the pipeline hold a handle to it, so none is pending; embedders keep
-            // what they record alive. Null is ignored.
-            unsafe {
-                self.core.device.destroy_pipeline(self.raw, None);
-                self.core.device.destroy_pipeline_layout(self.layout, None);
-            }
-        }
+        self.core.pipelines.release(&self.core, &self.recipe);
     }
 }
 

@@ -48,6 +48,73 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
     finish(device);
 }
 
+/// The pipeline of [`common::shaders::SCALE`] with a bias.
+fn pipeline(device: &Device, name: &str, bias: u32) -> ComputePipeline {
+    let layout = device.create_set_layout(name, 1).expect("set layout");
+    let desc = ComputePipelineDesc {
+        name,
+        spirv: common::shaders::SCALE,
+        sets: &[&layout],
+        push_constant_bytes: 8,
+        constants: &[(7, bias)],
+    };
+    device.create_compute_pipeline(&desc).expect("pipeline")
+}
+
+#[test]
+fn what_is_made_alike_is_one_pipeline_and_keeps_its_names() {
+    let device = device();
+    let (first, same, other) =
+        (pipeline(&device, "first", 1), pipeline(&device, "same", 1), pipeline(&device, "other", 2));
+    assert_eq!(first.raw(), same.raw());
+    assert_ne!(first.raw(), other.raw());
+    assert_eq!((first.name(), same.name()), ("first", "same"));
+    // It outlives the handle and the set layout that it was made with.
+    drop(first);
+    let mut scale = Scale::new(&device, 64);
+    scale.pipeline = same;
+    device
+        .submit(|recorder| {
+            scale.bind(recorder, 2);
+            scale.dispatch(recorder);
+        })
+        .expect("submission");
+    assert_eq!(scale.values(&device), (0..64).map(|i| 2 * i + 1).collect::<Vec<_>>());
+    drop((scale, other));
+    finish(device);
+}
+
+#[cfg(feature = "fault-injection")]
+#[test]
+fn as_many_idle_pipelines_are_kept_as_was_asked_for_the_last_used_ones() {
+    use rasray_gpu::faults::{calls_of, live_objects};
+    let device = device();
+    let live =
+        || live_objects().into_iter().find(|(kind, _)| *kind == "Pipeline").map_or(0, |(_, count)| count);
+    let before = live();
+    let compiles = |bias| {
+        let (_, calls) = calls_of(|| drop(pipeline(&device, "kept", bias)));
+        calls.contains(&"vkCreateComputePipelines")
+    };
+    // Nothing is kept unless asked for.
+    assert!(compiles(1) && compiles(1));
+    assert_eq!(live(), before);
+    device.keep_pipelines(2);
+    assert!(compiles(1) && compiles(2) && !compiles(1) && compiles(3));
+    // The third took the place of the second, which was unused for longest.
+    assert!(!compiles(1) && !compiles(3) && compiles(2));
+    assert_eq!(live(), before + 2);
+    // Those in use do not count.
+    let used = pipeline(&device, "used", 2);
+    assert!(compiles(4) && !compiles(3));
+    assert_eq!(live(), before + 3);
+    device.keep_pipelines(0);
+    assert_eq!(live(), before + 1);
+    drop(used);
+    assert_eq!(live(), before);
+    finish(device);
+}
+
 #[test]
 fn specialisation_defaults_hold_where_nothing_is_given() {
     let device = device();
