@@ -194,7 +194,9 @@ fn no_change_changes_a_hit(base: Config) {
             "ray {index}: closest against occluded"
         );
     }
-    for (name, change) in CHANGES {
+    // The published march meets the same lists: the quick tier tries it on some of them.
+    let every = if is_full() || base.march == March::Exact { 1 } else { 4 };
+    for (name, change) in CHANGES.iter().step_by(every) {
         let config = change(base);
         let found = answers(&bench, config, &triangles, &rays);
         if let Some(ray) = first_difference(&expected.closest, &found.closest) {

@@ -25,7 +25,7 @@ pub(super) const ROWS: &[Row] = &[
         Tier::Quick,
         Cases::All,
     ),
-    Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Quick, Cases::Shallow),
+    Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Full, Cases::Shallow),
     // 16 tiles a side and few slices, then as many as a scene of a hundred thousand triangles gets.
     Row::exact(
         "dirt-robust-16",

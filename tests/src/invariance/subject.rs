@@ -5,6 +5,7 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 use crate::harness::Bench;
 use crate::shapes::Triangle;
+use crate::tier::is_full;
 
 /// A system, a preset, and options over it by name and value.
 type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
@@ -26,6 +27,17 @@ const MORE: &[Row] = &[
     ("dirt", "robust", &[("views", "axes"), ("grid", "24")]),
     ("hu", "robust", &[("storage", "bricks"), ("grid", "24")]),
 ];
+
+/// More of them, in the full tier only.
+const LARGE: &[Row] = &[
+    ("mmrt", "robust", &[("coverage", "conservative"), ("resolution", "24"), ("capacity", "40000")]),
+    ("hu", "robust", &[("coverage", "conservative"), ("resolution", "16")]),
+];
+
+/// Rows beside the presets of the registry.
+fn more() -> impl Iterator<Item = &'static Row> {
+    MORE.iter().chain(if is_full() { LARGE } else { &[] })
+}
 
 /// Options of systems that [`SUBJECTS`] does not name.
 const OTHERS: &[(&str, &str)] = &[("resolution", "24")];
@@ -63,7 +75,7 @@ impl Subject {
             let known = given.iter().filter(|(option, _)| system.options.contains(option));
             (system.name, preset.name(), known.copied().collect::<Vec<_>>())
         });
-        let more = MORE.iter().map(|(system, preset, given)| (*system, *preset, given.to_vec()));
+        let more = more().map(|(system, preset, given)| (*system, *preset, given.to_vec()));
         presets
             .chain(more)
             .map(|(system, preset, given)| {
@@ -83,7 +95,7 @@ impl Subject {
                 .iter()
                 .all(|(name, value)| self.spec.options().get(*name).is_some_and(|given| given == value))
         };
-        let more = MORE.iter().filter(|row| row.0 == system && row.1 == preset).find(given);
+        let more = more().filter(|row| row.0 == system && row.1 == preset).find(given);
         more.map_or_else(
             || format!("{system} {preset}"),
             |(_, _, options)| format!("{system} {preset} with {}", options[0].1),
