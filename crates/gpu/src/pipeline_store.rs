@@ -93,17 +93,15 @@ impl PipelineStore {
     }
 
     /// Takes a handle back; of idle pipelines the longest idle are destroyed beyond those that are kept.
-    pub(crate) fn release(&self, core: &Core, recipe: &Recipe) {
+    pub(crate) fn release(&self, core: &Core, recipe: &Arc<Recipe>) {
         let mut books = self.books();
         books.clock += 1;
         let now = books.clock;
-        let Some((recipe, _)) = books.entries.get_key_value(recipe) else { return };
-        let recipe = recipe.clone();
-        let Some(entry) = books.entries.get_mut(&recipe) else { return };
+        let Some(entry) = books.entries.get_mut(recipe) else { return };
         entry.handles -= 1;
         if entry.handles == 0 {
             entry.since = now;
-            books.idle.insert(now, recipe);
+            books.idle.insert(now, recipe.clone());
             books.trim(core);
         }
     }
