@@ -72,6 +72,7 @@ mod pipeline_store;
 mod queue;
 mod raw;
 mod recorder;
+mod shader_stage;
 mod timers;
 mod transfer;
 

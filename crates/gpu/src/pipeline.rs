@@ -10,6 +10,7 @@ use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::pipeline_store::{Made, Recipe};
+use crate::shader_stage::{Module, Specialisation};
 
 /// A compute pipeline to be made. The entry point is `main`.
 #[derive(Debug, Clone, Copy)]
@@ -373,74 +374,5 @@ fn first_pipeline(
             }
             Err(GpuError::from_vulkan(result, call, name))
         }
-    }
-}
-
-/// A shader module, needed only until its pipeline is made.
-struct Module<'a> {
-    core: &'a Core,
-    raw: vk::ShaderModule,
-}
-
-impl<'a> Module<'a> {
-    fn create(core: &'a Core, name: &str, spirv: &[u32]) -> Result<Self> {
-        const MAGIC: u32 = 0x0723_0203;
-        const HEADER_WORDS: usize = 5;
-        let reason = match spirv {
-            [MAGIC, ..] if spirv.len() > HEADER_WORDS => None,
-            [MAGIC, ..] => Some("it ends within its header"),
-            [first, ..] if first.swap_bytes() == MAGIC => Some("its byte order is reversed"),
-            _ => Some("its first word is not the SPIR-V number"),
-        };
-        if let Some(reason) = reason {
-            return Err(GpuError::InvalidShader { name: name.to_owned(), reason });
-        }
-        let info = vk::ShaderModuleCreateInfo::default().code(spirv);
-        // SAFETY: the words are a module at least by their header; the shader compiler vouches for the rest.
-        let raw =
-            unsafe { core.device.create_shader_module(&info, None) }.during("vkCreateShaderModule", name)?;
-        core.name_object(raw, name);
-        Ok(Self { core, raw })
-    }
-
-    fn stage<'b>(
-        &self,
-        stage: vk::ShaderStageFlags,
-        specialisation: &'b vk::SpecializationInfo<'b>,
-    ) -> vk::PipelineShaderStageCreateInfo<'b> {
-        vk::PipelineShaderStageCreateInfo::default()
-            .stage(stage)
-            .module(self.raw)
-            .name(c"main")
-            .specialization_info(specialisation)
-    }
-}
-
-impl Drop for Module<'_> {
-    fn drop(&mut self) {
-        // SAFETY: a pipeline does not need its modules once it is made.
-        unsafe { self.core.device.destroy_shader_module(self.raw, None) };
-    }
-}
-
-/// Specialisation constants as Vulkan takes them.
-struct Specialisation {
-    entries: Vec<vk::SpecializationMapEntry>,
-    words: Vec<u32>,
-}
-
-impl Specialisation {
-    fn new(constants: &[(u32, u32)]) -> Self {
-        let entries = (0_u32..)
-            .zip(constants)
-            .map(|(index, (id, _))| {
-                vk::SpecializationMapEntry::default().constant_id(*id).offset(4 * index).size(4)
-            })
-            .collect();
-        Self { entries, words: constants.iter().map(|(_, bits)| *bits).collect() }
-    }
-
-    fn info(&self) -> vk::SpecializationInfo<'_> {
-        vk::SpecializationInfo::default().map_entries(&self.entries).data(bytemuck::cast_slice(&self.words))
     }
 }
