@@ -10,6 +10,7 @@
 #define PRIMITIVE_BRICK_TRACE_GLSL
 
 #include "primitive/brick_cell.glsl"
+#include "primitive/listed.glsl"
 #include "ads/brick_cube.glsl"
 #include "ads/march_cube.glsl"
 
@@ -17,24 +18,6 @@
 #define BRICK_CURSOR_LISTED 2u
 // The list of the cell has not been begun.
 #define BRICK_LIST_BEGIN 0xFFFFFFFFu
-
-// Tests triangles one by one: those of the near list, or all. True if the budget ended first.
-bool brick_trace_listed(PrimitiveRef s, Ray ray, bool all_triangles, bool any_hit, inout TraceState state, inout uint work) {
-    uint count = all_triangles ? geometry_triangle_count()
-        : min(PRIMITIVE_HEADER(s).near_demand, PRIMITIVE_HEADER(s).near_capacity);
-    for (uint place = state.cursor[7]; place < count; place++) {
-        if (work >= WORK_BUDGET) {
-            state.cursor[7] = place;
-            return true;
-        }
-        work++;
-        primitive_test(all_triangles ? place : PRIMITIVE_NEAR_LIST(s)[place], ray, state);
-        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
-            return false;
-        }
-    }
-    return false;
-}
 
 // Follows the ray from `t` to `t_last`, over the near box if it meets that. `resumed`: as the cursor says. True if the
 // budget ended first.
@@ -196,7 +179,9 @@ uint brick_trace(PrimitiveRef s, Ray ray, vec3 origin, vec2 clip, vec2 near, flo
         if (!resumed) {
             trace_log(STEP_VIEW, distant ? PRIMITIVE_SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
         }
-        if (brick_trace_listed(s, ray, distant, any_hit, state, work)) {
+        uint place = state.cursor[7];
+        if (primitive_test_listed(s, ray, distant, any_hit, place, state, work)) {
+            state.cursor[7] = place;
             state.cursor[0] = BRICK_CURSOR_STARTED | BRICK_CURSOR_LISTED;
             return TRACE_PAUSED;
         }

@@ -11,24 +11,6 @@
 #include "primitive/leap.glsl"
 #include "primitive/brick_trace.glsl"
 
-// Tests triangles one by one: those of the near list, or all. True if the budget ended first.
-bool primitive_trace_listed(PrimitiveRef s, Ray ray, bool any_hit, inout PrimitiveWalk walk, inout TraceState state, inout uint work) {
-    bool all_triangles = walk.segment.face == PRIMITIVE_SEGMENT_ALL;
-    uint count = all_triangles ? geometry_triangle_count()
-        : min(PRIMITIVE_HEADER(s).near_demand, PRIMITIVE_HEADER(s).near_capacity);
-    for (; walk.place < count; walk.place++) {
-        if (work >= WORK_BUDGET) {
-            return true;
-        }
-        work++;
-        primitive_test(all_triangles ? walk.place : PRIMITIVE_NEAR_LIST(s)[walk.place], ray, state);
-        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
-            return false;
-        }
-    }
-    return false;
-}
-
 // Searches the cells of one face. True if the budget ended first; `ended` where nothing behind can count.
 bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveWalk walk, inout TraceState state,
     inout uint work, out bool ended) {
@@ -110,7 +92,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
         bool ended = distant;
         bool paused = primitive_walks_cells(walk)
             ? primitive_trace_cells(s, ray, slack, any_hit, walk, state, work, ended)
-            : primitive_trace_listed(s, ray, any_hit, walk, state, work);
+            : primitive_test_listed(s, ray, walk.segment.face == PRIMITIVE_SEGMENT_ALL, any_hit, walk.place, state, work);
         if (paused) {
             primitive_save(walk, state);
             return TRACE_PAUSED;

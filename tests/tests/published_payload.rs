@@ -156,11 +156,15 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     (hit.t.to_bits(), surface.primitive, met)
                 };
                 assert!(stored.iter().map(key).eq(by_address.iter().map(key)), "{system} by address");
-                // However lists are kept: fragments without ids are told apart by their words.
-                for storage in if system == "ldc" { &[][..] } else { &["sb", "ll", "paged"] } {
-                    let options = [("resolution", resolution), ("storage", storage)];
+                // However lists are made and kept: fragments without ids are told apart by their words.
+                let kept: &[_] = match system {
+                    "ldc" => &[("build", "single"), ("build", "peel")],
+                    _ => &[("storage", "sb"), ("storage", "ll"), ("storage", "paged")],
+                };
+                for (option, value) in kept {
+                    let options = [("resolution", resolution), (option, value)];
                     let kept = surfaces(&bench, made(&bench, &scene, system, &options).as_ref(), &rays);
-                    assert!(stored.iter().map(key).eq(kept.iter().map(key)), "{system} with {storage}");
+                    assert!(stored.iter().map(key).eq(kept.iter().map(key)), "{system}: {option} {value}");
                 }
             }
             let (mut met, mut turned, mut other) = (0, 0.0_f32, 0);
