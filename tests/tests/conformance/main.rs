@@ -4,6 +4,8 @@ mod report;
 
 use std::collections::HashSet;
 use std::io::Write as _;
+use std::sync::OnceLock;
+use std::time::Instant;
 
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
@@ -39,12 +41,14 @@ impl Held {
     }
 }
 
-/// With `RASRAY_PROGRESS` set, says what comes next on the real standard error: the last line of a log then tells
-/// where a driver ended the program.
+/// With `RASRAY_PROGRESS` set, says what comes next on the real standard error, with the seconds since the first word: the
+/// last line of a log then tells where a driver ended the program, and all of them where its time went.
 fn progress(what: &str) {
+    static BEGUN: OnceLock<Instant> = OnceLock::new();
     if std::env::var_os("RASRAY_PROGRESS").is_some() {
+        let seconds = BEGUN.get_or_init(Instant::now).elapsed().as_secs_f64();
         // Not `eprintln`, which the test harness holds back. A closed stream ends no test.
-        let _ = writeln!(std::io::stderr(), "conformance: {what}");
+        let _ = writeln!(std::io::stderr(), "conformance: {seconds:.1} s: {what}");
     }
 }
 
