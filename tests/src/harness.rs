@@ -91,6 +91,7 @@ impl Bench {
     /// If the device fails.
     pub fn build_once(&self, structure: &mut dyn Structure, viewpoint: impl Into<Viewpoint>) -> BuildStatus {
         let viewpoint = viewpoint.into();
+        structure.prepare_build(&self.device).expect("the device works");
         self.device
             .submit(|recorder| structure.record_build(recorder, viewpoint))
             .expect("the device works")

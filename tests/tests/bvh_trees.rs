@@ -1,12 +1,12 @@
 //! Every tree that is built is downloaded and checked node by node.
 
-use rasray_ads::Structure;
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, well_formed};
+use rasray_ads::{Check, Ray, Structure, TraceMode};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, plan, well_formed};
 use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
 use rasray_hard_cases::Scale;
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
-use rasray_tests::conformance::loadable;
+use rasray_tests::conformance::{loadable, trace_in_rounds};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -197,5 +197,47 @@ fn a_tree_of_the_host_is_asked_for_and_serves_one_build() {
         let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, [0.0; 3].into()));
         recorded.expect("the device works").value.expect("it was prepared");
         assert!(bvh.status().expect("readable").complete);
+    }
+}
+
+/// Pools of every edge capacity, one smaller than the tree or all of them: nothing is answered, and what is grown to its
+/// demand answers as if it had had room.
+#[test]
+fn every_edge_capacity() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let triangles = scattered(700, 9, 0.5);
+    let geometry = bench.geometry(&triangles);
+    let mut random = Random::new(10);
+    let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let config = Config::new(builder);
+        let full = plan(&config, triangles.len() as u64).expect("in range");
+        let mut bvh = Bvh::new(device, config, &geometry, None).expect("the options are valid");
+        assert!(bench.build_once(&mut bvh, [0.0; 3]).complete);
+        let (expected, _) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
+        assert!(expected.iter().filter(|hit| hit.is_hit()).count() > 50);
+        for (index, pool) in full.pools.iter().enumerate().skip(1) {
+            let n = pool.elements;
+            for room in [0, 1, n / 2, n - 1, n] {
+                let what = format!("{builder:?}, room for {room} of {n} {}", pool.name);
+                let mut sizes = full.clone();
+                sizes.pools[index].elements = room;
+                bvh.resize(device, &sizes).expect("it fits");
+                let status = bench.build_once(&mut bvh, [0.0; 3]);
+                assert_eq!(status.complete, room == n, "{what}");
+                if let Check::Grow(sizes) = bvh.check(&status) {
+                    let (hits, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
+                    assert_eq!(counters.not_ready as usize, rays.len(), "{what}");
+                    assert!(hits.iter().all(|hit| !hit.is_hit()), "{what}: a partial answer");
+                    bvh.resize(device, &sizes).expect("it fits");
+                    assert!(bench.build_once(&mut bvh, [0.0; 3]).complete, "{what}, grown");
+                } else {
+                    assert_eq!(room, n, "{what}");
+                }
+                let (hits, _) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
+                assert_eq!(hits, expected, "{what}");
+            }
+        }
     }
 }

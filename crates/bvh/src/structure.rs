@@ -136,10 +136,18 @@ impl Bvh {
         Prepared { root, nodes: triangles.saturating_sub(1) }
     }
 
+    /// Whether there is room for the tree. It has no partial form: without room for all of it nothing is built.
+    fn has_room(&self) -> bool {
+        let sizes = self.pools.sizes();
+        plan(&self.config, self.geometry.triangle_count().into())
+            .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
+    }
+
     /// The header that the next build starts from.
     fn first_header(&self, root: u32) -> Header {
         let [lower, upper] = self.geometry.bounds();
         let triangles = self.geometry.triangle_count();
+        let capacity = |pool| if self.has_room() { self.pools.sizes().elements(pool) as u32 } else { 0 };
         // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
         let (order_offset, order_stride) = match self.config.builder {
             Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
@@ -148,9 +156,9 @@ impl Bvh {
         Header {
             root,
             triangle_count: triangles,
-            node_capacity: self.pools.sizes().elements("nodes") as u32,
-            record_capacity: self.pools.sizes().elements("records") as u32,
-            scratch_capacity: self.pools.sizes().elements("scratch") as u32,
+            node_capacity: capacity("nodes"),
+            record_capacity: capacity("records"),
+            scratch_capacity: capacity("scratch"),
             order_offset,
             order_stride,
             lower,
@@ -214,6 +222,11 @@ impl Structure for Bvh {
         }
         self.prepared = None;
         let triangles = self.geometry.triangle_count() as usize;
+        if !self.has_room() {
+            // The build will say so.
+            self.prepared = Some(Self::on_device(triangles as u64));
+            return Ok(());
+        }
         self.pools.write_header(&self.first_header(BVH_NONE))?;
         device.submit(|recorder| self.build.record_boxes(recorder, self.target()))?;
         let boxes = device.download_as::<Box3>(self.pools.pool("scratch"), 0, triangles)?;
@@ -244,7 +257,7 @@ impl Structure for Bvh {
             pools: vec![PoolStatus {
                 name: "nodes",
                 demand: self.nodes,
-                capacity: header.node_capacity.into(),
+                capacity: self.pools.sizes().elements("nodes"),
             }],
             unsorted: 0,
             corrupted: header.corrupted.into(),
