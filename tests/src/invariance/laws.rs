@@ -61,7 +61,7 @@ pub const LAWS: &[Law] = &[
     same_without_loss("pyramid", &["on", "off"]),
     same_without_loss("skip", &["on", "off"]),
     same("sort", &["on", "off"]),
-    same("storage", &["ll", "dll", "llb", "dllb", "sb", "paged", "lists", "bricks"]),
+    same("storage", &["ll", "dll", "llb", "dllb", "sb", "paged", "bricks"]),
     same_for_primitives("grid", &["8", "24"]),
     same_for_primitives("camera-resolution", &["12", "37"]),
     same_for_primitives("resolution", &["12", "37"]),

@@ -1,39 +1,82 @@
-/// A set of choices, one value index an option, in which every pair of values of two options occurs.
-/// `values` says how many values each option has. Greedy, always the same for the same input.
-pub fn pairwise(values: &[usize]) -> Vec<Vec<usize>> {
+/// A set of choices, one value index an option, in which every pair of values of two options occurs that some choice of the
+/// others goes with. `values` says how many values each option has, `allowed` whether all values of a choice go together.
+/// Greedy, always the same for the same input. With it come the pairs that no row was found for.
+pub fn pairwise(
+    values: &[usize],
+    allowed: impl Fn(&[usize]) -> bool,
+) -> (Vec<Vec<usize>>, Vec<[(usize, usize); 2]>) {
     let mut open: Vec<[(usize, usize); 2]> = Vec::new();
     for (a, &of_a) in values.iter().enumerate() {
         for (b, &of_b) in values.iter().enumerate().skip(a + 1) {
             open.extend((0..of_a).flat_map(|x| (0..of_b).map(move |y| [(a, x), (b, y)])));
         }
     }
-    let mut rows = Vec::new();
+    let (mut rows, mut refused) = (Vec::new(), Vec::new());
     while let Some(first) = open.first().copied() {
-        let mut row: Vec<Option<usize>> = vec![None; values.len()];
-        for (option, value) in first {
-            row[option] = Some(value);
-        }
-        for option in 0..values.len() {
-            if row[option].is_some() {
-                continue;
+        match filled(values, &open, first, &allowed) {
+            Some(row) => {
+                open.retain(|[(a, x), (b, y)]| row[*a] != *x || row[*b] != *y);
+                rows.push(row);
             }
-            // The value that closes most open pairs with what is already chosen; the first of equals.
-            let closes = |value: usize| {
-                let chosen = |(other, other_value): (usize, usize)| row[other] == Some(other_value);
-                open.iter()
-                    .filter(|[left, right]| {
-                        (*left == (option, value) && chosen(*right))
-                            || (*right == (option, value) && chosen(*left))
-                    })
-                    .count()
-            };
-            row[option] = (0..values[option]).max_by_key(|&value| (closes(value), values[option] - value));
+            None => refused.push(open.remove(0)),
         }
-        let row: Vec<usize> = row.into_iter().map(|value| value.unwrap_or(0)).collect();
-        open.retain(|[(a, x), (b, y)]| row[*a] != *x || row[*b] != *y);
-        rows.push(row);
     }
-    rows
+    (rows, refused)
+}
+
+/// A choice with a pair in it that closes as many other open ones as it can; absent if none is allowed.
+fn filled(
+    values: &[usize],
+    open: &[[(usize, usize); 2]],
+    pair: [(usize, usize); 2],
+    allowed: &impl Fn(&[usize]) -> bool,
+) -> Option<Vec<usize>> {
+    // What is not chosen yet stays at the default, which is the first value of each option.
+    let mut row = vec![0; values.len()];
+    let mut chosen: Vec<(usize, usize)> = pair.to_vec();
+    for (option, value) in pair {
+        row[option] = value;
+    }
+    if !allowed(&row) {
+        // One other option may have to leave its default for the pair.
+        let free = (0..values.len()).filter(|option| !pair.iter().any(|(taken, _)| taken == option));
+        let (option, value) = free
+            .flat_map(|option| (1..values[option]).map(move |value| (option, value)))
+            .find(|&(option, value)| {
+            let mut other = row.clone();
+            other[option] = value;
+            allowed(&other)
+        })?;
+        row[option] = value;
+        chosen.push((option, value));
+    }
+    for option in 0..values.len() {
+        if chosen.iter().any(|&(taken, _)| taken == option) {
+            continue;
+        }
+        let closes = |value: usize| {
+            let is_chosen = |other: &(usize, usize)| chosen.contains(other);
+            open.iter()
+                .filter(|[left, right]| {
+                    (*left == (option, value) && is_chosen(right))
+                        || (*right == (option, value) && is_chosen(left))
+                })
+                .count()
+        };
+        let default = row[option];
+        let mut candidates: Vec<usize> = (0..values[option]).collect();
+        candidates.sort_by_key(|&value| std::cmp::Reverse(closes(value)));
+        row[option] = candidates
+            .into_iter()
+            .find(|&value| {
+                let mut other = row.clone();
+                other[option] = value;
+                allowed(&other)
+            })
+            .unwrap_or(default);
+        chosen.push((option, row[option]));
+    }
+    Some(row)
 }
 
 #[cfg(test)]
@@ -57,12 +100,22 @@ mod tests {
     #[test]
     fn every_pair_occurs_in_few_rows() {
         for values in [&[2, 2, 2, 2][..], &[4, 2, 3, 2, 5], &[3], &[], &[2, 7]] {
-            let rows = pairwise(values);
-            assert_eq!(uncovered(values, &rows), 0, "{values:?}");
+            let (rows, refused) = pairwise(values, |_| true);
+            assert_eq!((uncovered(values, &rows), refused.len()), (0, 0), "{values:?}");
             assert!(rows.len() <= 2 * 7 + 16, "{} rows for {values:?}", rows.len());
         }
         // A row less leaves pairs out.
-        let rows = pairwise(&[2, 2, 2]);
+        let (rows, _) = pairwise(&[2, 2, 2], |_| true);
         assert!(uncovered(&[2, 2, 2], &rows[1..]) > 0);
+    }
+
+    #[test]
+    fn only_pairs_that_go_with_nothing_are_left_out() {
+        // The second value of the first option asks for that of the second and refuses that of the third.
+        let allowed = |row: &[usize]| row[0] == 0 || (row[1] == 1 && row[2] == 0);
+        let (rows, refused) = pairwise(&[2, 2, 2, 3], allowed);
+        assert!(rows.iter().all(|row| allowed(row)), "{rows:?}");
+        assert_eq!(refused, [[(0, 1), (1, 0)], [(0, 1), (2, 1)]]);
+        assert_eq!(uncovered(&[2, 2, 2, 3], &rows), 2);
     }
 }

@@ -104,9 +104,11 @@ impl Subject {
 
     /// The same with other values of options; absent where the system does not take them, or makes another structure of them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
-        let spec = options
-            .iter()
-            .try_fold(self.spec.clone(), |spec, (option, value)| spec.with_option(option, value).ok())?;
+        let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
+        let all = self.spec.options().clone().into_iter().chain(given);
+        // All at once: some go only beside others.
+        let spec = Spec::new(self.spec.system().name, self.spec.preset().name(), all).ok()?;
+        let spec = spec.with_counters(self.spec.counters());
         (spec.structure() == self.spec.structure()).then_some(Self { spec, kind: self.kind })
     }
 
