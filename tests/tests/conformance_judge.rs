@@ -2,7 +2,8 @@
 
 use rasray_metrics::{DeviceHit, Rate, Truth};
 use rasray_tests::conformance::{
-    Demand, Deviation, FALSE_ALARM, Prepared, ROWS, Row, compare, comparisons, confidence, judge, measure,
+    Demand, Deviation, FALSE_ALARM, Prepared, ROWS, Row, compare, comparisons, confidence, first_other,
+    judge, measure,
 };
 use rasray_tests::hard_cases::{self, Answer, Expectation, Scale};
 use rasray_tests::harness::Bench;
@@ -129,6 +130,96 @@ fn laws_and_deviations_are_held_from_both_sides() {
         let faults = faults(&excused, &prepared, &dropped(&prepared, share));
         assert!(faults.iter().any(|fault| fault.contains("may not deviate")), "{faults:?}");
         assert_eq!(faults.iter().any(|fault| fault.contains("wrong answer")), share > 0.0);
+    }
+}
+
+/// A depth that is off by more than the catalogue allows is a fault even where rounding would allow more.
+#[test]
+fn depths_beyond_what_a_case_states_are_noticed() {
+    let bench = Bench::new();
+    let prepared = prepare(&bench, "G10", 2000);
+    let exact = row("brute-force");
+    assert_eq!(prepared.case.largest_dt, Some(1e-6));
+    for (off, broken) in [(0.0, false), (4e-7, false), (3e-6, true)] {
+        let mut hits = perfect(&prepared);
+        let ray = certain(&prepared, true);
+        hits[ray] = hits[ray].map(|hit| DeviceHit { t: (f64::from(hit.t) * (1.0 + off)) as f32, ..hit });
+        let faults = faults(exact, &prepared, &hits);
+        assert_eq!(faults.iter().any(|fault| fault.contains("|dt| / t")), broken, "{off}: {faults:?}");
+    }
+}
+
+/// One bit of one answer of a repeated build.
+#[test]
+fn another_answer_of_a_repeated_build_is_noticed() {
+    let bench = Bench::new();
+    let hits = perfect(&prepare(&bench, "Z4", 200));
+    assert_eq!(first_other(&hits, &hits), None);
+    let ray = hits.iter().position(Option::is_some).expect("some ray hits");
+    let right = hits[ray].expect("it hits");
+    let other = right.primitive.map(|primitive| primitive ^ 1);
+    let moved = f32::from_bits(right.t.to_bits() ^ 1);
+    for answer in [None, Some(DeviceHit { primitive: other, ..right }), Some(DeviceHit { t: moved, ..right })]
+    {
+        let mut again = hits.clone();
+        again[ray] = answer;
+        assert_eq!(first_other(&hits, &again), Some(ray), "{answer:?}");
+    }
+}
+
+/// Where nothing can be hit, one hit of a structure of fragments is a fault, whatever its law.
+#[test]
+fn a_hit_on_what_has_no_area_is_noticed() {
+    let bench = Bench::new();
+    let prepared = prepare(&bench, "G3", 2000);
+    let law = row("mmrt-robust-64");
+    let nothing = vec![None; prepared.rays.len()];
+    assert_eq!(faults(law, &prepared, &nothing), Vec::<String>::new());
+    for ray in [0, 1000] {
+        let mut hits = nothing.clone();
+        hits[ray] = Some(DeviceHit { t: 1.0, primitive: Some(0) });
+        let faults = faults(law, &prepared, &hits);
+        assert!(faults.iter().any(|fault| fault.contains("hits are wrong")), "{ray}: {faults:?}");
+    }
+}
+
+/// Rays that rounding decides are held as well: to an admissible answer, but for a share.
+#[test]
+fn inadmissible_answers_are_held_from_both_sides() {
+    let bench = Bench::new();
+    let prepared = prepare(&bench, "V6", 2000);
+    let lose = |share: f64| {
+        let mut hits = perfect(&prepared);
+        let ambiguous = prepared.verdicts.iter().enumerate().filter(|(_, verdict)| verdict.is_ambiguous());
+        let ambiguous: Vec<usize> = ambiguous.map(|(ray, _)| ray).collect();
+        assert!(ambiguous.len() >= 1000, "{}", ambiguous.len());
+        for (place, &ray) in ambiguous.iter().enumerate() {
+            let lost = (place as f64) < share * ambiguous.len() as f64;
+            // The oracle's first candidate is admissible.
+            let first = prepared.verdicts[ray].candidates[0];
+            let hit = DeviceHit {
+                t: (0.5 * (first.t_low + first.t_high)) as f32,
+                primitive: Some(first.primitive),
+            };
+            hits[ray] = (!lost).then_some(hit);
+        }
+        hits
+    };
+    for (name, share, broken) in [
+        ("mmrt-robust-64", 0.0, false),
+        ("mmrt-robust-64", 0.04, false),
+        ("mmrt-robust-64", 0.2, true),
+        // One that is excused up to a share, and from one.
+        ("hu-robust-64", 0.33, false),
+        ("hu-robust-64", 0.6, true),
+        ("hu-robust-64", 0.0, true),
+    ] {
+        let faults = faults(row(name), &prepared, &lose(share));
+        assert_eq!(
+            faults.iter().any(|fault| fault.contains("ambiguous")),
+            broken,
+            "{name}, {share}: {faults:?}"
+        );
     }
 }
 

@@ -46,6 +46,8 @@ pub struct HardCase {
     pub measure: &'static str,
     /// What is demanded, by kind of structure.
     pub target: Targets,
+    /// |dt| / t that structures which find triangles must stay below, where the catalogue says one.
+    pub largest_dt: Option<f64>,
     /// The voxels that the case is made for, where it is about voxels.
     pub grid: Option<Grid>,
 }
@@ -195,7 +197,7 @@ impl Entry {
         let context = Context { id: self.id, parameter: self.parameter, scale };
         let Content { triangles, rays, eye, expect, grid } = (self.build)(&context);
         let row = catalogue_row(self.id).expect("a test looks every case up");
-        let (measure, target) = (row.measure, row.target);
+        let (measure, target, largest_dt) = (row.measure, row.target, row.largest_dt);
         HardCase {
             id: self.id,
             title: self.title,
@@ -206,6 +208,7 @@ impl Entry {
             scale,
             measure,
             target,
+            largest_dt,
             grid,
         }
     }

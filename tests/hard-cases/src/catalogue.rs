@@ -1,6 +1,6 @@
 //! What is looked at on each case, and what is demanded of each kind of structure there.
 
-use Target::{Counted, Exact, Finite, Law, Lost, NoneMissed, Refused};
+use Target::{Counted, Exact, Finite, Law, NoneMissed, Refused};
 
 /// What is demanded of structures of one kind on a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,8 +12,6 @@ pub enum Target {
     Exact,
     /// The rate of errors follows a law in the resolution, or stays between stated bounds.
     Law,
-    /// What is hit cannot be seen from the eye at all: every ray may be lost, as documented.
-    Lost,
     /// Both answers are legal; how often each is given is reported.
     Counted,
     /// Whatever the answer, it is finite, and the work is bounded.
@@ -29,7 +27,6 @@ impl Target {
             NoneMissed => "P1: none missed",
             Exact => "none wrong",
             Law => "P2: law in the resolution",
-            Lost => "P2: all lost, as documented",
             Counted => "count only",
             Finite => "P0: finite answers, no crash",
             Refused => "refused with a typed error",
@@ -53,7 +50,7 @@ pub struct Targets {
 }
 
 /// A number of the catalogue; its cases are this number, alone or with a variant after a dash.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CatalogueRow {
     /// Such as `G1`.
     pub id: &'static str,
@@ -61,6 +58,9 @@ pub struct CatalogueRow {
     pub measure: &'static str,
     /// What is demanded.
     pub target: Targets,
+    /// How far t may be off on the right triangle, relative, for structures that find triangles: where it says how far.
+    /// Elsewhere the oracle's bounds of rounding hold.
+    pub largest_dt: Option<f64>,
 }
 
 /// The row of a case: that of its id up to the dash; absent if there is none.
@@ -70,22 +70,26 @@ pub fn catalogue_row(id: &str) -> Option<&'static CatalogueRow> {
 }
 
 const fn row(id: &'static str, measure: &'static str, primitives: Target, fragments: Target) -> CatalogueRow {
-    CatalogueRow { id, measure, target: Targets { primitives, fragments } }
+    CatalogueRow { id, measure, target: Targets { primitives, fragments }, largest_dt: None }
+}
+
+const fn within(largest_dt: f64, row: CatalogueRow) -> CatalogueRow {
+    CatalogueRow { largest_dt: Some(largest_dt), ..row }
 }
 
 /// All rows by theme.
 pub const CATALOGUE: &[CatalogueRow] = &[
     // Shape of triangles.
     row("G1", "missed rays; of fragments the share that the height in pixels leaves", NoneMissed, Law),
-    row("G2", "missed rays, |dt| / t", NoneMissed, Law),
+    within(1e-5, row("G2", "missed rays, |dt| / t", NoneMissed, Law)),
     row("G3", "false hits, NaN", Exact, Exact),
     row("G4", "false hits, NaN", Exact, Exact),
-    row("G5", "false hits; length of lists", Exact, Exact),
+    row("G5", "false hits", Exact, Exact),
     row("G6", "false hits", Exact, Exact),
     row("G7", "wrong and false hits against the exact predicate", Exact, Law),
     row("G8", "NaN", Finite, Finite),
-    row("G9", "missed rays; length of lists", NoneMissed, Law),
-    row("G10", "missed rays, |dt| / t", NoneMissed, Law),
+    row("G9", "missed rays", NoneMissed, Law),
+    within(1e-6, row("G10", "missed rays, |dt| / t", NoneMissed, Law)),
     row("G11", "missed rays; bounds of cells contain the exact ones", NoneMissed, Law),
     row("G12", "missed rays, NaN", NoneMissed, Law),
     // Edges and vertices.
@@ -98,12 +102,12 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     row("E7", "NaN, t of what is hit", Finite, Finite),
     row("E8", "missed rays", NoneMissed, Law),
     // Views.
-    row("V1", "missed rays", NoneMissed, Lost),
-    row("V2", "missed rays against the law of slopes", NoneMissed, Law),
+    row("V1", "missed rays", NoneMissed, Law),
+    row("V2", "missed rays by slope", NoneMissed, Law),
     row("V3", "missed rays", NoneMissed, Law),
     row("V4", "missed rays against the law of slopes", NoneMissed, Law),
     row("V5", "missed rays", NoneMissed, Law),
-    row("V6", "missed rays; faces walked", NoneMissed, Law),
+    row("V6", "missed rays", NoneMissed, Law),
     row("V7", "missed rays", NoneMissed, Law),
     row("V8", "missed rays", NoneMissed, Law),
     row("V9", "missed rays, NaN", NoneMissed, Law),
@@ -115,19 +119,19 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     row("V15", "missed rays from inside, NaN", NoneMissed, Law),
     row("V16", "missed rays", NoneMissed, Law),
     // Depth and layers.
-    row("Z1", "missed rays, |dt| / t", NoneMissed, Law),
+    within(1e-5, row("Z1", "missed rays, |dt| / t", NoneMissed, Law)),
     row("Z2", "missed rays, |dt| / t", NoneMissed, Law),
     row("Z3", "missed rays by size of the room", NoneMissed, Law),
     row("Z4", "wrong triangles over repeated builds", Exact, Law),
     row("Z5", "wrong triangles", Exact, Law),
-    row("Z6", "missed rays, order of layers, time", NoneMissed, Law),
-    row("Z7", "missed rays; slowdown", NoneMissed, Law),
+    row("Z6", "missed rays, order of layers", NoneMissed, Law),
+    row("Z7", "missed rays", NoneMissed, Law),
     row("Z8", "missed rays, NaN", NoneMissed, Law),
     row("Z9", "missed rays", NoneMissed, Law),
     row("Z10", "wrong triangles", Exact, Law),
-    row("Z11", "wrong triangles; the least thickness without", Exact, Law),
-    row("Z12", "false hits over the distance behind", Exact, Law),
-    row("Z13", "missed rays and wrong triangles by depth", NoneMissed, Law),
+    row("Z11", "wrong triangles by thickness", Exact, Law),
+    row("Z12", "false hits behind", Exact, Law),
+    row("Z13", "missed rays and wrong triangles", NoneMissed, Law),
     row("Z14", "wrong triangles over repeated builds", Exact, Law),
     row("Z15", "wrong triangles", NoneMissed, Law),
     // Voxels.
@@ -149,7 +153,7 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     // Capacity and bad input.
     row("C1", "false hits", Exact, Exact),
     row("C2", "missed rays", NoneMissed, Law),
-    row("C3", "missed rays, or a typed refusal; peak memory", NoneMissed, Law),
+    row("C3", "missed rays, or a typed refusal", NoneMissed, Law),
     row("C4", "missed rays; difference after pools grew", NoneMissed, Law),
     row("C5", "missed rays of what is left, NaN", NoneMissed, Law),
     row("C6", "error of loading", Refused, Refused),
@@ -166,7 +170,7 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     // Light transport.
     row("P1", "wrong interfaces", NoneMissed, Law),
     row("P2", "triangles other than the lowest", Exact, Law),
-    row("P3", "missed rays, |dt| / t by bounce", NoneMissed, Law),
+    row("P3", "missed rays, |dt| / t", NoneMissed, Law),
     row("P4", "hits of what a ray leaves", Exact, Law),
     row("P5", "hits of what a ray leaves", Exact, Law),
     row("P6", "rays that leave a closed box", NoneMissed, Law),
@@ -226,7 +230,10 @@ mod tests {
         for id in ["V1", "V10-24", "E2-400-far"] {
             let case = case(id, Scale { rays: 1, ..Scale::QUICK }).expect("the id is in the catalogue");
             let row = catalogue_row(id).expect("it has a row");
-            assert_eq!((case.measure, case.target), (row.measure, row.target));
+            assert_eq!(
+                (case.measure, case.target, case.largest_dt),
+                (row.measure, row.target, row.largest_dt)
+            );
             assert!(!case.measure.is_empty() && !format!("{}", case.target.fragments).is_empty());
         }
         assert_eq!(catalogue_row("Z99"), None);

@@ -137,3 +137,24 @@ fn acceptance_follows_oracle_and_statement() {
         assert!(!case.accepts(0, &verdict, wrong, 1e-6), "{wrong:?}");
     }
 }
+
+/// The page lists every case as it is.
+#[test]
+fn the_page_lists_every_case() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/hard-cases.md");
+    let page = std::fs::read_to_string(path).expect("the page is there");
+    let row = |id: &str, title: &str| {
+        let row = catalogue_row(id).expect("the id is in the catalogue");
+        let dt = row.largest_dt.map_or_else(String::new, |dt| format!(", dt/t at most {dt:.0e}"));
+        let (primitives, fragments) = (row.target.primitives, row.target.fragments);
+        // A bar would end the table's cell.
+        let measure = row.measure.replace('|', "\\|");
+        format!("| {id} | {title} | {measure} | {primitives}{dt} | {fragments} |")
+    };
+    let scale = Scale { rays: 1, ..Scale::QUICK };
+    let rows =
+        ids().into_iter().map(|id| row(id, case(id, scale).expect("the id is in the catalogue").title));
+    let files = files().into_iter().map(|file| row(file.id, file.title));
+    let missing: Vec<_> = rows.chain(files).filter(|row| !page.lines().any(|line| line == row)).collect();
+    assert!(missing.is_empty(), "docs/hard-cases.md lacks\n{}", missing.join("\n"));
+}

@@ -121,7 +121,14 @@ fn passing(context: &Context, distance: f32) -> Content {
                 origin[(index - 1) % 3] = if index < 4 { -3.0 } else { 3.0 };
                 origin
             }
-            _ => random.near([0.0; 3], 4.0),
+            _ => {
+                let mut origin = random.near([0.0; 3], 4.0);
+                // A distance that rounding takes from every other coordinate stays with one that is zero.
+                if origin.map(|x: f32| x + distance) == origin {
+                    origin[index % 3] = 0.0;
+                }
+                origin
+            }
         };
         let direction = origin.map(|x: f32| -x);
         Ray::new(origin.map(|x| x + distance), direction)

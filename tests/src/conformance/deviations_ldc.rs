@@ -75,7 +75,7 @@ pub(super) const PUBLISHED_64: &[Deviation] = &[
     deviation("V10-3", LEANING, 0.232, 0.363),
     deviation("V10-6", LEANING, 0.232, 0.364),
     deviation("V10-24", LEANING, 0.245, 0.383),
-    deviation("V10-120", LEANING, 0.231, 0.363),
+    deviation("V10-120", LEANING, 0.13, 0.204),
     deviation("Z1", DETAIL, 0.641, 1.0),
     deviation("Z15", DETAIL, 0.648, 1.0),
     deviation("Z2-4", LEANING, 0.183, 0.287),

@@ -1,4 +1,7 @@
-use super::{Demand, Measured, Prepared, Row, comparisons};
+use rasray_metrics::Rate;
+
+use super::{Demand, Measured, Prepared, Row, comparisons, deviations_ambiguous};
+use crate::hard_cases::Target;
 
 /// The probability that any judgement of any row on any case is wrong although every law and every
 /// deviation holds. Each comparison gets an equal share of it (Bonferroni).
@@ -8,6 +11,18 @@ pub const FALSE_ALARM: f64 = 1e-6;
 /// with at most its share of [`FALSE_ALARM`].
 pub fn confidence() -> f64 {
     1.0 - FALSE_ALARM / comparisons() as f64
+}
+
+/// The largest rate of wrong answers of a row without a deviation.
+fn general_limit(row: &Row, case: &str) -> f64 {
+    match row.demand {
+        Demand::Exact { .. } => 0.0,
+        Demand::Law { resolution, per_cell, laws, .. } => {
+            let law = laws.iter().find(|law| law.case == case);
+            law.map_or(per_cell / f64::from(resolution), |law| law.limit(resolution))
+        }
+        Demand::Loss { share, .. } => share,
+    }
 }
 
 /// What of a measurement breaks the row's demand on this case; empty if nothing does.
@@ -30,11 +45,39 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         let what = format!("{} hits have a t that is no number", measured.confusion.non_finite.count);
         fault(what, measured.rejected.first().copied());
     }
+    let on_triangles = matches!(row.demand, Demand::Exact { .. });
+    if let (true, Some(limit), Some(dt)) = (on_triangles, case.largest_dt, measured.dt_right)
+        && dt.max > limit
+    {
+        fault(format!("|dt| / t is {:.1e}: more than {limit:.1e}", dt.max), measured.farthest_off);
+    }
+    // Of what has no area, or of rays without direction, there are no samples either.
+    if matches!(row.demand, Demand::Law { .. })
+        && case.target.fragments == Target::Exact
+        && let Some(&first) = measured.rejected_hits.first()
+    {
+        let what =
+            format!("{} hits are wrong where nothing may be hit wrongly", measured.rejected_hits.len());
+        fault(what, Some(first));
+    }
+    let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
+    // Cases all of whose rays are ambiguous are judged by these alone, below.
+    if !on_triangles && measured.errors.total > 0 && measured.inadmissible.total > 0 {
+        let limit = deviation.map_or_else(|| general_limit(row, case.id), |deviation| deviation.at_most_rate);
+        let ([least, most], reason) = deviations_ambiguous::bounds(row.name, case.id, limit);
+        let [low, high] = measured.inadmissible.interval_at(confidence()).unwrap_or([0.0, 1.0]);
+        let Rate { count, total } = measured.inadmissible;
+        if low > most || high < least {
+            let what = format!(
+                "of ambiguous rays {count} of {total} get an inadmissible answer, between {low:.4} and {high:.4}, which is not within {least:.4} to {most:.4} ({reason})"
+            );
+            fault(what, measured.first_inadmissible);
+        }
+    }
     let judged = measured.judged();
     let rate = judged.value().unwrap_or(0.0);
     let [low, high] = judged.interval_at(confidence()).unwrap_or([0.0, 1.0]);
     let first_wrong = measured.wrong.first().copied();
-    let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
     if let Some(deviation) = deviation.filter(|_| !row.is_exact()) {
         if high < deviation.at_least_rate {
             let what = format!(
@@ -72,11 +115,7 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
             }
             return faults;
         }
-        Demand::Law { resolution, per_cell, laws, .. } => {
-            let law = laws.iter().find(|law| law.case == case.id);
-            law.map_or(per_cell / f64::from(resolution), |law| law.limit(resolution))
-        }
-        Demand::Loss { share, .. } => share,
+        Demand::Law { .. } | Demand::Loss { .. } => general_limit(row, case.id),
     };
     if low > limit {
         let what = format!(

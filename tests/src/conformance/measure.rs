@@ -15,16 +15,22 @@ pub struct Measured {
     pub errors: Rate,
     /// Of the ambiguous rays, the share that got an answer that is not admissible, give or take the tolerance in t.
     pub inadmissible: Rate,
+    /// The first ambiguous ray with such an answer, by index.
+    pub first_inadmissible: Option<usize>,
     /// The rays that count in [`Measured::judged`], by index.
     pub wrong: Vec<usize>,
     /// Rays whose answer a structure that finds triangles may not give, by index.
     pub rejected: Vec<usize>,
+    /// Those of [`Measured::rejected`] that got a hit, with depths off by the tolerance allowed.
+    pub rejected_hits: Vec<usize>,
     /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
     pub lost: usize,
     /// Unambiguous and ambiguous rays that are not judged: what they meet lies outside of what the camera sees.
     pub unseen: usize,
     /// |dt| / t of the hits on the right triangle.
     pub dt_right: Option<Percentiles>,
+    /// The ray with the largest of these.
+    pub farthest_off: Option<usize>,
 }
 
 /// A hit as the metrics know it; a miss is absent. Ids are the case's.
@@ -34,6 +40,16 @@ pub fn device_hit(prepared: &Prepared, hit: &Hit) -> Option<DeviceHit> {
         primitive: (hit.primitive != PRIMITIVE_UNKNOWN)
             .then(|| prepared.primitive(hit.primitive).unwrap_or(u32::MAX)),
     })
+}
+
+/// Builds and traces: what became of each ray, a miss being absent.
+///
+/// # Panics
+/// If the device fails or rays do not finish.
+pub fn answers(bench: &Bench, structure: &mut dyn Structure, prepared: &Prepared) -> Vec<Option<DeviceHit>> {
+    structure.set_geometry(bench.device(), &prepared.geometry).expect("geometry is taken");
+    let hits = bench.build_and_trace(structure, prepared.viewpoint, &prepared.rays);
+    hits.iter().map(|hit| device_hit(prepared, hit)).collect()
 }
 
 /// Builds, traces and compares. `depth_tolerance` is the |dt| / t up to which a depth counts as right
@@ -48,10 +64,13 @@ pub fn measure(
     depth_tolerance: f64,
     rounding: f64,
 ) -> Measured {
-    structure.set_geometry(bench.device(), &prepared.geometry).expect("geometry is taken");
-    let hits = bench.build_and_trace(structure, prepared.viewpoint, &prepared.rays);
-    let hits: Vec<_> = hits.iter().map(|hit| device_hit(prepared, hit)).collect();
-    compare(prepared, &hits, depth_tolerance, rounding)
+    compare(prepared, &answers(bench, structure, prepared), depth_tolerance, rounding)
+}
+
+/// The first ray that two traces of the same rays answer otherwise, bit for bit.
+pub fn first_other(expected: &[Option<DeviceHit>], found: &[Option<DeviceHit>]) -> Option<usize> {
+    let bits = |hit: &Option<DeviceHit>| hit.map(|hit| (hit.t.to_bits(), hit.primitive));
+    expected.iter().map(bits).zip(found.iter().map(bits)).position(|(expected, found)| expected != found)
 }
 
 /// Compares answers with the truth, as [`measure`] does with a structure's.
@@ -70,16 +89,23 @@ pub fn compare(
         confusion,
         errors: Rate::default(),
         inadmissible: Rate::default(),
+        first_inadmissible: None,
         wrong: Vec::new(),
         rejected: Vec::new(),
+        rejected_hits: Vec::new(),
         lost: 0,
         unseen: 0,
         dt_right: None,
+        farthest_off: None,
     };
     let (mut dt_right, mut inadmissible) = (Vec::new(), Vec::new());
+    let mut largest_dt = 0.0;
     for (index, (verdict, hit)) in prepared.verdicts.iter().zip(hits).enumerate() {
         if !prepared.case.accepts(index, verdict, *hit, rounding) {
             measured.rejected.push(index);
+        }
+        if hit.is_some() && !prepared.case.accepts(index, verdict, *hit, rounding.max(depth_tolerance)) {
+            measured.rejected_hits.push(index);
         }
         let answer = prepared.case.answer(index);
         let must_hit = matches!(answer, Answer::Hit | Answer::HitAt { .. } | Answer::HitOn { .. });
@@ -106,6 +132,10 @@ pub fn compare(
                 let dt = (f64::from(hit.t) - t).abs() / t.abs();
                 if hit.primitive == Some(primitive) {
                     dt_right.push(dt);
+                    if dt > largest_dt {
+                        largest_dt = dt;
+                        measured.farthest_off = Some(index);
+                    }
                 }
                 // Written so that NaN is wrong.
                 !(dt <= depth_tolerance || verdict.admits_hit(hit.primitive, f64::from(hit.t)))
@@ -117,6 +147,7 @@ pub fn compare(
             measured.wrong.push(index);
         }
     }
+    measured.first_inadmissible = inadmissible.first().copied();
     if measured.errors.total == 0 {
         measured.wrong = inadmissible;
     }

@@ -14,6 +14,7 @@
 //! most [`FALSE_ALARM`] where every law holds, whatever the seed.
 
 mod deviations;
+mod deviations_ambiguous;
 mod deviations_dirt;
 mod deviations_ldc;
 mod deviations_voxel;
@@ -30,7 +31,7 @@ mod rows_mmrt;
 mod rows_voxel;
 
 pub use judge::{FALSE_ALARM, confidence, judge};
-pub use measure::{Measured, compare, device_hit, measure};
+pub use measure::{Measured, answers, compare, device_hit, first_other, measure};
 pub use prepare::{Prepared, loadable};
 pub use rounds::trace_in_rounds;
 pub use row::{Cases, Curve, DEEP, Demand, Deviation, Law, Row, Tier};

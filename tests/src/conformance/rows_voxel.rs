@@ -82,6 +82,18 @@ pub(super) const ROWS: &[Row] = &[
         voxel_law(16),
         deviations_voxel::ROBUST_16,
     ),
+    // Hits are those of `hu`, bit for bit, and so are laws and deviations.
+    Row {
+        tier: Tier::Full,
+        ..voxel(
+            "selective-robust-128",
+            ("selective", Preset::Robust),
+            &[("resolution", "128")],
+            Cases::Shallow,
+            voxel_law(128),
+            deviations_voxel::ROBUST_128,
+        )
+    },
     voxel(
         "selective-published-16",
         ("selective", Preset::Published),

@@ -9,7 +9,9 @@ use std::time::Instant;
 
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
-use rasray_tests::conformance::{Demand, Law, Prepared, ROWS, Row, Tier, judge, measure};
+use rasray_tests::conformance::{
+    Demand, Law, Prepared, ROWS, Row, Tier, answers, compare, first_other, judge, measure,
+};
 use rasray_tests::hard_cases::{self, Scale, Target};
 use rasray_tests::harness::Bench;
 use rasray_tests::tier::{Counts, is_full};
@@ -17,11 +19,21 @@ use rasray_tests::tier::{Counts, is_full};
 /// Rays of a case for rows that find triangles without loss.
 const RAYS: Counts<usize> = Counts { quick: 2000, software: 20_000, full: 150_000 };
 
-/// Rays times triangles of a case, at most, for rows that find triangles without loss.
-const TESTS: Counts<usize> = Counts { quick: 50_000_000, software: 100_000_000, full: 500_000_000 };
+/// Rays times triangles of a case, at most, for rows that find triangles without loss and build something.
+const TESTS: Counts<usize> = Counts { quick: 1_000_000_000, software: 2_000_000_000, full: 10_000_000_000 };
+
+/// The share of that for brute force, which tests every triangle against every ray.
+const BRUTE_FORCE: usize = 20;
 
 /// The largest rate of errors that a law may allow.
 const LARGEST_LIMIT: f64 = 0.75;
+
+/// Cases of surfaces that coincide, where answers could depend on the order in which threads ran: built and traced again and
+/// again.
+const REPEATED: &[&str] = &["Z4", "Z14", "C10"];
+
+/// How often, in the quick tier and in the full one.
+const REPEATS: [usize; 2] = [1, 19];
 
 /// Rays of a case for rows that are judged by rates in the full tier, with the meshes of the quick one: bounds of rates
 /// hold for those.
@@ -73,7 +85,7 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
     let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
     // Those that meet only some of the rays come last.
     let mut rows = rows.to_vec();
-    rows.sort_by_key(|row| row.is_exact());
+    rows.sort_by_key(|row| (row.is_exact(), row.system == "brute-force"));
     let mut rows: Vec<_> = rows.into_iter().map(|row| (row, row.make(bench, &placeholder))).collect();
     // Those that are named may all belong to another tier or kind.
     assert!(!rows.is_empty() || std::env::var_os(WANTED).is_some());
@@ -92,12 +104,16 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             continue;
         }
         let mut case = hard_cases::case(id, scale).expect("the id is in the catalogue");
-        let most = tests / case.triangles.len().max(1);
+        let most = |row: &Row| {
+            let share = if row.system == "brute-force" { BRUTE_FORCE } else { 1 };
+            tests / share / case.triangles.len().max(1)
+        };
+        let most: Vec<_> = rows.iter().map(|(row, _)| most(row)).collect();
         if rows.iter().all(|(row, _)| row.is_exact()) {
-            case.rays.truncate(most);
+            case.rays.truncate(most.iter().copied().max().unwrap_or(0));
         }
         let mut prepared = Prepared::new(bench, case);
-        for (row, structure) in &mut rows {
+        for ((row, structure), most) in rows.iter_mut().zip(most) {
             if !row.cases.contain(id) {
                 continue;
             }
@@ -108,12 +124,29 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             prepared.only_camera = row.only_camera();
             let (depth_tolerance, rounding) = row.tolerances();
             progress(&format!("{} {id}", row.name));
-            let measured = measure(bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
+            let hits = answers(bench, structure.as_mut(), &prepared);
+            let measured = compare(&prepared, &hits, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
                 let rate = measured.judged();
-                println!("{} {id} {} of {}", row.name, rate.count, rate.total);
+                let ambiguous = measured.inadmissible;
+                println!(
+                    "{} {id} {} of {}, and of ambiguous rays {} of {}",
+                    row.name, rate.count, rate.total, ambiguous.count, ambiguous.total
+                );
             }
-            let faults = judge(row, &prepared, &measured);
+            let mut faults = judge(row, &prepared, &measured);
+            let repeats = if REPEATED.contains(&id) { REPEATS[usize::from(is_full())] } else { 0 };
+            for repeat in 1..=repeats {
+                let again = answers(bench, structure.as_mut(), &prepared);
+                if let Some(ray) = first_other(&hits, &again) {
+                    let (first, now) = (hits[ray], again[ray]);
+                    faults.push(format!(
+                        "{} on {id}: build {repeat} answers ray {ray} with {now:?}, not {first:?}",
+                        row.name
+                    ));
+                    break;
+                }
+            }
             held.runs.push(report::run(row, structure.as_ref(), &prepared, &measured, &faults));
             held.faults.extend(faults);
         }
@@ -176,7 +209,7 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
             let target = hard_cases::catalogue_row(deviation.case).expect("it is in the catalogue").target;
             let negotiable = match row.demand {
                 Demand::Loss { .. } => target.primitives != Target::Finite,
-                _ => matches!(target.fragments, Target::Law | Target::Lost | Target::Counted),
+                _ => matches!(target.fragments, Target::Law | Target::Counted),
             };
             assert!(negotiable, "{} may not deviate on {}", row.name, deviation.case);
         }

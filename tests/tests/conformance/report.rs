@@ -27,6 +27,8 @@ pub fn run(
     let errors = RateRecord::of(judged).filter(|_| !row.is_exact());
     // Of a thousand runs, the rate that was judged; counts are beside it.
     accuracy.rates = errors.map(|errors| ("errors".to_owned(), errors)).into_iter().collect();
+    let inadmissible = RateRecord::of(measured.inadmissible).filter(|_| !row.is_exact());
+    accuracy.rates.extend(inadmissible.map(|rate| ("inadmissible".to_owned(), rate)));
     let reason = match faults {
         [] if row.is_exact() => format!("all {} answers are allowed; {limit}", case.rays.len()),
         [] => format!("{} of {} answers are wrong; {limit}", judged.count, judged.total),

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::report::HardRecord;
 
 /// What of a run's answers neither oracle nor statement allows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Judged {
     pub(super) rays: u64,
     /// Rays that got a hit.
@@ -23,6 +23,8 @@ pub(super) struct Judged {
     pub(super) rejected_hits: u64,
     /// Of those, hits outside of the range of t that is all that is stated.
     pub(super) out_of_range: u64,
+    /// The largest |dt| / t on the right triangle, and what the case bounds it by for structures that find triangles.
+    pub(super) dt: Option<[f64; 2]>,
 }
 
 /// What a report says of a run on a case; `resolution` is the run's option of that name.
@@ -58,7 +60,7 @@ fn verdict(
     judged: &Judged,
     resolution: Option<f64>,
 ) -> (Option<bool>, String) {
-    let Judged { rays, hits, non_finite, lost, rejected, rejected_hits, out_of_range, .. } = *judged;
+    let Judged { rays, hits, non_finite, lost, rejected, rejected_hits, out_of_range, dt, .. } = *judged;
     let rate = Rate { count: rejected, total: rays };
     let share = match (rate.value(), rate.interval()) {
         (Some(value), Some([low, high])) => {
@@ -80,6 +82,10 @@ fn verdict(
         Target::NoneMissed | Target::Exact if kind == StructureKind::LossyPrimitive => {
             (None, format!("{share}; {lost} rays are lost; the rules that were chosen promise none"))
         }
+        Target::NoneMissed | Target::Exact if dt.is_some_and(|[largest, limit]| largest > limit) => {
+            let [largest, limit] = dt.unwrap_or_default();
+            (Some(false), format!("{share}; |dt|/t is {largest:.1e}, more than {limit:.1e}"))
+        }
         Target::NoneMissed | Target::Exact => (Some(rejected == 0), format!("{share}; {lost} rays are lost")),
         Target::Law => {
             let law = match (resolution, rate.value()) {
@@ -90,7 +96,6 @@ fn verdict(
             };
             (None, format!("{share}{law}; a law shows over several resolutions"))
         }
-        Target::Lost => (Some(true), format!("{lost} of {rays} rays are lost, as documented")),
         Target::Counted => (None, format!("{hits} of {rays} rays hit; both answers are legal")),
         Target::Finite => (
             Some(out_of_range == 0),
@@ -122,7 +127,6 @@ mod tests {
             (Target::Exact, Fragment, Some(true), Some(false), Some(false)),
             (Target::Exact, LossyPrimitive, None, None, None),
             (Target::Law, Fragment, None, None, None),
-            (Target::Lost, Fragment, Some(true), Some(true), Some(true)),
             (Target::Counted, Primitive, None, None, None),
             (Target::Finite, Primitive, Some(true), Some(true), Some(false)),
         ] {
@@ -131,6 +135,10 @@ mod tests {
             assert_eq!(met(target, kind, false_hit), by_hit, "{target}");
             assert_eq!(met(target, kind, out), by_range, "{target}");
             assert_eq!(met(target, kind, broken), Some(false), "{target}");
+        }
+        for (largest, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
+            let judged = Judged { dt: Some([largest, 1.0]), ..right };
+            assert_eq!(met(Target::NoneMissed, Primitive, judged), expected);
         }
         let law = verdict(Target::Law, Fragment, &miss, Some(64.0)).1;
         assert!(law.contains("1 of 100") && law.contains("0.640"), "{law}");
