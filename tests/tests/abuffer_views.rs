@@ -171,7 +171,7 @@ fn a_turned_camera_keeps_the_law_of_fragments() {
 fn a_view_of_a_camera_needs_one() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    for views in [Views::CubeCamera] {
+    for views in [Views::CubeCamera, Views::Camera] {
         let config = Config { views, ..Config::robust(8) };
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");

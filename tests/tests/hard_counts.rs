@@ -8,11 +8,17 @@ use rasray_ads::{Draw, Geometry, GeometryDesc};
 use rasray_gpu::BufferUsage;
 use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::Oracle;
+use rasray_systems::Spec;
 use rasray_tests::hard_cases::{self, HardCase, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::tier::is_full;
 
 const RAYS: usize = 10_000;
+
+/// What finds triangles without loss, with pools beyond what one binding of many devices holds. The tree of the host is left
+/// out, which takes minutes.
+const TRIANGLES: &[(&str, &[(&str, &str)])] =
+    &[("dirt", &[("addressing", "address")]), ("bvh", &[("addressing", "address"), ("builder", "lbvh")])];
 
 /// Corners without repetition, and indices: what a loader makes of the triangles.
 fn shared(case: &HardCase) -> (Vec<[f32; 3]>, Vec<u32>) {
@@ -93,6 +99,22 @@ fn ten_million_triangles_are_traced_or_refused() {
                 hits.iter().enumerate().map(|(ray, hit)| hit.filter(|_| ray % 10 != 0)).collect();
             let worse = HitConfusion::measure(&verdicts, &gaps, 1e-3).expect("one hit a ray");
             assert!(worse.missed.interval().expect("rays hit")[0] > most);
+        }
+        for (system, options) in TRIANGLES {
+            let name = format!("{id}, {system}");
+            let options = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
+            let spec = Spec::new(system, "robust", options).expect("the options are valid");
+            let mut structure =
+                spec.create(bench.device(), &geometry, None).expect("addresses reach its pools");
+            let hits = bench.build_and_trace(structure.as_mut(), case.eye, &rays);
+            let hits: Vec<_> = hits
+                .iter()
+                .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
+                .collect();
+            let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit a ray");
+            let bytes = structure.report().expect("the header is readable").bytes();
+            println!("{name}: {} MiB, {confusion:?}", bytes >> 20);
+            assert!(confusion.is_clean(), "{name}: {confusion:?}");
         }
     }
 }

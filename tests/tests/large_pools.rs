@@ -1,14 +1,18 @@
 //! Pools larger than what one binding holds: refused by name through descriptors, and reached by address with the
-//! same hits; and, in the full tier, a million triangles in every kind of structure.
+//! same hits; and, in the full tier, a million triangles through every system.
 
-use rasray_ads::{AdsError, Hit, Ray, Structure};
+use rasray_ads::{AdsError, Hit, Ray, Structure, StructureKind};
 use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
+use rasray_systems::{SYSTEMS, Spec};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::build_until_complete;
+
+/// The share of rays that structures of fragments may answer wrongly among a million small triangles, at 512 cells a side.
+const FRAGMENTS_OFF: f64 = 0.05;
 
 fn rays(count: usize) -> Vec<Ray> {
     let mut random = Random::new(402);
@@ -65,24 +69,36 @@ fn a_million_triangles_are_found_alike() {
     }
     let geometry = bench.geometry(&triangles);
     let rays = rays(20_000);
-    let mut expected: Option<Vec<[u32; 4]>> = None;
-    let mut check = |name: &str, structure: &mut dyn Structure| {
-        build_until_complete(bench.device(), structure, [0.1, 0.2, 0.3], Timing::None).expect("it is built");
-        let hits = all_bits(&bench.trace(structure, &rays).hits);
-        match &expected {
-            Some(expected) => assert_eq!(&hits, expected, "{name}"),
-            None => expected = Some(hits),
+    let mut specs: Vec<(&str, &str, &str)> = SYSTEMS
+        .iter()
+        .filter(|system| system.name != "brute-force")
+        .map(|system| (system.name, "storage", ""))
+        .collect();
+    // The tree on the host is what the others are held against.
+    specs.sort_by_key(|(system, ..)| *system != "bvh");
+    specs.extend([("bvh", "builder", "lbvh"), ("dirt", "storage", "sb"), ("hu", "storage", "bricks")]);
+    let mut expected: Vec<Hit> = Vec::new();
+    for (system, option, value) in specs {
+        let options = (!value.is_empty()).then(|| (option.to_owned(), value.to_owned()));
+        let spec = Spec::new(system, "robust", options).expect("the options are valid");
+        let mut structure = spec.create(bench.device(), &geometry, None).expect("its pools fit");
+        build_until_complete(bench.device(), structure.as_mut(), [0.1, 0.2, 0.3], Timing::None)
+            .expect("it is built");
+        let hits = bench.trace(structure.as_ref(), &rays).hits;
+        if expected.is_empty() {
+            expected = hits;
+            continue;
         }
-    };
-    for builder in [Builder::Sah, Builder::Lbvh] {
-        let config = rasray_bvh::Config::new(builder);
-        let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
-        check(builder.name(), &mut tree);
-    }
-    for storage in [Storage::Contiguous, Storage::Bricks] {
-        let config = Config { storage, ..Config::robust(512) };
-        let mut lists =
-            PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
-        check(&format!("{storage:?}"), &mut lists);
+        let name = format!("{system} {value}");
+        if structure.kind() == StructureKind::Primitive {
+            assert_eq!(all_bits(&hits), all_bits(&expected), "{name}");
+            println!("{name}: the same hits");
+            continue;
+        }
+        // Triangles are finer than cells: what is met must lie where the surface is.
+        let off = hits.iter().zip(&expected).filter(|(hit, truth)| !((hit.t - truth.t).abs() < 0.05)).count();
+        let share = off as f64 / rays.len() as f64;
+        println!("{name}: {share:.4} of the rays are more than 0.05 off");
+        assert!(share < FRAGMENTS_OFF, "{name}: {share}");
     }
 }

@@ -135,7 +135,7 @@ fn check(bench: &Bench, name: &str, traced: [&Traced; 2]) {
 /// Every pair of structures, or but for the large counts these: all pairs compile, or there would be no tests, and a driver
 /// takes seconds for each. The names of their shaders end in `suffix`.
 fn check_pairs(bench: &Bench, structures: &BTreeMap<&str, Traced>, suffix: &str, quick: &[[&str; 2]]) {
-    assert_eq!(structures.len(), 5, "{:?}", structures.keys());
+    assert!(structures.len() >= 5, "{:?}", structures.keys());
     for (first, one) in structures {
         for (second, other) in structures.iter().filter(|(second, _)| *second > first) {
             if is_full() || quick.contains(&[first, second]) {

@@ -1,5 +1,7 @@
 //! A mean with its standard error, and the one bound that all closed forms are checked with.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 /// Standard errors that an estimate may be off. All checks of one run together, at most [`CHECK_LIMIT`] of
 /// them, pass a wrong verdict on a right program with a probability below 1e-6: Student's distribution with
 /// the [`Estimate::PIXELS`] degrees of freedom that every estimate has at least puts 2.7e-9 beyond it.
@@ -7,6 +9,9 @@ pub const SIGMAS: f64 = 6.0;
 
 /// Most checks of one channel that the family-wise bound of [`SIGMAS`] covers.
 pub const CHECK_LIMIT: usize = 350;
+
+/// Checks of this program so far.
+static CHECKS: AtomicUsize = AtomicUsize::new(0);
 
 /// What single precision adds to an estimate, relative: sums of some thousand terms.
 const ROUNDING: f64 = 1e-5;
@@ -69,6 +74,11 @@ impl Estimate {
 /// If the estimate is farther off.
 #[track_caller]
 pub fn assert_truth(name: &str, estimate: &Estimate, truth: [f64; 3], slack: f64) {
+    let checks = CHECKS.fetch_add(1, Ordering::Relaxed) + 1;
+    assert!(
+        checks <= CHECK_LIMIT,
+        "{name}: check {checks} of this program is beyond the {CHECK_LIMIT} that the bound covers"
+    );
     let deviation = estimate.deviation(truth, slack);
     eprintln!(
         "{name}: {:.6?}, truth {truth:.6?}, sigma {:.6?}: {deviation:.2} sigma",
