@@ -11,7 +11,7 @@ use rasray_systems::SYSTEMS;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::{Bench, oracle_ray};
 use rasray_tests::invariance::{
-    Answers, LAWS, Law, SUBJECTS, Subject, Value, first_difference, law, pairwise,
+    Answers, LAWS, Pairs, SUBJECTS, Subject, choices, first_difference, law, pairwise, speed_options, takes,
 };
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -73,39 +73,6 @@ fn assert_same(what: &str, rays: &[Ray], expected: &Answers, found: &Answers) {
             rays[ray], found.closest[ray], found.occluded[ray], expected.closest[ray], expected.occluded[ray]
         );
     }
-}
-
-/// Whether a subject takes an option's value, alone or beside a value of one of `others`.
-fn takes<'a>(subject: &Subject, mut others: impl Iterator<Item = &'a Law>, chosen: (&str, &str)) -> bool {
-    subject.with(&[chosen]).is_some()
-        || others.any(|other| {
-            let beside = |choice: &&str| subject.with(&[(other.option, *choice), chosen]).is_some();
-            other.option != chosen.0 && other.values.iter().any(|choice| beside(choice))
-        })
-}
-
-/// The options of a subject that may not change a hit, each with the values that it takes alone or beside one other choice of
-/// these: pages go with paged lists only.
-fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
-    let laws: Vec<_> = subject
-        .spec
-        .system()
-        .options
-        .iter()
-        .filter_map(|option| law(option))
-        .filter(|law| law.of(subject.kind) != Value::MayChange)
-        .collect();
-    let options = laws.iter().filter_map(|law| {
-        let all = laws.iter().copied();
-        let values: Vec<_> = law
-            .values
-            .iter()
-            .copied()
-            .filter(|&value| takes(subject, all.clone(), (law.option, value)))
-            .collect();
-        (!values.is_empty()).then_some((law.option, values))
-    });
-    options.collect()
 }
 
 #[test]
@@ -172,24 +139,6 @@ fn one_option_at_a_time_changes_no_hit() {
     }
 }
 
-/// What pairs are made of: of an option some of whose values exclude others', that it stays as it is comes first.
-fn choices<'a>(
-    subject: &Subject,
-    options: &[(&'a str, Vec<&'a str>)],
-) -> Vec<(&'a str, Vec<Option<&'a str>>)> {
-    let excludes = |option: &str, values: &[&str]| {
-        options.iter().filter(|(other, _)| *other != option).any(|(other, others)| {
-            let together = |value: &str, choice: &str| subject.with(&[(option, value), (other, choice)]);
-            values.iter().any(|value| others.iter().any(|choice| together(value, choice).is_none()))
-        })
-    };
-    let with_default = |(option, values): &(&'a str, Vec<&'a str>)| {
-        let default = excludes(option, values).then_some(None);
-        (*option, default.into_iter().chain(values.iter().copied().map(Some)).collect())
-    };
-    options.iter().map(with_default).collect()
-}
-
 #[test]
 fn options_in_pairs_change_no_hit() {
     let bench = Bench::new();
@@ -204,7 +153,7 @@ fn options_in_pairs_change_no_hit() {
             values.filter_map(|((option, values), index)| Some((*option, values[*index]?))).collect()
         };
         let counts: Vec<_> = choices.iter().map(|(_, values)| values.len()).collect();
-        let (mut rows, refused) = pairwise(&counts, |row| subject.with(&chosen(row)).is_some());
+        let Pairs { mut rows, refused } = pairwise(&counts, |row| subject.with(&chosen(row)).is_some());
         // Some pairs exclude each other by the system's own rules, which its tests hold.
         for [left, right] in &refused {
             let pair = [left, right].map(|&(option, value)| {

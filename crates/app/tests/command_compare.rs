@@ -108,3 +108,34 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     assert_eq!((met(0), met(1)), (None, Some(true)));
     assert_eq!(report.scene.name, "hard:E5");
 }
+
+/// Reports, pages and rays that do not fit are refused whole: what was there under their names stays.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_does_not_fit_on_the_disk_leaves_what_was_there() {
+    for (option, names) in
+        [("--report r.json", ["r.json"]), ("--html p.html", ["p.html"]), ("--save-rays .", ["E1.rays"])]
+    {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in names {
+            std::fs::write(folder.path().join(name), b"old").expect("a file");
+        }
+        let line = format!("compare hard:E1 --systems brute-force --repetitions 1 {option}");
+        let mut shell = Command::new("bash");
+        // Files of a block; the driver keeps none of its own.
+        shell.args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_rasray")]);
+        shell.args(line.split(' ')).current_dir(folder.path()).env("MESA_SHADER_CACHE_DISABLE", "1");
+        let output = shell.output().expect("bash starts");
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(4), "{option}: {text}");
+        assert!(names.iter().any(|name| text.contains(name)) && text.contains("help: "), "{option}: {text}");
+        // Of several files, those that fit are there and whole.
+        let left = std::fs::read_dir(folder.path()).expect("the folder").flatten();
+        let left: Vec<_> = left.map(|entry| entry.file_name().into_string().expect("a name")).collect();
+        let is_known = |name: &String| names.contains(&name.as_str()) || name == "triangles.npy";
+        assert!(left.iter().all(is_known), "{option}: {left:?}");
+        for name in names {
+            assert_eq!(std::fs::read(folder.path().join(name)).expect("the file"), b"old", "{option}");
+        }
+    }
+}

@@ -173,3 +173,45 @@ fn the_browser_test_sees_a_broken_page() {
     assert!(visit.complaints.iter().any(|line| line.contains("Content Security Policy")));
     assert_ne!(visit.probe("drawn"), visit.probe("areas"));
 }
+
+/// What any page shows: how many plots there are, how many were drawn, and how far it scrolls sideways.
+const LOOK: &str = r##"<script>
+addEventListener("load", () => {
+  const report = (name, value) => document.body.setAttribute(`data-probe-${name}`, value);
+  const areas = [...document.querySelectorAll(".area")];
+  report("areas", areas.length);
+  report("drawn", areas.filter((area) => area.querySelector(".main-svg .xy")).length);
+  report("wide", document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  report("tables", document.querySelectorAll("table tbody tr").length);
+});
+</script>"##;
+
+/// Pages as the built command writes them: of a scene with images, and of hard cases.
+#[test]
+fn pages_of_the_command_work_in_a_browser() {
+    let Some(browser) = browser() else {
+        eprintln!("skipped: pages_of_the_command_work_in_a_browser needs chromium or chrome on the path");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    for (line, least_plots) in [
+        ("compare cornell --systems mmrt,dirt,bvh --rays 300 --image --size 24x16 --spp 1", 6),
+        ("compare hard:E1 --systems mmrt,brute-force --presets robust", 1),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_rasray"))
+            .args(line.split(' '))
+            .args(["--repetitions", "1", "--html", "page.html"])
+            .current_dir(folder.path())
+            .output()
+            .expect("the command starts");
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", String::from_utf8_lossy(&output.stderr));
+        let page = std::fs::read_to_string(folder.path().join("page.html")).expect("a page");
+        let visit = visit(&browser, &with_script(&page, LOOK));
+        assert_eq!(visit.complaints, Vec::<String>::new(), "{line}");
+        let number = |name: &str| visit.probe(name).parse::<usize>().expect("a number");
+        let (areas, drawn) = (number("areas"), number("drawn"));
+        assert!(areas >= least_plots && drawn == areas, "{line}: {drawn} of {areas} plots are drawn");
+        assert!(number("tables") >= 2, "{line}: {} rows", number("tables"));
+        assert_eq!(visit.probe("wide"), "0", "{line}: the page scrolls sideways");
+    }
+}

@@ -154,7 +154,7 @@ fn the_page_lists_every_case() {
     let scale = Scale { rays: 1, ..Scale::QUICK };
     let rows =
         ids().into_iter().map(|id| row(id, case(id, scale).expect("the id is in the catalogue").title));
-    let files = files().into_iter().map(|file| row(file.id, file.title));
+    let files = files().map(|file| row(file.id, file.title));
     let missing: Vec<_> = rows.chain(files).filter(|row| !page.lines().any(|line| line == row)).collect();
     assert!(missing.is_empty(), "docs/hard-cases.md lacks\n{}", missing.join("\n"));
 }

@@ -55,7 +55,7 @@ pub(super) const HARDWARE: &[Deviation] = &[
     deviation("T2", GAPS, 0.521, 0.814),
     deviation("T4", GAPS, 0.105, 0.164),
     deviation("V1", EDGE_ON, 0.9, 1.0),
-    deviation("V10-120", GAPS, 0.134, 0.21),
+    deviation("V10-120", GAPS, 0.592, 0.927),
     deviation("V10-24", GAPS, 0.121, 0.188),
     deviation("V10-3", GAPS, 0.128, 0.2),
     deviation("V10-6", GAPS, 0.132, 0.206),

@@ -100,6 +100,8 @@ pub(super) const HU_16: &[Deviation] = &[
 
 /// Parities in 128 x 128 cells, all views.
 pub(super) const HU_128: &[Deviation] = &[
+    deviation("V10-24", EDGE, 0.013, 0.033),
+    deviation("V10-120", EDGE, 0.012, 0.03),
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
     deviation("G7", THIN, 0.49, 0.767),

@@ -4,10 +4,12 @@
 //! fragments give the same bits under everything that only arranges what they store. Any other change is
 //! a bug. A new option is one row of [`LAWS`]; a test asserts that none is missing.
 
+mod choices;
 mod laws;
 mod pairs;
 mod subject;
 
+pub use choices::{choices, speed_options, takes};
 pub use laws::{LAWS, Law, Value, law};
-pub use pairs::pairwise;
+pub use pairs::{Pair, Pairs, pairwise};
 pub use subject::{Answers, SUBJECTS, Subject, first_difference};

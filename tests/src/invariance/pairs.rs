@@ -1,11 +1,20 @@
-/// A set of choices, one value index an option, in which every pair of values of two options occurs that some choice of the
-/// others goes with. `values` says how many values each option has, `allowed` whether all values of a choice go together.
-/// Greedy, always the same for the same input. With it come the pairs that no row was found for.
-pub fn pairwise(
-    values: &[usize],
-    allowed: impl Fn(&[usize]) -> bool,
-) -> (Vec<Vec<usize>>, Vec<[(usize, usize); 2]>) {
-    let mut open: Vec<[(usize, usize); 2]> = Vec::new();
+/// Values of two options, each the number of an option and of its value.
+pub type Pair = [(usize, usize); 2];
+
+/// Choices of values that try options in pairs.
+#[derive(Clone, Debug)]
+pub struct Pairs {
+    /// One value index an option.
+    pub rows: Vec<Vec<usize>>,
+    /// Pairs that no row was found for.
+    pub refused: Vec<Pair>,
+}
+
+/// Choices in which every pair of values of two options occurs that some choice of the others goes with. `values` says how
+/// many values each option has, `allowed` whether all values of a choice go together. Greedy, always the same for the same
+/// input.
+pub fn pairwise(values: &[usize], allowed: impl Fn(&[usize]) -> bool) -> Pairs {
+    let mut open: Vec<Pair> = Vec::new();
     for (a, &of_a) in values.iter().enumerate() {
         for (b, &of_b) in values.iter().enumerate().skip(a + 1) {
             open.extend((0..of_a).flat_map(|x| (0..of_b).map(move |y| [(a, x), (b, y)])));
@@ -21,14 +30,14 @@ pub fn pairwise(
             None => refused.push(open.remove(0)),
         }
     }
-    (rows, refused)
+    Pairs { rows, refused }
 }
 
 /// A choice with a pair in it that closes as many other open ones as it can; absent if none is allowed.
 fn filled(
     values: &[usize],
-    open: &[[(usize, usize); 2]],
-    pair: [(usize, usize); 2],
+    open: &[Pair],
+    pair: Pair,
     allowed: &impl Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
     // What is not chosen yet stays at the default, which is the first value of each option.
@@ -100,12 +109,12 @@ mod tests {
     #[test]
     fn every_pair_occurs_in_few_rows() {
         for values in [&[2, 2, 2, 2][..], &[4, 2, 3, 2, 5], &[3], &[], &[2, 7]] {
-            let (rows, refused) = pairwise(values, |_| true);
+            let Pairs { rows, refused } = pairwise(values, |_| true);
             assert_eq!((uncovered(values, &rows), refused.len()), (0, 0), "{values:?}");
             assert!(rows.len() <= 2 * 7 + 16, "{} rows for {values:?}", rows.len());
         }
         // A row less leaves pairs out.
-        let (rows, _) = pairwise(&[2, 2, 2], |_| true);
+        let rows = pairwise(&[2, 2, 2], |_| true).rows;
         assert!(uncovered(&[2, 2, 2], &rows[1..]) > 0);
     }
 
@@ -113,7 +122,7 @@ mod tests {
     fn only_pairs_that_go_with_nothing_are_left_out() {
         // The second value of the first option asks for that of the second and refuses that of the third.
         let allowed = |row: &[usize]| row[0] == 0 || (row[1] == 1 && row[2] == 0);
-        let (rows, refused) = pairwise(&[2, 2, 2, 3], allowed);
+        let Pairs { rows, refused } = pairwise(&[2, 2, 2, 3], allowed);
         assert!(rows.iter().all(|row| allowed(row)), "{rows:?}");
         assert_eq!(refused, [[(0, 1), (1, 0)], [(0, 1), (2, 1)]]);
         assert_eq!(uncovered(&[2, 2, 2, 3], &rows), 2);
