@@ -147,7 +147,8 @@ impl Bvh {
     fn first_header(&self, root: u32) -> Header {
         let [lower, upper] = self.geometry.bounds();
         let triangles = self.geometry.triangle_count();
-        let capacity = |pool| if self.has_room() { self.pools.sizes().elements(pool) as u32 } else { 0 };
+        let has_room = self.has_room();
+        let capacity = |pool| if has_room { self.pools.sizes().elements(pool) as u32 } else { 0 };
         // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
         let (order_offset, order_stride) = match self.config.builder {
             Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
@@ -252,13 +253,16 @@ impl Structure for Bvh {
 
     fn status(&self) -> Result<BuildStatus, GpuError> {
         let header = self.header()?;
+        // What the tree has, and of the rest what its triangles take.
+        let wanted = plan(&self.config, self.geometry.triangle_count().into()).unwrap_or_default();
+        let pools = wanted.pools.into_iter().filter(|pool| pool.name != "header").map(|pool| PoolStatus {
+            name: pool.name,
+            demand: if pool.name == "nodes" { self.nodes } else { pool.elements },
+            capacity: self.pools.sizes().elements(pool.name),
+        });
         Ok(BuildStatus {
             complete: header.status & STATUS_COMPLETE != 0,
-            pools: vec![PoolStatus {
-                name: "nodes",
-                demand: self.nodes,
-                capacity: self.pools.sizes().elements("nodes"),
-            }],
+            pools: pools.collect(),
             unsorted: 0,
             corrupted: header.corrupted.into(),
         })

@@ -123,7 +123,7 @@ fn passing(context: &Context, distance: f32) -> Content {
             }
             _ => {
                 let mut origin = random.near([0.0; 3], 4.0);
-                // A distance that rounding takes from every other coordinate stays with one that is zero.
+                // Where rounding would lose the distance in all three coordinates, one of them is zero.
                 if distance > 0.0 && origin.map(|x: f32| x + distance) == origin {
                     origin[index % 3] = 0.0;
                 }

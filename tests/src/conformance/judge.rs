@@ -13,18 +13,6 @@ pub fn confidence() -> f64 {
     1.0 - FALSE_ALARM / comparisons() as f64
 }
 
-/// The largest rate of wrong answers of a row without a deviation.
-fn general_limit(row: &Row, case: &str) -> f64 {
-    match row.demand {
-        Demand::Exact { .. } => 0.0,
-        Demand::Law { resolution, per_cell, laws, .. } => {
-            let law = laws.iter().find(|law| law.case == case);
-            law.map_or(per_cell / f64::from(resolution), |law| law.limit(resolution))
-        }
-        Demand::Loss { share, .. } => share,
-    }
-}
-
 /// What of a measurement breaks the row's demand on this case; empty if nothing does.
 ///
 /// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
@@ -45,8 +33,7 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         let what = format!("{} hits have a t that is no number", measured.confusion.non_finite.count);
         fault(what, measured.rejected.first().copied());
     }
-    let on_triangles = matches!(row.demand, Demand::Exact { .. });
-    if let (true, Some(limit), Some(dt)) = (on_triangles, case.largest_dt, measured.dt_right)
+    if let (true, Some(limit), Some(dt)) = (row.is_exact(), case.largest_dt, measured.dt_right)
         && dt.max > limit
     {
         fault(format!("|dt| / t is {:.1e}: more than {limit:.1e}", dt.max), measured.farthest_off);
@@ -62,8 +49,8 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
     }
     let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
     // Cases all of whose rays are ambiguous are judged by these alone, below.
-    if !on_triangles && measured.errors.total > 0 && measured.inadmissible.total > 0 {
-        let limit = deviation.map_or_else(|| general_limit(row, case.id), |deviation| deviation.at_most_rate);
+    if !row.is_exact() && measured.errors.total > 0 && measured.inadmissible.total > 0 {
+        let limit = deviation.map_or_else(|| row.largest_rate(case.id), |deviation| deviation.at_most_rate);
         let ([least, most], reason) = deviations_ambiguous::bounds(row.name, case.id, limit);
         let [low, high] = measured.inadmissible.interval_at(confidence()).unwrap_or([0.0, 1.0]);
         let Rate { count, total } = measured.inadmissible;
@@ -115,7 +102,7 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
             }
             return faults;
         }
-        Demand::Law { .. } | Demand::Loss { .. } => general_limit(row, case.id),
+        Demand::Law { .. } | Demand::Loss { .. } => row.largest_rate(case.id),
     };
     if low > limit {
         let what = format!(

@@ -200,6 +200,18 @@ impl Row {
         matches!(self.demand, Demand::Exact { .. })
     }
 
+    /// The largest rate of wrong answers on a case without a deviation.
+    pub fn largest_rate(&self, case: &str) -> f64 {
+        match self.demand {
+            Demand::Exact { .. } => 0.0,
+            Demand::Law { resolution, per_cell, laws, .. } => {
+                let law = laws.iter().find(|law| law.case == case);
+                law.map_or(per_cell / f64::from(resolution), |law| law.limit(resolution))
+            }
+            Demand::Loss { share, .. } => share,
+        }
+    }
+
     /// What bounds its answers on a case, in words.
     pub fn limit(&self, case: &str) -> String {
         let deviation = self.deviations.iter().find(|deviation| deviation.case == case);
@@ -208,10 +220,9 @@ impl Row {
             (_, Some(Deviation { reason, at_least_rate, at_most_rate, .. })) => {
                 format!("a deviation between {at_least_rate} and {at_most_rate}: {reason}")
             }
-            (Demand::Law { resolution, per_cell, laws, .. }, None) => {
+            (Demand::Law { resolution, laws, .. }, None) => {
                 let law = laws.iter().find(|law| law.case == case);
-                let general = per_cell / f64::from(resolution);
-                let limit = law.map_or(general, |law| law.limit(resolution));
+                let limit = self.largest_rate(case);
                 let reason = law.map_or_else(String::new, |law| format!(": {}", law.reason));
                 format!("at most {limit:.4} with {resolution} cells a side{reason}")
             }

@@ -10,7 +10,8 @@ pub struct Pairs {
     pub refused: Vec<Pair>,
 }
 
-/// Choices in which every pair of values of two options occurs that some choice of the others goes with. `values` says how
+/// Choices in which every pair of values of two options occurs that goes with the first values of the others, or with all but two
+/// of them. `values` says how
 /// many values each option has, `allowed` whether all values of a choice go together. Greedy, always the same for the same
 /// input.
 pub fn pairwise(values: &[usize], allowed: impl Fn(&[usize]) -> bool) -> Pairs {
@@ -40,25 +41,31 @@ fn filled(
     pair: Pair,
     allowed: &impl Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
-    // What is not chosen yet stays at the default, which is the first value of each option.
+    // What is not chosen yet has its first value, which leaves options that exclude others as they are.
     let mut row = vec![0; values.len()];
     let mut chosen: Vec<(usize, usize)> = pair.to_vec();
     for (option, value) in pair {
         row[option] = value;
     }
-    if !allowed(&row) {
-        // One other option may have to leave its default for the pair.
-        let free = (0..values.len()).filter(|option| !pair.iter().any(|(taken, _)| taken == option));
-        let (option, value) = free
-            .flat_map(|option| (1..values[option]).map(move |value| (option, value)))
-            .find(|&(option, value)| {
-            let mut other = row.clone();
-            other[option] = value;
-            allowed(&other)
-        })?;
-        row[option] = value;
-        chosen.push((option, value));
-    }
+    // Up to two other options may have to take another value for the pair.
+    let others: Vec<(usize, usize)> = (0..values.len())
+        .filter(|option| !pair.iter().any(|(taken, _)| taken == option))
+        .flat_map(|option| (1..values[option]).map(move |value| (option, value)))
+        .collect();
+    let one = others.iter().map(|&first| vec![first]);
+    let two = others.iter().enumerate().flat_map(|(place, &first)| {
+        others[place + 1..]
+            .iter()
+            .filter(move |second| second.0 != first.0)
+            .map(move |&second| vec![first, second])
+    });
+    let helpers = std::iter::once(Vec::new()).chain(one).chain(two).find(|helpers| {
+        let mut other = row.clone();
+        helpers.iter().for_each(|&(option, value)| other[option] = value);
+        allowed(&other)
+    })?;
+    helpers.iter().for_each(|&(option, value)| row[option] = value);
+    chosen.extend(helpers);
     for option in 0..values.len() {
         if chosen.iter().any(|&(taken, _)| taken == option) {
             continue;
