@@ -4,6 +4,7 @@ pub mod conformance;
 pub mod harness;
 pub mod image_truth;
 pub mod invariance;
+pub mod pictures;
 pub mod random;
 pub mod shapes;
 pub mod tier;

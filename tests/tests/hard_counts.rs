@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use rasray_abuffer::{ABuffer, Config};
-use rasray_ads::Ray;
-use rasray_ads::{Draw, Geometry, GeometryDesc};
+use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, Ray};
 use rasray_gpu::{BufferUsage, Timing};
 use rasray_metrics::{DeviceHit, HitConfusion};
 use rasray_reference::oracle::Oracle;
@@ -56,6 +55,12 @@ fn upload(bench: &Bench, positions: &[[f32; 3]], indices: &[u32]) -> Result<Geom
     Geometry::new(device, desc).map_err(|error| error.to_string())
 }
 
+/// Hits as the metrics know them: all of these structures know their triangles.
+fn named(hits: &[Hit]) -> Vec<Option<DeviceHit>> {
+    let named = |hit: &Hit| DeviceHit { t: hit.t, primitive: Some(hit.primitive) };
+    hits.iter().map(|hit| hit.is_hit().then(|| named(hit))).collect()
+}
+
 #[test]
 fn ten_million_triangles_are_traced_or_refused() {
     if !is_full() {
@@ -83,10 +88,7 @@ fn ten_million_triangles_are_traced_or_refused() {
             ABuffer::new(bench.device(), Config::robust(64), &geometry, None).expect("it is valid");
         let rays: Vec<Ray> = case.rays.iter().map(|ray| Ray::new(ray.origin, ray.direction)).collect();
         let hits = bench.build_and_trace(&mut structure, case.eye, &rays);
-        let hits: Vec<_> = hits
-            .iter()
-            .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
-            .collect();
+        let hits = named(&hits);
         let oracle = Oracle::new(&positions, &indices, None).expect("well formed");
         let verdicts = oracle.closest_batch(&case.rays);
         let confusion = HitConfusion::measure(&verdicts, &hits, 1e-3).expect("one hit a ray");
@@ -119,11 +121,7 @@ fn ten_million_triangles_are_traced_or_refused() {
                     continue;
                 }
             };
-            let hits = bench.trace(structure.as_ref(), &rays).hits;
-            let hits: Vec<_> = hits
-                .iter()
-                .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
-                .collect();
+            let hits = named(&bench.trace(structure.as_ref(), &rays).hits);
             let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit a ray");
             let bytes = structure.report().expect("the header is readable").bytes();
             println!("{name}: {} MiB, {confusion:?}", bytes >> 20);

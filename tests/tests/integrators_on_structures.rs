@@ -1,13 +1,13 @@
 //! Ambient occlusion and paths through every system in every preset: where triangles are found without loss the images are
 //! those of brute force, bit for bit; elsewhere they are as bright as errors of hits allow.
 
-use rasray_ads::{Structure, StructureKind};
+use rasray_ads::StructureKind;
 use rasray_gpu::Timing;
-use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, waves};
-use rasray_scene::builtin::builtin;
+use rasray_gpu_scene::GpuScene;
+use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc, Path};
 use rasray_systems::{Preset, SYSTEMS, Spec};
 use rasray_tests::harness::Bench;
+use rasray_tests::pictures::{rendered, stage};
 use rasray_tracer::build_until_complete;
 
 const SIZE: u32 = 32;
@@ -29,32 +29,6 @@ const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("ldc", Preset::Published, [[0.0, 0.02], [0.5, 0.9]]),
 ];
 
-fn stage(bench: &Bench) -> GpuScene {
-    let scene = builtin("cornell").expect("it is built in").expect("it needs no parameters");
-    let camera = scene.cameras[0].clone();
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
-    let view = View { camera, width: SIZE, height: SIZE, seed: 1 };
-    GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
-}
-
-fn rendered(
-    bench: &Bench,
-    integrator: &dyn Integrator,
-    film: &Film,
-    structure: &mut dyn Structure,
-) -> Vec<[f32; 3]> {
-    let device = bench.device();
-    device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
-    for wave in waves(SIZE * SIZE, SAMPLES, integrator.wave_capacity()) {
-        let submitted = device
-            .submit(|recorder| integrator.record_wave(recorder, structure, wave))
-            .expect("the device works");
-        submitted.value.expect("the wave fits");
-    }
-    film.read(device).expect("the film is readable")
-}
-
 /// Occlusion and light of every pixel.
 fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<[f32; 3]>; 2]) {
     let device = bench.device();
@@ -66,8 +40,8 @@ fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<
     let occlusion = AmbientOcclusion::new(&desc, f32::INFINITY).expect("the range is valid");
     let path = Path::new(&desc, BOUNCES).expect("the bounces are valid");
     let found = [
-        rendered(bench, &occlusion, &film, structure.as_mut()),
-        rendered(bench, &path, &film, structure.as_mut()),
+        rendered(bench, &occlusion, &film, SAMPLES, structure.as_mut()),
+        rendered(bench, &path, &film, SAMPLES, structure.as_mut()),
     ];
     assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
     (structure.kind(), found)
@@ -84,7 +58,7 @@ fn bits(image: &[[f32; 3]]) -> Vec<[u32; 3]> {
 #[test]
 fn every_system_renders_what_brute_force_renders() {
     let bench = Bench::new();
-    let scene = stage(&bench);
+    let scene = stage(&bench, "cornell", SIZE);
     let judge = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
     let (_, expected) = images(&bench, &scene, &judge);
     let [occlusion, light] = [mean(&expected[0]), mean(&expected[1])];

@@ -3,11 +3,11 @@
 
 use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
-use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
-use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, waves};
-use rasray_scene::builtin::builtin;
+use rasray_gpu_scene::GpuScene;
+use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc};
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
+use rasray_tests::pictures::{rendered, stage};
 use rasray_tests::random::Random;
 use rasray_tracer::build_until_complete;
 
@@ -15,15 +15,6 @@ const SIZE: u32 = 32;
 
 /// Systems whose published fragments carry attributes.
 const SYSTEMS: [&str; 4] = ["mmrt", "hu", "selective", "ldc"];
-
-fn stage(bench: &Bench, name: &str) -> GpuScene {
-    let scene = builtin(name).expect("it is built in").expect("it needs no parameters");
-    let camera = scene.cameras[0].clone();
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
-    let view = View { camera, width: SIZE, height: SIZE, seed: 1 };
-    GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
-}
 
 /// A published structure with a payload, built around the scene.
 fn made(bench: &Bench, scene: &GpuScene, system: &str, options: &[(&str, &str)]) -> Box<dyn Structure> {
@@ -49,21 +40,14 @@ fn mean(bench: &Bench, scene: &GpuScene, structure: &mut dyn Structure) -> f32 {
     let film = Film::new(device, SIZE, SIZE).expect("a small film fits");
     let desc = IntegratorDesc::new(device, scene, &film);
     let integrator = AmbientOcclusion::new(&desc, f32::INFINITY).expect("the range is valid");
-    device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
-    for wave in waves(SIZE * SIZE, 4, integrator.wave_capacity()) {
-        let submitted = device
-            .submit(|recorder| integrator.record_wave(recorder, structure, wave))
-            .expect("the device works");
-        submitted.value.expect("the wave fits");
-    }
-    let pixels = film.read(device).expect("the film is readable");
+    let pixels = rendered(bench, &integrator, &film, 4, structure);
     pixels.iter().map(|pixel| pixel[0]).sum::<f32>() / pixels.len() as f32
 }
 
 #[test]
 fn secondary_rays_meet_fragments_without_ids() {
     let bench = Bench::new();
-    let scene = stage(&bench, "cornell");
+    let scene = stage(&bench, "cornell", SIZE);
     // Not `hu`: its rays meet the triangle that they leave where they cannot exclude it, by its paper's rules, and an open
     // room has no inside for its parities.
     for system in ["mmrt", "selective", "ldc"] {
@@ -140,7 +124,7 @@ fn stored_surfaces_are_those_of_the_triangles() {
     for (name, resolution, largest_turn) in
         [("cornell", "64", 1.0e-3), ("furnace", "128", 0.04), ("spheres:10k", "128", 0.4)]
     {
-        let scene = stage(&bench, name);
+        let scene = stage(&bench, name, SIZE);
         let rays = rays(&scene, 4000);
         for system in SYSTEMS {
             let found = |payload, addressing| {

@@ -13,16 +13,24 @@ use std::time::{Duration, Instant};
 /// How long a browser may take on a busy machine before it is given up.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// Uses the page like a person and writes what happened into attributes of the body.
-const PROBE: &str = r##"<script>
+/// What any page shows: how many plots there are, how many were drawn, and how far it scrolls sideways.
+const LOOK: &str = r##"<script>
 addEventListener("load", () => {
   // In a frame the answers go to the page around it, whose elements are the ones that are read.
   const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
-  report("width", innerWidth);
   const areas = [...document.querySelectorAll(".area")];
   report("areas", areas.length);
   report("drawn", areas.filter((area) => area.querySelector(".main-svg .xy")).length);
   report("wide", document.documentElement.scrollWidth - document.documentElement.clientWidth);
+  report("tables", document.querySelectorAll("table tbody tr").length);
+});
+</script>"##;
+
+/// Uses the page like a person, once it was looked at, and writes what happened into attributes of the body.
+const PROBE: &str = r##"<script>
+addEventListener("load", () => {
+  const report = (name, value) => parent.document.body.setAttribute(`data-probe-${name}`, value);
+  report("width", innerWidth);
 
   const table = document.querySelector("table.sortable");
   const column = (index) => [...table.tBodies[0].rows].map((row) => row.cells[index].textContent).join("|");
@@ -115,6 +123,10 @@ fn with_script(page: &str, script: &str) -> String {
     format!("{}{script}{}", &page[..end], &page[end..])
 }
 
+fn probed(page: &str) -> String {
+    with_script(&with_script(page, LOOK), PROBE)
+}
+
 fn fixture() -> String {
     let (report, figures) = everything("<script>spheres</script>");
     String::from_utf8(html::page(&report, &figures).expect("a page")).expect("UTF-8")
@@ -126,7 +138,7 @@ fn the_page_works_in_a_browser() {
         eprintln!("skipped: the_page_works_in_a_browser needs chromium or chrome on the path");
         return;
     };
-    let page = with_script(&fixture(), PROBE);
+    let page = probed(&fixture());
     // Windows have a least width that phones are below, so a phone is a frame in a window.
     let phone = format!(
         "<!doctype html><title>phone</title><iframe width=\"360\" height=\"740\" style=\"border:0\" srcdoc=\"{}\">\
@@ -168,23 +180,11 @@ fn the_browser_test_sees_a_broken_page() {
     let broken = page.replacen("id=\"histogram-0\"", "id=\"elsewhere\"", 1);
     assert_ne!(broken, page);
     let broken = with_script(&broken, "<img src=\"https://a.invalid/b.png\" alt=\"\">");
-    let visit = visit(&browser, &with_script(&broken, PROBE));
+    let visit = visit(&browser, &probed(&broken));
     assert!(visit.complaints.len() >= 2, "{:?}", visit.complaints);
     assert!(visit.complaints.iter().any(|line| line.contains("Content Security Policy")));
     assert_ne!(visit.probe("drawn"), visit.probe("areas"));
 }
-
-/// What any page shows: how many plots there are, how many were drawn, and how far it scrolls sideways.
-const LOOK: &str = r##"<script>
-addEventListener("load", () => {
-  const report = (name, value) => document.body.setAttribute(`data-probe-${name}`, value);
-  const areas = [...document.querySelectorAll(".area")];
-  report("areas", areas.length);
-  report("drawn", areas.filter((area) => area.querySelector(".main-svg .xy")).length);
-  report("wide", document.documentElement.scrollWidth - document.documentElement.clientWidth);
-  report("tables", document.querySelectorAll("table tbody tr").length);
-});
-</script>"##;
 
 /// Pages as the built command writes them: of a scene with images, and of hard cases.
 #[test]

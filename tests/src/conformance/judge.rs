@@ -82,28 +82,26 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         }
         return faults;
     }
-    let limit = match row.demand {
-        Demand::Exact { .. } => {
-            if let Some(deviation) = deviation {
-                let what =
-                    format!("a row that finds triangles may not deviate ({}); repair it", deviation.reason);
-                fault(what, None);
-            }
-            if let Some(&first) = measured.rejected.first() {
-                let what = format!(
-                    "{} of {} rays get a wrong answer; the first: ray {first}, {:?}, the truth is {:?}; {:?}",
-                    measured.rejected.len(),
-                    case.rays.len(),
-                    case.rays[first],
-                    prepared.verdicts[first],
-                    measured.confusion
-                );
-                fault(what, Some(first));
-            }
-            return faults;
+    if row.is_exact() {
+        if let Some(deviation) = deviation {
+            let what =
+                format!("a row that finds triangles may not deviate ({}); repair it", deviation.reason);
+            fault(what, None);
         }
-        Demand::Law { .. } | Demand::Loss { .. } => row.largest_rate(case.id),
-    };
+        if let Some(&first) = measured.rejected.first() {
+            let what = format!(
+                "{} of {} rays get a wrong answer; the first: ray {first}, {:?}, the truth is {:?}; {:?}",
+                measured.rejected.len(),
+                case.rays.len(),
+                case.rays[first],
+                prepared.verdicts[first],
+                measured.confusion
+            );
+            fault(what, Some(first));
+        }
+        return faults;
+    }
+    let limit = row.largest_rate(case.id);
     if low > limit {
         let what = format!(
             "the error rate is {rate:.4}, at least {low:.4}: more than {limit:.4}: {:?}",

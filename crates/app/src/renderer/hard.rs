@@ -4,7 +4,6 @@ use glam::{DAffine3, DVec3, Vec3};
 use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, StructureKind};
 use rasray_gpu::Device;
 use rasray_hard_cases::{Answer, CAMERA_TOWARDS, HardCase, Triangle};
-use rasray_metrics::Truth as _;
 use rasray_reference::oracle::{self, COORDINATE_LIMIT, Oracle, Verdict};
 use rasray_scene::default_view::camera_looking_at;
 use rasray_scene::needs::Needs;
@@ -126,7 +125,9 @@ pub(super) fn hard(
         ray.exclude_primitive = placed.id(ray.exclude_primitive);
     }
     for (run, answer) in comparison.runs.iter_mut().zip(&answers) {
-        let judged = judged(case, answer.kind, &set.verdicts, &answer.hits);
+        let mut judged = judged(case, answer.kind, &set.verdicts, &answer.hits);
+        let largest_dt = run.accuracy.as_ref().and_then(|accuracy| accuracy.dt_rel_max);
+        judged.dt = largest_dt.zip(case.largest_dt.filter(|_| answer.kind == StructureKind::Primitive));
         run.hard = Some(hard_record(case, answer.kind, &judged, run.options.get("resolution")));
     }
     let done = comparison.runs.len() as u64;
@@ -168,18 +169,12 @@ fn judged(case: &HardCase, kind: StructureKind, verdicts: &[Verdict], hits: &[Hi
         StructureKind::Fragment => FRAGMENT_DEPTH,
     };
     let mut judged = Judged { rays: hits.len() as u64, ..Judged::default() };
-    let mut largest_dt = 0.0_f64;
     for (index, (verdict, hit)) in verdicts.iter().zip(super::judge::device_hits(hits)).enumerate() {
         let answer = case.answer(index);
         judged.hits += u64::from(hit.is_some());
         judged.non_finite += u64::from(hit.is_some_and(|hit| !hit.t.is_finite()));
         let must_hit = matches!(answer, Answer::Hit | Answer::HitAt { .. } | Answer::HitOn { .. });
         judged.lost += u64::from(must_hit && hit.is_none());
-        if let (false, Some((primitive, t)), Some(hit)) = (verdict.is_ambiguous(), verdict.hit(), hit)
-            && hit.primitive == Some(primitive)
-        {
-            largest_dt = largest_dt.max((f64::from(hit.t) - t).abs() / t.abs());
-        }
         if case.accepts(index, verdict, hit, tolerance) {
             continue;
         }
@@ -188,6 +183,5 @@ fn judged(case: &HardCase, kind: StructureKind, verdicts: &[Verdict], hits: &[Hi
         judged.rejected_hits += u64::from(hit.is_some());
         judged.out_of_range += u64::from(matches!(answer, Answer::Anything { .. }));
     }
-    judged.dt = case.largest_dt.filter(|_| kind == StructureKind::Primitive).map(|limit| [largest_dt, limit]);
     judged
 }

@@ -23,8 +23,8 @@ pub(super) struct Judged {
     pub(super) rejected_hits: u64,
     /// Of those, hits outside of the range of t that is all that is stated.
     pub(super) out_of_range: u64,
-    /// The largest |dt| / t on the right triangle, and what the case bounds it by for structures that find triangles.
-    pub(super) dt: Option<[f64; 2]>,
+    /// The largest |dt| / t, and what the case bounds it by for structures that find triangles.
+    pub(super) dt: Option<(f64, f64)>,
 }
 
 /// What a report says of a run on a case; `resolution` is the run's option of that name.
@@ -82,8 +82,8 @@ fn verdict(
         Target::NoneMissed | Target::Exact if kind == StructureKind::LossyPrimitive => {
             (None, format!("{share}; {lost} rays are lost; the rules that were chosen promise none"))
         }
-        Target::NoneMissed | Target::Exact if dt.is_some_and(|[largest, limit]| largest > limit) => {
-            let [largest, limit] = dt.unwrap_or_default();
+        Target::NoneMissed | Target::Exact if dt.is_some_and(|(largest, limit)| largest > limit) => {
+            let (largest, limit) = dt.unwrap_or_default();
             (Some(false), format!("{share}; |dt|/t is {largest:.1e}, more than {limit:.1e}"))
         }
         Target::NoneMissed | Target::Exact => (Some(rejected == 0), format!("{share}; {lost} rays are lost")),
@@ -137,7 +137,7 @@ mod tests {
             assert_eq!(met(target, kind, broken), Some(false), "{target}");
         }
         for (largest, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
-            let judged = Judged { dt: Some([largest, 1.0]), ..right };
+            let judged = Judged { dt: Some((largest, 1.0)), ..right };
             assert_eq!(met(Target::NoneMissed, Primitive, judged), expected);
         }
         let law = verdict(Target::Law, Fragment, &miss, Some(64.0)).1;

@@ -1,0 +1,43 @@
+//! Small pictures of built-in scenes, through whatever structure.
+
+use rasray_ads::Structure;
+use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+use rasray_integrators::{Film, Integrator, waves};
+use rasray_scene::builtin::builtin;
+
+use crate::harness::Bench;
+
+/// A built-in scene on the device, seen by its first camera in `size` x `size` pixels.
+///
+/// # Panics
+/// If there is no such scene or the device refuses it.
+pub fn stage(bench: &Bench, name: &str, size: u32) -> GpuScene {
+    let scene = builtin(name).expect("it is built in").expect("it needs no parameters");
+    let camera = scene.cameras[0].clone();
+    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
+    let view = View { camera, width: size, height: size, seed: 1 };
+    GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
+}
+
+/// The pixels of `samples` paths each.
+///
+/// # Panics
+/// If the device fails.
+pub fn rendered(
+    bench: &Bench,
+    integrator: &dyn Integrator,
+    film: &Film,
+    samples: u32,
+    structure: &mut dyn Structure,
+) -> Vec<[f32; 3]> {
+    let device = bench.device();
+    device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
+    for wave in waves(film.pixel_count(), samples, integrator.wave_capacity()) {
+        let submitted = device
+            .submit(|recorder| integrator.record_wave(recorder, structure, wave))
+            .expect("the device works");
+        submitted.value.expect("the wave fits");
+    }
+    film.read(device).expect("the film is readable")
+}
