@@ -2,9 +2,12 @@
 // Reads, writes: nothing.
 // Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no
 // contraction can change and which two triangles sharing an edge evaluate with the roles swapped, so
-// that one of them always accepts. Error bound of t after pbrt-v4, section 6.8, with the shear's own share.
+// that one of them always accepts. Errors are counted in roundings, gamma_n = n u / (1 - n u), as in pbrt-v4, section 6.8.
 #ifndef ADS_TRIANGLE_GLSL
 #define ADS_TRIANGLE_GLSL
+
+// Quotients are only known to be close to the truth for divisors below 2^126.
+const float TRIANGLE_LARGEST_DIVISOR = 8.0e37;
 
 // Cyclic shift that puts the largest component of `direction` into z. Ties go to x, then y.
 uint triangle_major_axis(vec3 direction) {
@@ -35,13 +38,14 @@ bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
     return any(notEqual(along, against));
 }
 
-// Where a ray meets a triangle's plane: t and a bound of its error, infinite where rounding decides or numbers are too
-// small for one. `along`, `against`: of the normal; `p`: a corner relative to the origin; `d`: the direction; all with the
-// axes in the same order. Of the axes the last one is added last, so that turning the others changes no bit.
+// The t at which a ray meets a triangle's plane, and a bound of its error: infinite where rounding decides, or where numbers
+// are too small or too large for one. `along`, `against`: of the normal; `p`: a corner relative to the origin; `d`: the
+// direction; all with the axes in the same order. Of the axes the last one is added last, so that turning the others changes
+// no bit.
 //
 // With N = |along| + |against| the normal is off by at most 4 u N in each component, its products with p and d by 8 u and
 // 7 u of the sums below, and the quotient follows; 12 u covers the rounding of the sums.
-void triangle_plane_distance(vec3 along, vec3 against, vec3 p, vec3 d, out float t, out float t_error) {
+void triangle_plane_t(vec3 along, vec3 against, vec3 p, vec3 d, out float t, out float t_error) {
     const float gamma9 = 5.3644210e-7;
     const float gamma12 = 7.1525625e-7;
     // Products that underflow are off by less than this.
@@ -57,9 +61,33 @@ void triangle_plane_distance(vec3 along, vec3 against, vec3 p, vec3 d, out float
     precise float error = gamma12 * (height_reach + abs(quotient) * facing_reach) / certain + gamma9 * abs(quotient);
     precise float far = (abs(p.x) + abs(p.y)) + abs(p.z);
     precise float fast = (abs(d.x) + abs(d.y)) + abs(d.z);
-    bool holds = certain > 0.0 && height_reach > tiny * max(far, 1.0) && facing_reach > tiny * max(fast, 1.0);
+    bool holds = certain > 0.0 && facing_reach < TRIANGLE_LARGEST_DIVISOR && height_reach > tiny * max(far, 1.0)
+        && facing_reach > tiny * max(fast, 1.0);
     t = quotient;
     t_error = holds ? error : uintBitsToFloat(0x7F800000u);
+}
+
+// Bounds the error of t = (edges . depths) / sum(edges), infinite where rounding decides whether there is a triangle. `x`, `y`:
+// the sheared corners; `dx`, `dy`: how far they may be off; `first`, `second`: the products that `edges` are the difference of.
+//
+// Edges that are off by delta each move t by sum(delta |depth - t|) / |sum of the true edges|: mixing equal depths gives that
+// depth whatever the weights. Of rounding, depths, products, sums and the quotient take 18 u of sum(|edges depths|), and
+// depth - t itself is off by 24 u of the largest.
+float triangle_mixing_error(vec3 x, vec3 y, vec3 dx, vec3 dy, vec3 first, vec3 second, vec3 edges, vec3 depths, float det,
+    float t, float max_depth) {
+    const float gamma2 = 1.1920930e-7;
+    const float gamma24 = 1.4305135e-6;
+    precise vec3 wide = abs(x) + dx;
+    precise vec3 delta = gamma2 * (abs(first) + abs(second)) + ((wide.zxy * dy.yzx + abs(y.yzx) * dx.zxy)
+        + (wide.yzx * dy.zxy + abs(y.zxy) * dx.yzx));
+    precise vec3 spread = delta * abs(depths - vec3(t));
+    precise vec3 reach = abs(edges * depths);
+    precise float lost = delta.x + delta.y + delta.z;
+    // The share of `lost` covers the rounding of the two sums.
+    precise float certain = abs(det) - 1.001 * lost;
+    precise float error = ((spread.x + spread.y + spread.z) + gamma24 * ((reach.x + reach.y + reach.z) + lost * max_depth))
+        / certain;
+    return certain > 0.0 && abs(det) < TRIANGLE_LARGEST_DIVISOR ? error : uintBitsToFloat(0x7F800000u);
 }
 
 // Tests a closed, two-sided triangle against a ray. On acceptance t is in units of |direction|,
@@ -89,21 +117,17 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
         || min(ay, min(by, cy)) > 0.0 || max(ay, max(by, cy)) < 0.0) {
         return false;
     }
-    precise float u0 = cx * by;
-    precise float u1 = cy * bx;
-    precise float v0 = ax * cy;
-    precise float v1 = ay * cx;
-    precise float w0 = bx * ay;
-    precise float w1 = by * ax;
-    bool front = u0 >= u1 && v0 >= v1 && w0 >= w1;
-    bool back = u0 <= u1 && v0 <= v1 && w0 <= w1;
+    vec3 x = vec3(ax, bx, cx);
+    vec3 y = vec3(ay, by, cy);
+    precise vec3 first = x.zxy * y.yzx;
+    precise vec3 second = y.zxy * x.yzx;
+    bool front = all(greaterThanEqual(first, second));
+    bool back = all(lessThanEqual(first, second));
     if (!front && !back) {
         return false;
     }
-    precise float u = u0 - u1;
-    precise float v = v0 - v1;
-    precise float w = w0 - w1;
-    precise float det = u + v + w;
+    precise vec3 edges = first - second;
+    precise float det = edges.x + edges.y + edges.z;
     if (det == 0.0) {
         return false;
     }
@@ -115,40 +139,33 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
         return false;
     }
     precise float inverse = 1.0 / det;
-    precise float az = pa.z / d.z;
-    precise float bz = pb.z / d.z;
-    precise float cz = pc.z / d.z;
-    precise float scaled = u * az + v * bz + w * cz;
-    barycentrics = vec2(v * inverse, w * inverse);
+    precise vec3 relative = vec3(pa.z, pb.z, pc.z);
+    precise vec3 depths = relative / d.z;
+    precise float scaled = edges.x * depths.x + edges.y * depths.y + edges.z * depths.z;
+    barycentrics = edges.yz * inverse;
     // The exact value never leaves the corners' own range.
-    float nearest = min(az, min(bz, cz));
-    float farthest = max(az, max(bz, cz));
-    float max_z = max(abs(az), max(abs(bz), abs(cz)));
-    const float gamma2 = 1.1920930e-7;
+    float nearest = min(depths.x, min(depths.y, depths.z));
+    float farthest = max(depths.x, max(depths.y, depths.z));
+    float max_depth = max(abs(nearest), abs(farthest));
     const float gamma3 = 1.7881396e-7;
     const float gamma8 = 4.7683738e-7;
-    const float gamma9 = 5.3644210e-7;
     const float gamma12 = 7.1525625e-7;
-    precise vec3 x = abs(vec3(ax, bx, cx));
-    precise vec3 y = abs(vec3(ay, by, cy));
     // The shear adds rounding only as far as it moves a corner: a ray almost along the major axis moves none.
-    precise vec3 shifted = gamma8 * abs(vec3(pa.z, pb.z, pc.z));
-    precise vec3 dx = gamma3 * x + abs(sx) * shifted;
-    precise vec3 dy = gamma3 * y + abs(sy) * shifted;
-    precise float delta_u = gamma2 * (abs(u0) + abs(u1)) + ((x.z * dy.y + y.y * dx.z) + (y.z * dx.y + x.y * dy.z));
-    precise float delta_v = gamma2 * (abs(v0) + abs(v1)) + ((x.x * dy.z + y.z * dx.x) + (y.x * dx.z + x.z * dy.x));
-    precise float delta_w = gamma2 * (abs(w0) + abs(w1)) + ((x.y * dy.x + y.x * dx.y) + (y.y * dx.x + x.x * dy.y));
-    precise float mixed_error = (delta_u * abs(az) + delta_v * abs(bz) + delta_w * abs(cz)
-        + gamma9 * (abs(u * az) + abs(v * bz) + abs(w * cz))) * abs(inverse);
+    precise vec3 shifted = gamma8 * abs(relative);
+    precise vec3 dx = gamma3 * abs(x) + abs(sx) * shifted;
+    precise vec3 dy = gamma3 * abs(y) + abs(sy) * shifted;
+    precise float mixed_t = clamp(scaled * inverse, nearest, farthest);
+    float mixed_error = triangle_mixing_error(x, y, dx, dy, first, second, edges, depths, det, mixed_t, max_depth);
     // Corners are mixed well where they are about as far away as the ray's hit, and a plane is well known where its triangle
     // is not thin: whichever is known better. The bounds are as precise as what they decide about.
     float plane_t;
     float plane_error;
-    triangle_plane_distance(triangle_permute(along, axis), triangle_permute(against, axis), pa, d, plane_t, plane_error);
+    triangle_plane_t(triangle_permute(along, axis), triangle_permute(against, axis), pa, d, plane_t, plane_error);
     bool by_plane = plane_error < mixed_error;
-    t = clamp(by_plane ? plane_t : scaled * inverse, nearest, farthest);
+    t = by_plane ? clamp(plane_t, nearest, farthest) : mixed_t;
     // Both values lie within the corners' range, whose ends have six roundings each.
-    t_error = min(by_plane ? plane_error : mixed_error, farthest - nearest + gamma12 * max_z);
+    precise float range = farthest - nearest + gamma12 * max_depth;
+    t_error = min(by_plane ? plane_error : mixed_error, range);
     return true;
 }
 
