@@ -86,13 +86,9 @@ fn thickness_closes_the_gaps_by_its_share() {
     let mut prepared = prepare(&bench, "V4", 40_000);
     // Depth a cell is z^2 / 5 times its width, so the thickness fits one depth: rays that hit near it.
     let near = |z: f32| (z - 5.0).abs() < 0.1;
-    let kept: Vec<usize> = (0..prepared.rays.len())
-        .filter(|&index| near(prepared.rays[index].origin[2] + prepared.rays[index].direction[2]))
-        .collect();
-    prepared.rays = kept.iter().map(|&index| prepared.rays[index]).collect();
-    prepared.verdicts = kept.iter().map(|&index| prepared.verdicts[index].clone()).collect();
-    prepared.case.rays = kept.iter().map(|&index| prepared.case.rays[index]).collect();
-    assert!(kept.len() > 800);
+    let is_near: Vec<bool> = prepared.rays.iter().map(|ray| near(ray.origin[2] + ray.direction[2])).collect();
+    prepared.retain(|index| is_near[index]);
+    assert!(prepared.rays.len() > 800);
     let per_cell = 5.0 * 2.0 / RESOLUTION as f32;
     for (share, found) in [(0.5, 0.75), (1.1, 1.0)] {
         let config =

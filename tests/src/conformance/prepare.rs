@@ -6,7 +6,7 @@ use rasray_reference::oracle::{self, COORDINATE_LIMIT, Oracle, Verdict};
 
 use rasray_scene::default_view::camera_looking_at;
 
-use crate::hard_cases::{CAMERA_TOWARDS, HardCase, Triangle};
+use crate::hard_cases::{CAMERA_TOWARDS, Expectation, HardCase, Triangle};
 use crate::harness::Bench;
 
 /// A hard case with its truth and its triangles on the device, for all rows.
@@ -56,6 +56,17 @@ impl Prepared {
         self.case.rays.truncate(rays);
         self.verdicts.truncate(rays);
         self.rays.truncate(rays);
+    }
+
+    /// Keeps only the rays of these indices.
+    pub fn retain(&mut self, keep: impl Fn(usize) -> bool) {
+        let kept: Vec<usize> = (0..self.rays.len()).filter(|&index| keep(index)).collect();
+        self.case.rays = kept.iter().map(|&index| self.case.rays[index]).collect();
+        self.verdicts = kept.iter().map(|&index| self.verdicts[index].clone()).collect();
+        self.rays = kept.iter().map(|&index| self.rays[index]).collect();
+        if let Expectation::PerRay(answers) = &mut self.case.expect {
+            *answers = kept.iter().map(|&index| answers[index]).collect();
+        }
     }
 
     /// Whether a ray is not judged: only what the camera sees is, and of all that it may meet something lies outside.
