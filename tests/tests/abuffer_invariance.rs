@@ -74,6 +74,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("1 bucket", |config| Config { buckets: 1, ..config }),
     ("2 buckets", |config| Config { buckets: 2, ..config }),
     ("8 buckets", |config| Config { buckets: 8, ..config }),
+    ("12 buckets", |config| Config { buckets: 12, ..config }),
     ("32 buckets", |config| Config { buckets: 32, ..config }),
     ("1 bucket, sort off", |config| Config { buckets: 1, sort: false, ..config }),
     ("ll", |config| Config { storage: Storage::Ll, ..config }),
@@ -89,6 +90,7 @@ const CHANGES: &[(&str, Change)] = &[
         addressing: Addressing::Address,
         ..config
     }),
+    ("llb, 12 buckets", |config| Config { storage: Storage::Llb, buckets: 12, ..config }),
     ("llb, 32 buckets, sort off", |config| Config {
         storage: Storage::Llb,
         buckets: 32,
