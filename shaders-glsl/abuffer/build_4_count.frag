@@ -3,16 +3,15 @@
 // Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored one behind the other.
 #version 460
 #include "contract/extensions.glsl"
-#include "abuffer/lists.glsl"
 #include "abuffer/raster.glsl"
+#include "abuffer/visit.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
 void main() {
     uint cell;
     CellCoverage coverage;
-    if (abuffer_fragment(primitive_and_view.x, primitive_and_view.y, gl_FragCoord, cell, coverage)
-        && abuffer_keeps(primitive_and_view.x, coverage)) {
-        abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
+    if (abuffer_fragment(primitive_and_view.x, primitive_and_view.y, gl_FragCoord, cell, coverage)) {
+        abuffer_visit_count(primitive_and_view.x, cell, coverage);
     }
 }

@@ -16,6 +16,7 @@ void main() {
         && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
         && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity
         && ABUFFER_HEADER(abuffer_built).fringe_demand <= ABUFFER_HEADER(abuffer_built).fringe_capacity
+        && ABUFFER_HEADER(abuffer_built).pairs <= ABUFFER_HEADER(abuffer_built).pair_capacity
         && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
     uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);

@@ -5,7 +5,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #define ABUFFER_READ_ONLY
-#include "abuffer/raster.glsl"
+#include "abuffer/covered.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_view;
 

@@ -18,9 +18,14 @@ uint abuffer_list_count(AbufferRef s) {
     return abuffer_cell_count(s) * ABUFFER_BUCKETS;
 }
 
+// Words of the scratch pool that the scan takes.
+uint abuffer_scan_words(AbufferRef s) {
+    return abuffer_contiguous() ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
+}
+
 // Word of the scratch pool at which a long list stands: list and progress, behind the sums of the scan.
 uint abuffer_long_word(AbufferRef s, uint place) {
-    return (abuffer_contiguous() ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u) + 2u * place;
+    return abuffer_scan_words(s) + 2u * place;
 }
 
 // Word of a linked list's head; a tail is the next word.

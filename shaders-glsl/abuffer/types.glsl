@@ -25,7 +25,7 @@ bool abuffer_conservative() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
 }
 
-// State and sizes of one A-buffer. 212 bytes.
+// State and sizes of one A-buffer. 232 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -54,6 +54,9 @@ struct AbufferHeader {
     uint fringe_capacity;
     float reach;          // metres: largest coordinate of the geometry relative to the eye
     float rounding;       // metres: how far rounding moves a triangle against a ray, ABUFFER_COVERAGE_CONSERVATIVE only
+    uint pairs;           // triangles with many cells of a view, binning only
+    uint pair_capacity;
+    uint groups[3];       // workgroups for them
     uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
     uvec2 lists_address;
     uvec2 nodes_address;

@@ -60,6 +60,13 @@ vec4 axis_proposal(AxisView view, vec3 a, vec3 b, vec3 c, uint corner, float mar
         view.resolution, margin * 2.0 / float(view.resolution));
 }
 
+// First and last cell, border included, whose centre may be within `margin` cells of the triangle a, b, c (frame of the view);
+// false where there is none.
+bool axis_cells(AxisView view, vec3 a, vec3 b, vec3 c, float margin, out ivec2 lower, out ivec2 upper) {
+    return coverage_cells(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), view.resolution,
+        margin * 2.0 / float(view.resolution), lower, upper);
+}
+
 // The centre of a cell on the lower side of the cube, frame of the view.
 vec3 axis_center(AxisView view, ivec2 cell) {
     precise vec2 center = (vec2(cell) + 0.5) * view.cell;

@@ -46,6 +46,14 @@
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu
 
+// Most cells of a view that one invocation of a binning builder looks at; triangles with more in it get workgroups.
+#define BIN_CELLS 64
+// Threads of those, and how often the loops of one turn at most.
+#define BIN_GROUP_SIZE 64u
+#define BIN_TURNS 30000
+// Workgroups a row of their dispatch.
+#define BIN_PAIR_ROW 32768u
+
 // Threads in a workgroup of the pass that builds a pyramid.
 #define PYRAMID_THREADS 64u
 

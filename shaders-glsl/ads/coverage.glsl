@@ -91,6 +91,22 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
+// First and last column and row, of a view with a border of one cell, of the cells whose centres may be within `margin` of the
+// triangle in x/z and in y/z; false where there is none.
+bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out ivec2 lower, out ivec2 upper) {
+    lower = ivec2(0);
+    upper = ivec2(-1);
+    vec4 bounds;
+    if (!coverage_bounds(a, b, c, resolution, bounds)) {
+        return false;
+    }
+    // The centre of cell i is at (2 i + 1) / resolution - 1; the hundredth covers the rounding.
+    vec4 places = 0.5 * float(resolution) * (bounds + 1.0 + vec4(-margin, -margin, margin, margin)) - 0.5;
+    lower = max(ivec2(ceil(places.xy - 0.01)), ivec2(-1));
+    upper = min(ivec2(floor(places.zw + 0.01)), ivec2(int(resolution)));
+    return all(lessThanEqual(lower, upper));
+}
+
 // Clip-space corner `corner` of a screen triangle that covers every cell whose centre is within `margin`
 // of the triangle, in x/z and in y/z. The viewport holds the face with its border. Returns a point outside
 // the clip volume where nothing needs drawing.

@@ -5,7 +5,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "ldc/blocks.glsl"
-#include "ldc/raster.glsl"
+#include "ldc/covered.glsl"
 #include "contract/alpha.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;

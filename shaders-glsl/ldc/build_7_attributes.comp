@@ -6,7 +6,7 @@
 #include "contract/extensions.glsl"
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
-#include "ldc/raster.glsl"
+#include "ldc/covered.glsl"
 
 layout(local_size_x = LDC_GROUP_SIZE) in;
 

@@ -13,7 +13,8 @@ layout(push_constant, scalar) uniform LdcBuildConstants {
 void main() {
     bool fits = ldc_fragments_fit(ldc_built) && LDC_HEADER(ldc_built).fringe_demand <= LDC_HEADER(ldc_built).fringe_capacity
         && LDC_HEADER(ldc_built).long_demand <= LDC_HEADER(ldc_built).long_capacity
-        && LDC_HEADER(ldc_built).layer_demand <= LDC_HEADER(ldc_built).layer_capacity;
+        && LDC_HEADER(ldc_built).layer_demand <= LDC_HEADER(ldc_built).layer_capacity
+        && LDC_HEADER(ldc_built).pairs <= LDC_HEADER(ldc_built).pair_capacity;
     uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
     LDC_HEADER(ldc_built).status = status | (LDC_HEADER(ldc_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

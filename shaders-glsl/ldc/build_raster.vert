@@ -5,7 +5,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #define LDC_READ_ONLY
-#include "ldc/raster.glsl"
+#include "ldc/covered.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_axis;
 

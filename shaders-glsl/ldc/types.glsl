@@ -19,7 +19,7 @@ layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
 layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 
-// State and sizes of one value. 168 bytes.
+// State and sizes of one value. 184 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
@@ -49,7 +49,9 @@ struct LdcHeader {
     uint layer_capacity;  // layers that are peeled
     uint layer_limit;     // layers that may be
     uint beyond;          // fragments behind those
-    uint spare;
+    uint pairs;           // triangles with many cells of their view, binning only
+    uint pair_capacity;
+    uint groups[3];       // workgroups for them
 };
 
 // Depths of what a block of cells holds.

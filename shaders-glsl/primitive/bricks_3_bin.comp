@@ -7,14 +7,14 @@
 #include "primitive/bin_pairs.glsl"
 #include "primitive/brick_bin.glsl"
 
-layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+layout(local_size_x = BIN_GROUP_SIZE) in;
 
 layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
 };
 
 void main() {
-    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BIN_GROUP_SIZE + gl_GlobalInvocationID.x;
     uint triangles = geometry_triangle_count();
     vec3 a;
     vec3 b;
@@ -31,7 +31,7 @@ void main() {
             continue;
         }
         ivec2 size = bin.upper - bin.lower + 1;
-        if (size.x * size.y > PRIMITIVE_BIN_COLUMNS) {
+        if (size.x * size.y > BIN_CELLS) {
             bin_leave(primitive_built, face * triangles + primitive);
         } else {
             entries += brick_bin_columns(primitive_built, bin, bin.lower, bin.upper);

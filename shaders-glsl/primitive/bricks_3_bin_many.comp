@@ -8,7 +8,7 @@
 #include "primitive/bin_pairs.glsl"
 #include "primitive/brick_bin.glsl"
 
-layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+layout(local_size_x = BIN_GROUP_SIZE) in;
 
 layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 void main() {
     uint pair;
     uint triangles = geometry_triangle_count();
-    if (!bin_left(primitive_built, gl_WorkGroupID.y * PRIMITIVE_PAIR_ROW + gl_WorkGroupID.x, pair)) {
+    if (!bin_left(primitive_built, gl_WorkGroupID.y * BIN_PAIR_ROW + gl_WorkGroupID.x, pair)) {
         return;
     }
     uint primitive = pair % triangles;
@@ -31,7 +31,7 @@ void main() {
     }
     uint entries = 0u;
     ivec2 blocks = (bin.upper - bin.lower) / PRIMITIVE_BIN_BLOCK + 1;
-    for (int block = int(gl_LocalInvocationID.x); block < blocks.x * blocks.y; block += int(PRIMITIVE_GROUP_SIZE)) {
+    for (int block = int(gl_LocalInvocationID.x); block < blocks.x * blocks.y; block += int(BIN_GROUP_SIZE)) {
         ivec2 lower = bin.lower + PRIMITIVE_BIN_BLOCK * ivec2(block % blocks.x, block / blocks.x);
         vec2 depths;
         if (brick_bin_depths(bin, lower, PRIMITIVE_BIN_BLOCK, depths)) {

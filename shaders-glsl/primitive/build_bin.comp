@@ -7,14 +7,14 @@
 #include "primitive/bin_pairs.glsl"
 #include "primitive/list_bin.glsl"
 
-layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+layout(local_size_x = BIN_GROUP_SIZE) in;
 
 layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
 };
 
 void main() {
-    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BIN_GROUP_SIZE + gl_GlobalInvocationID.x;
     uint triangles = geometry_triangle_count();
     vec3 a;
     vec3 b;
@@ -29,7 +29,7 @@ void main() {
             continue;
         }
         ivec2 size = bin.upper - bin.lower + 1;
-        if (size.x * size.y <= PRIMITIVE_BIN_COLUMNS) {
+        if (size.x * size.y <= BIN_CELLS) {
             list_bin_columns(primitive_built, grid, bin, bin.lower, bin.upper);
         }
 #if PRIMITIVE_VISIT == PRIMITIVE_VISIT_BOUNDS

@@ -2,13 +2,13 @@
 // (groups[2]), blocks of columns by turns.
 // Reads: geometry, header, bounds, pairs. Writes: bounds, lists and entries.
 // Source: DIRT section 4.1, by computing instead of drawing.
-// The host gives so many workgroups that the loops of an invocation, buckets included, turn PRIMITIVE_BIN_TURNS times at most.
+// The host gives so many workgroups that the loops of an invocation, buckets included, turn BIN_TURNS times at most.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/bin_pairs.glsl"
 #include "primitive/list_bin.glsl"
 
-layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
+layout(local_size_x = BIN_GROUP_SIZE) in;
 
 layout(push_constant, scalar) uniform PrimitiveBuildConstants {
     PrimitiveRef primitive_built;
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 void main() {
     uint pair;
     uint triangles = geometry_triangle_count();
-    if (!bin_left(primitive_built, gl_WorkGroupID.y * PRIMITIVE_PAIR_ROW + gl_WorkGroupID.x, pair)) {
+    if (!bin_left(primitive_built, gl_WorkGroupID.y * BIN_PAIR_ROW + gl_WorkGroupID.x, pair)) {
         return;
     }
     uint primitive = pair % triangles;
@@ -31,8 +31,8 @@ void main() {
         return;
     }
     ivec2 blocks = (bin.upper - bin.lower) / PRIMITIVE_BIN_BLOCK + 1;
-    int first = int(gl_WorkGroupID.z * PRIMITIVE_GROUP_SIZE + gl_LocalInvocationID.x);
-    for (int block = first; block < blocks.x * blocks.y; block += int(gl_NumWorkGroups.z * PRIMITIVE_GROUP_SIZE)) {
+    int first = int(gl_WorkGroupID.z * BIN_GROUP_SIZE + gl_LocalInvocationID.x);
+    for (int block = first; block < blocks.x * blocks.y; block += int(gl_NumWorkGroups.z * BIN_GROUP_SIZE)) {
         ivec2 lower = bin.lower + PRIMITIVE_BIN_BLOCK * ivec2(block % blocks.x, block / blocks.x);
         vec2 depths;
         if (list_bin_depths(grid, bin, lower, PRIMITIVE_BIN_BLOCK, depths)) {

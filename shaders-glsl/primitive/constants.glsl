@@ -53,16 +53,10 @@
 #define PRIMITIVE_OCTAVES 32u
 #define PRIMITIVE_OCTAVE_SHARE 256u
 
-// Most columns that one invocation of the binning builder looks at; triangles with more get a workgroup.
-#define PRIMITIVE_BIN_COLUMNS 64
-// Columns a side of the blocks that an invocation of such a workgroup looks at by turns.
+// Columns a side of the blocks that an invocation of the workgroups for large triangles looks at by turns.
 #define PRIMITIVE_BIN_BLOCK 4
-// Words a triangle for those: one a face.
+// Words a triangle for large triangles: one a face.
 #define PRIMITIVE_PAIR_LIMIT 6u
-// Most turns of all loops of such an invocation.
-#define PRIMITIVE_BIN_TURNS 30000
-// Workgroups a row of that dispatch.
-#define PRIMITIVE_PAIR_ROW 32768u
 
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u

@@ -8,6 +8,7 @@
 
 #include "voxel/header.glsl"
 #include "ads/axis_views.glsl"
+#include "ads/constants.glsl"
 
 #ifdef ADDRESSING_ADDRESS
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWordAddress { uint words[]; };
@@ -101,6 +102,11 @@ uint voxel_list_count(VoxelRef s) {
 // Fragments of a list one behind the other, without links.
 bool voxel_contiguous() {
     return VOXEL_STORAGE == VOXEL_STORAGE_CONTIGUOUS;
+}
+
+// Words of the scratch pool that the scan takes.
+uint voxel_scan_words(VoxelRef s) {
+    return voxel_contiguous() ? (voxel_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
 // Fragments in pages that are linked.

@@ -1,37 +1,12 @@
 // What: marks the voxels that a triangle reaches into, with the axis it faces most, or adds its normal to them.
 // Reads: geometry, header. Writes: voxels, normals.
-// Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average
-// under a spin lock.
+// Source: Frid Kastrati and Goswami section 3.2, voxel generation.
 #version 460
 #include "contract/extensions.glsl"
-#include "voxel/raster.glsl"
-#include "voxel/column.glsl"
+#include "voxel/visit_voxels.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
 void main() {
-    uint primitive = primitive_and_axis.x;
-    uint axis = primitive_and_axis.y;
-    AxisView view = voxel_column_view(voxel_built, axis);
-    ivec2 column = ivec2(gl_FragCoord.xy) - 1;
-    int grid = int(view.resolution);
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    voxel_view_vertices(view, primitive, a, b, c);
-    ivec2 range;
-    if (any(lessThan(column, ivec2(0))) || any(greaterThanEqual(column, ivec2(grid)))
-        || !voxel_column_range(view, a, b, c, column, range)) {
-        return;
-    }
-    vec3 normal = axis_to_world(voxel_unit_normal(a, b, c), axis);
-    for (int depth = range.x; depth <= range.y; depth++) {
-        uint index = voxel_index(voxel_built, axis_to_world(ivec3(column, depth), axis));
-        if (VOXEL_AXES == VOXEL_AXES_TRIANGLE) {
-            voxel_mark(voxel_built, index, VOXEL_OCCUPIED | 1u << axis);
-        } else {
-            voxel_mark(voxel_built, index, VOXEL_OCCUPIED);
-            voxel_add_normal(voxel_built, index, normal);
-        }
-    }
+    voxel_visit_voxels(primitive_and_axis.x, primitive_and_axis.y, voxel_cell_at_fragment(gl_FragCoord));
 }

@@ -3,23 +3,10 @@
 // Source: Hu et al. section 3.1, the one geometry pass; counted first, so that lists can be stored one behind the other.
 #version 460
 #include "contract/extensions.glsl"
-#include "voxel/raster.glsl"
-#include "voxel/mask.glsl"
+#include "voxel/visit.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
 void main() {
-    uint primitive = primitive_and_axis.x;
-    uint axis = primitive_and_axis.y;
-    VoxelFound found;
-    if (!voxel_fragment(primitive, axis, voxel_cell_at_fragment(gl_FragCoord), found)
-        || !voxel_mask_keeps(primitive, found.barycentrics)) {
-        return;
-    }
-    if (VOXEL_AXES == VOXEL_AXES_ALL) {
-        voxel_fill(primitive, found);
-    } else if (!voxel_keeps(voxel_built, found.voxel, axis)) {
-        return;
-    }
-    voxel_list_count_one(voxel_built, found.list);
+    voxel_visit_count(primitive_and_axis.x, primitive_and_axis.y, voxel_cell_at_fragment(gl_FragCoord));
 }

@@ -12,7 +12,8 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
 
 void main() {
     bool fits = VOXEL_HEADER(voxel_built).demand <= VOXEL_HEADER(voxel_built).capacity
-        && VOXEL_HEADER(voxel_built).long_demand <= VOXEL_HEADER(voxel_built).long_capacity;
+        && VOXEL_HEADER(voxel_built).long_demand <= VOXEL_HEADER(voxel_built).long_capacity
+        && VOXEL_HEADER(voxel_built).pairs <= VOXEL_HEADER(voxel_built).pair_capacity;
     bool unsorted = VOXEL_HEADER(voxel_built).unsorted > 0u;
     VOXEL_HEADER(voxel_built).status = (fits ? STATUS_COMPLETE : STATUS_OVERFLOW) | (unsorted ? STATUS_UNSORTED : 0u);
     // Of pages the fragments have been counted, of others they are the demand.

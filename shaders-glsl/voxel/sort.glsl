@@ -40,7 +40,7 @@ uint sort_long_count(VoxelRef s) {
 
 // Word of the scratch pool at which a long list stands: behind the sums of the scan.
 uint sort_long_word(VoxelRef s, uint place) {
-    return (voxel_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK + 2u * place;
+    return voxel_scan_words(s) + 2u * place;
 }
 
 uvec2 sort_long(VoxelRef s, uint place) {

@@ -17,7 +17,7 @@ layout(constant_id = 75) const uint VOXEL_SORT = 1u;
 layout(constant_id = 76) const uint VOXEL_PAYLOAD = VOXEL_PAYLOAD_INDEX;
 layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
 
-// State and sizes of one value. 116 bytes.
+// State and sizes of one value. 136 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
@@ -41,6 +41,9 @@ struct VoxelHeader {
     uvec2 lists_address;
     uvec2 fragments_address;
     uvec2 scratch_address;
+    uint pairs;           // triangles with many cells of a view, binning only
+    uint pair_capacity;
+    uint groups[3];       // workgroups for them
 };
 
 #endif

@@ -21,7 +21,9 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("dirt", &[("resolution", "64"), ("storage", "sb")]),
     ("hu", &[("storage", "bricks")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
+    ("hu", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative")]),
+    ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative"), ("storage", "sb"), ("march", "pyramid")]),
 ];
 

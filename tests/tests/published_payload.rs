@@ -114,6 +114,31 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
     (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
 }
 
+/// Fragments carry the same whether they were drawn or computed, with what masks cut out of them left out.
+#[test]
+fn both_builders_store_the_same_attributes() {
+    let bench = Bench::new();
+    for name in ["cornell", "atrium:detail=0.25"] {
+        let scene = stage(&bench, name, SIZE);
+        let rays = rays(&scene, 2000);
+        for system in SYSTEMS {
+            let found = |builder| {
+                let options = [("resolution", "48"), ("coverage", "exact"), ("builder", builder)];
+                let structure = made(&bench, &scene, system, &options);
+                let key = |(hit, surface): (Hit, Surface)| {
+                    let met = hit.is_hit().then_some((surface.base_color, surface.normal));
+                    (hit.t.to_bits(), hit.primitive, met)
+                };
+                let found = surfaces(&bench, structure.as_ref(), &rays).into_iter().map(key);
+                (found.collect::<Vec<_>>(), structure.report().expect("the header is readable").stored)
+            };
+            let [(drawn, stored), computed] = ["raster", "binning"].map(found);
+            assert!(drawn.iter().any(|(_, _, met)| met.is_some()) && stored > Some(0), "{system}, {name}");
+            assert!((drawn, stored) == computed, "{system}, {name}");
+        }
+    }
+}
+
 /// Rays meet fragments where they would if those named their triangles, and see their colours and normals, but for the
 /// quantisation, and what a fragment has of its material beside these.
 #[test]

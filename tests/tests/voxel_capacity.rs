@@ -46,7 +46,7 @@ fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
 
 /// Room for so many fragments.
 fn room(entries: u64) -> Demand {
-    Demand { entries, long_lists: 0 }
+    Demand { entries, ..Demand::default() }
 }
 
 fn every_edge_capacity(config: Config) {

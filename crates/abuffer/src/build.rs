@@ -1,21 +1,24 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, SceneBinding};
-use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use std::mem::offset_of;
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit};
+use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::{cell_count, draws, long_capacity};
-use crate::{Config, March, Payload, Storage};
+use crate::{Builder, Config, Header, March, Payload, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
     near: ComputePipeline,
-    bounds: Option<RasterPipeline>,
+    pairs: Option<PairsPass>,
+    bounds: Option<Visit>,
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
-    store: RasterPipeline,
-    fringe: Option<RasterPipeline>,
+    store: Visit,
+    fringe: Option<Visit>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
     reorder: Option<Reorder>,
@@ -25,7 +28,7 @@ pub(crate) struct Build {
 /// What contiguous lists need before they are stored.
 #[derive(Debug)]
 struct Lengths {
-    count: RasterPipeline,
+    count: Visit,
     scan: Scan,
 }
 
@@ -49,18 +52,26 @@ impl Build {
         if attributes {
             SceneBinding::for_attributes(scene)?;
         }
-        let store = match (attributes, alpha) {
-            (true, _) => "build_6_store.attributes",
-            (false, true) => "build_6_store.alpha",
-            (false, false) => "build_6_store",
+        let masked = if alpha { ".alpha" } else { "" };
+        let stored = if attributes { ".attributes" } else { masked };
+        let visit = |vertex, name: &str, variant: &str| match config.builder {
+            Builder::Raster => {
+                Visit::drawn(pipelines, &format!("abuffer/{name}"), vertex, &format!("{name}{variant}"))
+            }
+            Builder::Binning => {
+                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
+                let groups = offset_of!(Header, groups);
+                Visit::binned(pipelines, &format!("abuffer/{name}"), &bin, &many, groups)
+            }
         };
-        let bounds = if alpha { "build_2_bounds.alpha" } else { "build_2_bounds" };
-        let count = if alpha { "build_4_count.alpha" } else { "build_4_count" };
-        let raster = |name| pipelines.raster("build_raster", name);
+        let covered = |name, variant| visit("build_raster", name, variant);
         let bucketed = config.storage.is_bucketed();
         let scaled = bucketed && config.accept.needs_triangles();
         let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths { count: raster(count)?, scan: Scan::new(pipelines, "build_5_scan")? })
+            Ok(Lengths {
+                count: covered("build_4_count", masked)?,
+                scan: Scan::new(pipelines, "build_5_scan")?,
+            })
         };
         let reorder = || -> Result<Reorder, AdsError> {
             Ok(Reorder {
@@ -70,13 +81,16 @@ impl Build {
         };
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            bounds: bucketed.then(|| raster(bounds)).transpose()?,
+            pairs: (config.builder == Builder::Binning)
+                .then(|| PairsPass::new(pipelines, "build_1_pairs"))
+                .transpose()?,
+            bounds: bucketed.then(|| covered("build_2_bounds", masked)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
-            store: raster(store)?,
+            store: covered("build_6_store", stored)?,
             fringe: config
                 .has_fringe()
-                .then(|| pipelines.raster("build_raster.fringe", "build_7_fringe"))
+                .then(|| visit("build_raster.fringe", "build_7_fringe", ""))
                 .transpose()?,
             lost: pipelines.compute("build_7_lost")?,
             pyramid: (config.march == March::Pyramid)
@@ -107,19 +121,22 @@ impl Build {
         target.pools.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
+        if let Some(pairs) = &self.pairs {
+            pairs.record(recorder, target, "abuffer/build_1_pairs");
+        }
         if let Some(bounds) = &self.bounds {
-            target.raster_views(recorder, "abuffer/build_2_bounds", bounds, &draws);
+            bounds.record(recorder, target, &draws);
         }
         if let Some(scale) = &self.scale {
             target.compute_pass(recorder, "abuffer/build_3_scale", scale, groups(cells), 0, shaders);
         }
         if let Some(lengths) = &self.lengths {
-            target.raster_views(recorder, "abuffer/build_4_count", &lengths.count, &draws);
+            lengths.count.record(recorder, target, &draws);
             lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
         }
-        target.raster_views(recorder, "abuffer/build_6_store", &self.store, &draws);
+        self.store.record(recorder, target, &draws);
         if let Some(fringe) = &self.fringe {
-            target.raster_views(recorder, "abuffer/build_7_fringe", fringe, &draws);
+            fringe.record(recorder, target, &draws);
         }
         let marks = groups(triangles.div_ceil(32));
         target.compute_pass(recorder, "abuffer/build_7_lost", &self.lost, marks, 0, Access::COMPUTE);

@@ -1,6 +1,6 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constants::abuffer as numbers;
 
 /// How a ray steps through cells.
@@ -183,6 +183,8 @@ pub struct Config {
     pub payload: Payload,
     /// Who decides coverage.
     pub coverage: Coverage,
+    /// Who puts triangles into cells. Changes no hit.
+    pub builder: Builder,
     /// Sort lists, so that a search can end early. Changes no hit.
     pub sort: bool,
     /// Skip cells and buckets that the ray's depths cannot meet. Changes no hit.
@@ -215,6 +217,7 @@ impl Config {
             thickness: 0.0,
             payload: Payload::Index,
             coverage: Coverage::Exact,
+            builder: Builder::Raster,
             sort: true,
             skip: true,
             addressing: Addressing::Descriptor,
@@ -274,6 +277,13 @@ impl Config {
                 option: "accept",
                 value: format!("{:?}", self.accept).to_lowercase(),
                 expected: "the acceptances plane and slope need the payload `index`, which names the triangle",
+            });
+        }
+        if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
+            return Err(AdsError::Option {
+                option: "builder",
+                value: self.builder.name().to_owned(),
+                expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
             });
         }
         if self.has_fringe() && self.accept != Accept::Plane {
@@ -390,7 +400,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
-            ("builder", "raster".to_owned()),
+            ("builder", self.builder.name().to_owned()),
             ("coverage", lower(&self.coverage)),
             ("addressing", self.addressing.name().to_owned()),
         ]

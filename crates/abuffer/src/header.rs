@@ -60,6 +60,12 @@ pub struct Header {
     pub reach: f32,
     /// How far rounding moves a triangle against a ray, metres; only with conservative coverage.
     pub rounding: f32,
+    /// Triangles with many cells of a view, also those beyond the capacity; only of the binning builder.
+    pub pairs: u32,
+    /// Those there is room for.
+    pub pair_capacity: u32,
+    /// Workgroups for them.
+    pub groups: [u32; 3],
     /// Device address of the bounds; zero with descriptors.
     pub bounds_address: [u32; 2],
     /// Device address of the list heads and tails.

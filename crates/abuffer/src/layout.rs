@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{Accept, Config, Coverage, Header, March, Payload, Storage, Views};
+use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Storage, Views};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
@@ -29,6 +29,11 @@ pub(crate) fn draws(config: &Config) -> Vec<ViewDraw> {
     draws
 }
 
+/// Cells of the largest view, border counted.
+pub(crate) fn widest_view(config: &Config) -> u64 {
+    draws(config).iter().map(|draw| u64::from(draw.side).pow(2)).max().unwrap_or(0)
+}
+
 /// What a build found: how much of each pool it asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
@@ -42,6 +47,8 @@ pub struct Demand {
     pub triangles: u64,
     /// Triangles kept beside centres.
     pub fringe: u64,
+    /// Triangles with many cells of a view, for the binning builder.
+    pub pairs: u64,
 }
 
 /// Words of a fragment's payload.
@@ -106,15 +113,30 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config)
 }
 
-/// Words for the sums of the scan of contiguous lists, and for two of each long list behind them.
-pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
+/// Words for the sums of the scan of contiguous lists, and behind them for the triangles with many cells, and once those have been
+/// visited two of each long list.
+pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
+    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
+    scan_words(config) + pairs.max(2 * demand.long_lists)
+}
+
+/// Words for the sums of the scan.
+fn scan_words(config: &Config) -> u64 {
     let lists = cell_count(config) * u64::from(config.lists());
-    (if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }) + 2 * long_lists
+    if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }
 }
 
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
+    sizes.elements("scratch").saturating_sub(scan_words(config)) / 2
+}
+
+/// Triangles with many cells that such pools have room for.
+pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    match config.builder {
+        Builder::Raster => 0,
+        Builder::Binning => sizes.elements("scratch").saturating_sub(scan_words(config)),
+    }
 }
 
 /// What an A-buffer of this configuration allocates to hold what a build may ask for.
@@ -132,7 +154,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (demand.nodes, 4 * node_words(config)),
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
         (demand.near_triangles, 4),
-        (scratch_words(config, demand.long_lists), 4),
+        (scratch_words(config, demand), 4),
         (if config.has_fringe() { demand.fringe } else { 0 }, 12),
     ];
     let pools: Vec<PoolSize> = POOLS
@@ -164,6 +186,7 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
             long_lists: 0,
             triangles: triangles.into(),
             fringe: cells / 4,
+            pairs: 1024,
         },
     )
 }
@@ -182,8 +205,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// With conservative coverage: per cell 4, per triangle beside its centre 12.
     pub fringe: u64,
-    /// Header, 4 per triangle of the near list, 8 per long list, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles
-    /// for their marks.
+    /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with many cells of a view
+    /// where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles for their marks.
     pub rest: u64,
 }
 
@@ -236,9 +259,13 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
         fringe: if config.coverage == Coverage::Conservative { 4 * cells + 12 * demand.fringe } else { 0 },
-        rest: 212
+        rest: 232
             + 4 * demand.near_triangles
-            + 8 * demand.long_lists
+            + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
+                4 * demand.pairs
+            } else {
+                0
+            })
             + 4 * sums
             + 4 * demand.triangles.div_ceil(32),
     }
@@ -249,7 +276,7 @@ mod tests {
     use super::*;
 
     const DEMAND: Demand =
-        Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0, fringe: 77 };
+        Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0, fringe: 77, pairs: 55 };
 
     #[test]
     fn plan_equals_formula() {
@@ -267,6 +294,7 @@ mod tests {
                 let views = Views::ALL[buckets as usize % 3];
                 let kept = accept == Accept::Plane && march == March::Pyramid;
                 let coverage = if kept { Coverage::Conservative } else { Coverage::Exact };
+                let builder = Builder::ALL[buckets as usize % 2];
                 let config = Config {
                     storage,
                     inline,
@@ -277,6 +305,7 @@ mod tests {
                     march,
                     views,
                     coverage,
+                    builder,
                     camera_resolution: 24,
                     ..Config::robust(64)
                 };

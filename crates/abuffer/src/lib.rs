@@ -18,6 +18,6 @@ mod validate;
 pub use config::{Accept, Config, Coverage, March, Payload, Storage, Views};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
-pub use rasray_ads::Addressing;
+pub use rasray_ads::{Addressing, Builder};
 pub use structure::ABuffer;
 pub use validate::{Contents, Fault, well_formed};

@@ -3,7 +3,7 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -11,7 +11,8 @@ use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGE
 
 use crate::build::Build;
 use crate::layout::{
-    Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, plan, scratch_words,
+    Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
+    widest_view,
 };
 use crate::{Accept, Config, Contents, Header, Storage};
 
@@ -151,6 +152,8 @@ impl ABuffer {
             scratch_address: self.pools.address_of("scratch"),
             fringe_capacity: self.pools.sizes().elements("fringe") as u32,
             fringe_address: self.pools.address_of("fringe"),
+            pair_capacity: pair_capacity(&self.config, self.pools.sizes()) as u32,
+            groups: [0, 0, bin_groups(widest_view(config))],
             ..Header::default()
         })
     }
@@ -262,6 +265,11 @@ impl Structure for ABuffer {
                     demand: header.fringe_demand.into(),
                     capacity: header.fringe_capacity.into(),
                 },
+                PoolStatus {
+                    name: "pairs",
+                    demand: header.pairs.into(),
+                    capacity: header.pair_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -286,6 +294,7 @@ impl Structure for ABuffer {
             long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
             triangles,
             fringe: grown("fringe"),
+            pairs: demand("pairs").max(pair_capacity(&self.config, self.pools.sizes())),
         };
         // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
@@ -331,11 +340,12 @@ impl Structure for ABuffer {
             long_lists: header.long_demand.into(),
             triangles: self.geometry.triangle_count().into(),
             fringe: header.fringe_demand.into(),
+            pairs: header.pairs.into(),
         };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "nodes" | "data" => demand.nodes,
             "near" => demand.near_triangles,
-            "scratch" => scratch_words(&self.config, demand.long_lists),
+            "scratch" => scratch_words(&self.config, demand),
             "fringe" => demand.fringe,
             "bounds" => bounds_and_blocks(&self.config) + demand.triangles.div_ceil(32),
             _ => pool.elements,

@@ -3,7 +3,7 @@
 use crate::layout::{bounds_words, data_words, fragment_words, node_slots, node_words};
 use crate::{Config, Header, Storage, cell_count};
 
-/// All pools as downloaded, in words.
+/// All pools but the pairs of the binning builder as downloaded, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
     /// The configuration they were built with.

@@ -1,10 +1,10 @@
 //! The build of lists: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, Visit};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
-use crate::build_visit::Visit;
+use crate::build_visit::visit;
 use crate::layout::{cell_count, faces};
 use crate::{Config, Storage};
 
@@ -29,7 +29,7 @@ struct Lengths {
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let visit = |name| Visit::new(pipelines, config, name);
+        let visit = |name| visit(pipelines, config, name);
         let lengths = || -> Result<Lengths, AdsError> {
             Ok(Lengths { count: visit("build_4_count")?, scan: Scan::new(pipelines, "build_5_scan")? })
         };
@@ -51,24 +51,25 @@ impl Build {
         let lists = cells * u64::from(config.buckets);
         let group = u64::from(PRIMITIVE_GROUP_SIZE);
         let shaders = Access::COMPUTE | Access::FRAGMENT;
+        let views = [faces(config)];
 
         let readers = shaders | Access::VERTEX_READ;
         target.pools.record_header(recorder, "primitive/build_0_clear", &["bounds", "lists"], readers);
         let groups = u64::from(target.geometry.triangle_count()).div_ceil(group);
         target.compute_pass(recorder, "primitive/build_1_near", &self.near, groups, 0, shaders);
-        self.bounds.record(recorder, config, config.tiles(), target);
+        self.bounds.record(recorder, target, &views);
         if let Some(scale) = &self.scale {
             let groups = cells.div_ceil(group);
             target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
         }
         if let Some(pyramid) = &self.pyramid {
-            pyramid.record(recorder, target, "primitive/build_3_pyramid", &[faces(config)], shaders);
+            pyramid.record(recorder, target, "primitive/build_3_pyramid", &views, shaders);
         }
         if let Some(lengths) = &self.lengths {
-            lengths.count.record(recorder, config, config.tiles(), target);
+            lengths.count.record(recorder, target, &views);
             lengths.scan.record(recorder, target, "primitive/build_5_scan", lists, 0, shaders);
         }
-        self.store.record(recorder, config, config.tiles(), target);
+        self.store.record(recorder, target, &views);
         target.status_pass(recorder, "primitive/build_7_status", &self.status);
     }
 }

@@ -1,10 +1,10 @@
 //! The build of bricks: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, ViewDraw, Visit};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
-use crate::build_visit::Visit;
+use crate::build_visit::visit;
 use crate::layout::bricks_of;
 use crate::{Config, Views};
 
@@ -45,7 +45,7 @@ impl BuildBricks {
         };
         Ok(Self {
             depths: (config.views == Views::Cube).then(depths).transpose()?,
-            records: Visit::new(pipelines, config, "bricks_3")?,
+            records: visit(pipelines, config, "bricks_3")?,
             cells: pipelines.compute("bricks_4_cells")?,
             scan: Scan::new(pipelines, "build_5_scan")?,
             count: pipelines.compute("bricks_6_count")?,
@@ -83,7 +83,8 @@ impl BuildBricks {
             pass(recorder, near_label, near, triangles, compute);
             pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);
         }
-        self.records.record(recorder, config, cells[0].max(cells[1]), target);
+        let views = ViewDraw { side: cells[0].max(cells[1]) + 2, views: config.view_count(), first: 0 };
+        self.records.record(recorder, target, &[views]);
         pass(recorder, "primitive/bricks_4_cells", &self.cells, bricks, compute);
         self.scan.record(recorder, target, "primitive/bricks_5_scan", bricks, SCAN_BRICKS, compute);
         pass(recorder, "primitive/bricks_6_count", &self.count, records, compute);

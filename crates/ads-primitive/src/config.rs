@@ -1,6 +1,6 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{Addressing, AdsError, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::views::cells_along;
@@ -23,15 +23,6 @@ pub enum Storage {
     /// Contiguous lists of cells that are tiles cut into depth slices, in bricks of 4x4x4 with a mask: empty space is
     /// crossed by many bricks at a time.
     Bricks,
-}
-
-/// Who puts triangles into cells. Changes no hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Builder {
-    /// The rasterizer proposes cells, and the shared function decides.
-    Raster,
-    /// A compute pass goes through all cells that a triangle may reach into; the same function decides.
-    Binning,
 }
 
 /// Where the faces of the cube meet. Changes no hit where [`Config::is_exact`].
@@ -348,9 +339,6 @@ impl Config {
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
-        vec![
-            ("builder", format!("{:?}", self.builder()).to_lowercase()),
-            ("addressing", self.addressing.name().to_owned()),
-        ]
+        vec![("builder", self.builder().name().to_owned()), ("addressing", self.addressing.name().to_owned())]
     }
 }

@@ -18,10 +18,10 @@ mod structure;
 mod validate;
 mod views;
 
-pub use config::{Builder, Centre, Config, Storage};
+pub use config::{Centre, Config, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
-pub use rasray_ads::Addressing;
+pub use rasray_ads::{Addressing, Builder};
 pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::PrimitiveLists;
 pub use validate::{Contents, Fault, well_formed};

@@ -34,6 +34,7 @@ mod steps;
 mod structure;
 mod types;
 mod viewpoint;
+mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use brute_force::BruteForce;
@@ -53,6 +54,7 @@ pub use structure::{
 };
 pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 pub use viewpoint::{CameraView, Viewpoint};
+pub use visit::{Builder, PairsPass, Visit, bin_groups};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

@@ -1,12 +1,14 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
+use std::mem::offset_of;
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, long_capacity};
-use crate::{Config, Coverage, Depth, Making, Payload};
+use crate::{Builder, Config, Coverage, Depth, Header, Making, Payload};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
 const DRAWS: u32 = 1;
@@ -14,10 +16,11 @@ const DRAWS: u32 = 1;
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    count: RasterPipeline,
+    pairs: Option<PairsPass>,
+    count: Visit,
     scan: Scan,
     layers: Layers,
-    fringe: Option<RasterPipeline>,
+    fringe: Option<Visit>,
     attributes: Option<ComputePipeline>,
     status: ComputePipeline,
 }
@@ -25,8 +28,16 @@ pub(crate) struct Build {
 /// What makes the layers.
 #[derive(Debug)]
 enum Layers {
-    Single { store: RasterPipeline, sort: ComputePipeline, sort_long: ComputePipeline },
-    Peel { peel: RasterPipeline },
+    Single {
+        store: Visit,
+        sort: ComputePipeline,
+        sort_long: ComputePipeline,
+    },
+    /// The last draw lets lists grow from where they begin to where they end.
+    Peel {
+        peel: RasterPipeline,
+        grow: RasterPipeline,
+    },
 }
 
 impl Build {
@@ -42,25 +53,34 @@ impl Build {
         if stored {
             SceneBinding::for_attributes(scene)?;
         }
-        let (count, store, peel) = if alpha {
-            ("build_1_count.alpha", "build_3_store.alpha", "build_3_peel.alpha")
-        } else {
-            ("build_1_count", "build_3_store", "build_3_peel")
+        let masked = if alpha { ".alpha" } else { "" };
+        let visit = |vertex, name: &str, variant: &str| match config.builder {
+            Builder::Raster => {
+                Visit::drawn(pipelines, &format!("ldc/{name}"), vertex, &format!("{name}{variant}"))
+            }
+            Builder::Binning => {
+                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
+                Visit::binned(pipelines, &format!("ldc/{name}"), &bin, &many, offset_of!(Header, groups))
+            }
         };
+        let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
         let layers = match config.making {
             Making::Single => Layers::Single {
-                store: pipelines.raster("build_raster", store)?,
-                sort: pipelines.compute("build_4_sort")?,
-                sort_long: pipelines.compute("build_5_sort_long")?,
+                store: visit("build_raster", "build_3_store", masked)?,
+                sort: pipelines.compute("build_5_sort")?,
+                sort_long: pipelines.compute("build_6_sort_long")?,
             },
-            Making::Peel => Layers::Peel { peel: pipelines.raster("build_raster", peel)? },
+            Making::Peel => Layers::Peel { peel: draw("build_3_peel")?, grow: draw("build_1_count")? },
         };
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
-            count: pipelines.raster("build_raster", count)?,
+            pairs: (config.builder == Builder::Binning)
+                .then(|| PairsPass::new(pipelines, "build_0_pairs"))
+                .transpose()?,
+            count: visit("build_raster", "build_1_count", masked)?,
             scan: Scan::new(pipelines, "build_2_scan")?,
             layers,
-            fringe: kept.then(|| pipelines.raster("build_raster.fringe", "build_6_fringe")).transpose()?,
+            fringe: kept.then(|| visit("build_raster.fringe", "build_4_fringe", "")).transpose()?,
             attributes: stored.then(|| pipelines.compute("build_7_attributes")).transpose()?,
             status: pipelines.compute("build_8_status")?,
         })
@@ -79,24 +99,29 @@ impl Build {
             (Making::Peel, _) => &["lists", "blocks", "heads", "scratch"],
         };
         target.pools.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
-        target.raster_pass(recorder, "ldc/build_1_count", &self.count, side, DRAWS);
+        if let Some(pairs) = &self.pairs {
+            pairs.record(recorder, target, "ldc/build_0_pairs");
+        }
+        let views = [ViewDraw { side, views: DRAWS, first: 0 }];
+        self.count.record(recorder, target, &views);
         self.scan.record(recorder, target, "ldc/build_2_scan", cells, 0, shaders);
         match &self.layers {
-            Layers::Single { store, sort, sort_long } => {
-                target.raster_pass(recorder, "ldc/build_3_store", store, side, DRAWS);
-                let groups = |items: u64| items.div_ceil(u64::from(LDC_GROUP_SIZE));
-                target.compute_pass(recorder, "ldc/build_4_sort", sort, groups(cells), 0, shaders);
-                let long = groups(long_capacity(config, target.pools.sizes()));
-                let rounds = LONG_LIST_ROUNDS;
-                target.rounds_pass(recorder, "ldc/build_5_sort_long", sort_long, long, rounds, shaders);
-            }
-            Layers::Peel { peel } => {
+            Layers::Single { store, .. } => store.record(recorder, target, &views),
+            Layers::Peel { peel, grow } => {
                 let layers = layer_capacity(config, target.pools.sizes()) as u32;
-                self.record_peeling(recorder, peel, layers, side, target);
+                record_peeling(recorder, peel, grow, layers, side, target);
             }
         }
         if let Some(fringe) = &self.fringe {
-            target.raster_pass(recorder, "ldc/build_6_fringe", fringe, side, DRAWS);
+            fringe.record(recorder, target, &views);
+        }
+        // Long lists are named where triangles with many cells were, so all triangles are visited before.
+        if let Layers::Single { sort, sort_long, .. } = &self.layers {
+            let groups = |items: u64| items.div_ceil(u64::from(LDC_GROUP_SIZE));
+            target.compute_pass(recorder, "ldc/build_5_sort", sort, groups(cells), 0, shaders);
+            let long = groups(long_capacity(config, target.pools.sizes()));
+            let rounds = LONG_LIST_ROUNDS;
+            target.rounds_pass(recorder, "ldc/build_6_sort_long", sort_long, long, rounds, shaders);
         }
         if let Some(attributes) = &self.attributes {
             let groups = target.pools.sizes().elements("payload").div_ceil(u64::from(LDC_GROUP_SIZE));
@@ -104,29 +129,29 @@ impl Build {
         }
         target.status_pass(recorder, "ldc/build_8_status", &self.status);
     }
+}
 
-    /// Two draws a layer, and one in which lists grow to where they end.
-    fn record_peeling(
-        &self,
-        recorder: &mut Recorder<'_>,
-        peel: &RasterPipeline,
-        layers: u32,
-        side: u32,
-        target: BuildTarget<'_>,
-    ) {
-        let shaders = Access::COMPUTE | Access::FRAGMENT;
-        recorder.begin_pass("ldc/build_3_peel");
-        recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-        for pool in ["depths", "payload"].map(|name| target.pools.pool(name)) {
-            recorder.fill(pool, 0, pool.size(), u32::MAX);
-        }
-        recorder.barrier(Access::TRANSFER_WRITE, shaders);
-        for step in 0..2 * layers {
-            target.draw(recorder, peel, side, DRAWS, step);
-            recorder.barrier(Access::FRAGMENT, shaders);
-        }
-        target.draw(recorder, &self.count, side, DRAWS, 1);
-        recorder.barrier(Access::FRAGMENT, shaders);
-        recorder.end_pass();
+/// Two draws a layer, and one in which lists grow to where they end.
+fn record_peeling(
+    recorder: &mut Recorder<'_>,
+    peel: &RasterPipeline,
+    grow: &RasterPipeline,
+    layers: u32,
+    side: u32,
+    target: BuildTarget<'_>,
+) {
+    let shaders = Access::COMPUTE | Access::FRAGMENT;
+    recorder.begin_pass("ldc/build_3_peel");
+    recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+    for pool in ["depths", "payload"].map(|name| target.pools.pool(name)) {
+        recorder.fill(pool, 0, pool.size(), u32::MAX);
     }
+    recorder.barrier(Access::TRANSFER_WRITE, shaders);
+    for step in 0..2 * layers {
+        target.draw(recorder, peel, side, DRAWS, step);
+        recorder.barrier(Access::FRAGMENT, shaders);
+    }
+    target.draw(recorder, grow, side, DRAWS, 1);
+    recorder.barrier(Access::FRAGMENT, shaders);
+    recorder.end_pass();
 }

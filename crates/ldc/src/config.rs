@@ -1,6 +1,6 @@
 //! Options of the layered depth cube and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constants::ldc as numbers;
 
 /// When a fragment counts as hit.
@@ -84,6 +84,8 @@ pub struct Config {
     pub tolerance: f32,
     /// Who decides coverage.
     pub coverage: Coverage,
+    /// Who puts triangles into cells; [`Making::Peel`] draws. Changes no hit.
+    pub builder: Builder,
     /// How depths are kept.
     pub depth: Depth,
     /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
@@ -113,6 +115,7 @@ impl Config {
             accept: Accept::Plane,
             tolerance: 0.001,
             coverage: Coverage::Conservative,
+            builder: Builder::Raster,
             depth: Depth::Bits32,
             payload: Payload::Index,
             skip: true,
@@ -164,6 +167,12 @@ impl Config {
                 format!("{:?}", self.accept).to_lowercase(),
                 "the acceptances plane and slope need the payload `index`, which names the triangle",
             );
+        }
+        if self.builder == Builder::Binning
+            && (self.coverage == Coverage::Hardware || self.making == Making::Peel)
+        {
+            let expected = "the binning builder does not draw: with coverage `hardware`, or layers that are peeled, take raster";
+            return refused("builder", self.builder.name().to_owned(), expected);
         }
         match self.work_budget {
             // A dispatch that resumes a search counts its cell before it reads an entry.
@@ -241,7 +250,7 @@ impl Config {
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         vec![
-            ("builder", "raster".to_owned()),
+            ("builder", self.builder.name().to_owned()),
             ("coverage", format!("{:?}", self.coverage).to_lowercase()),
             ("addressing", self.addressing.name().to_owned()),
         ]

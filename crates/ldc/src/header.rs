@@ -62,6 +62,10 @@ pub struct Header {
     pub layer_limit: u32,
     /// Fragments behind those.
     pub beyond: u32,
-    /// Zero.
-    pub spare: u32,
+    /// Triangles with many cells of their view, also those beyond the capacity; only of the binning builder.
+    pub pairs: u32,
+    /// Those there is room for.
+    pub pair_capacity: u32,
+    /// Workgroups for them.
+    pub groups: [u32; 3],
 }

@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Config, Coverage, Depth, Header, Making, Occupancy, Payload};
+use crate::{Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 8] =
@@ -33,6 +33,8 @@ pub struct Demand {
     pub long_lists: u64,
     /// Fragments of the deepest cell, which is how many layers are peeled.
     pub layers: u64,
+    /// Triangles with many cells of their view, for the binning builder.
+    pub pairs: u64,
 }
 
 /// What a layered depth cube of this configuration allocates to hold what a build may ask for.
@@ -78,10 +80,12 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// Words for the sums of the scan, and behind them two of each long list, or one of each layer that is peeled.
+/// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have been visited two of each
+/// long list; or one of each layer that is peeled.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
+    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
     let sorted_or_peeled = match config.making {
-        Making::Single => 2 * demand.long_lists,
+        Making::Single => pairs.max(2 * demand.long_lists),
         Making::Peel => demand.layers,
     };
     Scan::sums(cell_count(config.resolution)) + sorted_or_peeled
@@ -97,6 +101,11 @@ pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Single { words_behind_sums(config, sizes) / 2 } else { 0 }
 }
 
+/// Triangles with many cells that such pools have room for.
+pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    if config.builder == Builder::Binning { words_behind_sums(config, sizes) } else { 0 }
+}
+
 /// Layers that are peeled into such pools.
 pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Peel { words_behind_sums(config, sizes) } else { 0 }
@@ -108,7 +117,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
     let fragments = config.fragments.unwrap_or(2 * cells);
     let layers = config.layers.min(8).into();
-    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0, layers })
+    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0, layers, pairs: 1024 })
 }
 
 /// Bytes for counted cells, places of fragments, triangles beside centres and long lists.
@@ -122,7 +131,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// Per triangle beside a centre: triangle and link 8.
     pub fringe: u64,
-    /// Header, a sum of 4 per 1024 cells for the scan, and 8 per long list or 4 per layer peeled.
+    /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where that is more 4 per
+    /// triangle with many cells where they are binned.
     pub rest: u64,
 }
 
@@ -135,7 +145,7 @@ impl FormulaBytes {
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
-    let Demand { fragments, fringe, long_lists, layers } = demand;
+    let Demand { fragments, fringe, long_lists, layers, pairs } = demand;
     let side = u64::from(config.resolution);
     let blocks = side.div_ceil(u64::from(config.block));
     let upper = if config.levels == 2 { blocks.div_ceil(8) } else { 0 };
@@ -150,9 +160,13 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: payload * fragments + depths,
         fringe: if kept { 12 * fringe } else { 0 },
-        rest: 168
+        rest: 184
             + 4 * cells.div_ceil(1024)
-            + if config.making == Making::Peel { 4 * layers } else { 8 * long_lists },
+            + match (config.making, config.builder) {
+                (Making::Peel, _) => 4 * layers,
+                (Making::Single, Builder::Raster) => 8 * long_lists,
+                (Making::Single, Builder::Binning) => (8 * long_lists).max(4 * pairs),
+            },
     }
 }
 
@@ -173,13 +187,15 @@ mod tests {
                 [(Occupancy::Slices, 2, Making::Single), (Occupancy::Bounds, 1, Making::Peel)]
             {
                 let robust = Config::robust(resolution);
-                let config = Config { block, depth, coverage, occupancy, levels, making, ..robust };
+                let binned = making == Making::Single && coverage != Coverage::Hardware;
+                let builder = if binned { Builder::Binning } else { Builder::Raster };
+                let config = Config { block, depth, coverage, builder, occupancy, levels, making, ..robust };
                 let stored = Config { payload: Payload::Attributes, accept: Accept::Tolerance, ..config };
                 for (config, fragments) in [config, stored]
                     .into_iter()
                     .flat_map(|config| [0, 12_344, 12_345].map(|fragments| (config, fragments)))
                 {
-                    let demand = Demand { fragments, fringe: 77, long_lists: 3, layers: 5 };
+                    let demand = Demand { fragments, fringe: 77, long_lists: 3, layers: 5, pairs: 9 };
                     let sizes = plan(&config, demand).expect("options are in range");
                     assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total(), "{config:?}");
                 }

@@ -16,6 +16,6 @@ mod validate;
 pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
-pub use rasray_ads::Addressing;
+pub use rasray_ads::{Addressing, Builder};
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};

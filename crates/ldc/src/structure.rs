@@ -3,14 +3,16 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
 
 use crate::build::Build;
-use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, long_capacity, plan, scratch_words};
+use crate::layout::{
+    Demand, first_plan, formula_bytes, layer_capacity, long_capacity, pair_capacity, plan, scratch_words,
+};
 use crate::{Config, Contents, Header};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most.
@@ -103,6 +105,8 @@ impl LayeredDepthCube {
             heads_address: self.pools.address_of("heads"),
             fringe_address: self.pools.address_of("fringe"),
             scratch_address: self.pools.address_of("scratch"),
+            pair_capacity: pair_capacity(&self.config, self.pools.sizes()) as u32,
+            groups: [0, 0, bin_groups(u64::from(self.config.resolution + 2).pow(2))],
             ..Header::default()
         }
     }
@@ -219,6 +223,11 @@ impl Structure for LayeredDepthCube {
                     demand: header.layer_demand.into(),
                     capacity: header.layer_capacity.into(),
                 },
+                PoolStatus {
+                    name: "pairs",
+                    demand: header.pairs.into(),
+                    capacity: header.pair_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -236,6 +245,7 @@ impl Structure for LayeredDepthCube {
             fringe: demand("fringe").max(room("fringe")),
             long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
             layers: demand("layers").max(layer_capacity(&self.config, self.pools.sizes())),
+            pairs: demand("pairs").max(pair_capacity(&self.config, self.pools.sizes())),
         };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
@@ -280,6 +290,7 @@ impl Structure for LayeredDepthCube {
             fringe: header.fringe_demand.into(),
             long_lists: header.long_demand.into(),
             layers: header.layer_demand.into(),
+            pairs: header.pairs.into(),
         };
         let depth_words = demand.fragments.div_ceil(u64::from(32 / self.config.depth.bits()));
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {

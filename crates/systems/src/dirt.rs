@@ -91,7 +91,7 @@ fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
                 config.centre = given.choice(&[("eye", Centre::Eye), ("scene", Centre::Scene)])?;
             }
             "builder" => {
-                let words = [("raster", Builder::Raster), ("binning", Builder::Binning)];
+                let words = Builder::ALL.map(|builder| (builder.name(), builder));
                 config.builder = Some(given.choice(&words)?);
             }
             "views" => {

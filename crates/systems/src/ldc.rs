@@ -1,6 +1,8 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{Accept, Addressing, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload};
+use rasray_ldc::{
+    Accept, Addressing, Builder, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload,
+};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,7 +20,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 16] = [
+const OPTIONS: [&str; 17] = [
     "build",
     "layers",
     "resolution",
@@ -31,6 +33,7 @@ const OPTIONS: [&str; 16] = [
     "tolerance",
     "depth",
     "coverage",
+    "builder",
     "skip",
     "views",
     "addressing",
@@ -61,6 +64,9 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "capacity" => config.fragments = Some(given.number()?.into()),
             "tolerance" => config.tolerance = given.share()?,
             "skip" => config.skip = given.switch()?,
+            "builder" => {
+                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
+            }
             // One word each so far: a value is checked, and nothing else is chosen.
             "storage" => given.choice(&[("sb", ())])?,
             "views" => given.choice(&[("axes", ())])?,

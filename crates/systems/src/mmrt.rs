@@ -1,6 +1,8 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Payload, Storage, Views};
+use rasray_abuffer::{
+    ABuffer, Accept, Addressing, Builder, Config, Coverage, March, Payload, Storage, Views,
+};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -18,7 +20,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 17] = [
+const OPTIONS: [&str; 18] = [
     "resolution",
     "buckets",
     "storage",
@@ -32,6 +34,7 @@ const OPTIONS: [&str; 17] = [
     "coverage",
     "sort",
     "skip",
+    "builder",
     "views",
     "camera-resolution",
     "addressing",
@@ -59,6 +62,9 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "skip" => config.skip = given.switch()?,
             "storage" => {
                 config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
+            }
+            "builder" => {
+                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
             }
             "inline" => config.inline = given.switch()?,
             "page" => config.page = given.number()?,

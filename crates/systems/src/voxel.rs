@@ -1,12 +1,12 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Addressing, Axes, Config, Coverage, March, Payload, Storage};
+use rasray_voxel::{Accept, Addressing, Axes, Builder, Config, Coverage, March, Payload, Storage};
 
 use crate::option::Given;
 use crate::{Spec, SystemsError};
 
 /// Options by their names on the command line.
-pub(crate) const OPTIONS: [&str; 13] = [
+pub(crate) const OPTIONS: [&str; 14] = [
     "resolution",
     "grid",
     "axes",
@@ -14,6 +14,7 @@ pub(crate) const OPTIONS: [&str; 13] = [
     "samples",
     "accept",
     "coverage",
+    "builder",
     "storage",
     "payload",
     "page",
@@ -36,6 +37,9 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
             "page" => config.page = given.number()?,
             "capacity" => config.fragments = Some(given.number()?.into()),
             "sort" => config.sort = given.switch()?,
+            "builder" => {
+                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
+            }
             "axes" => {
                 config.axes = given.choice(&[
                     ("all", Axes::All),

@@ -1,17 +1,19 @@
 //! The build: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, SceneBinding};
-use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use std::mem::offset_of;
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit};
+use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Config, Payload, Storage};
+use crate::{Axes, Builder, Config, Header, Payload, Storage};
 
 /// What counts the lengths of contiguous lists and turns them into places.
 #[derive(Debug)]
 struct Lengths {
-    count: RasterPipeline,
+    count: Visit,
     scan: Scan,
 }
 
@@ -25,10 +27,11 @@ struct Sort {
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    voxels: Option<RasterPipeline>,
+    pairs: Option<PairsPass>,
+    voxels: Option<Visit>,
     axes: Option<ComputePipeline>,
     lengths: Option<Lengths>,
-    store: RasterPipeline,
+    store: Visit,
     sort: Option<Sort>,
     longest: Option<ComputePipeline>,
     status: ComputePipeline,
@@ -47,15 +50,20 @@ impl Build {
         if stored {
             SceneBinding::for_attributes(scene)?;
         }
-        let count = if alpha { "build_3_count.alpha" } else { "build_3_count" };
-        let store = match (stored, alpha) {
-            (true, _) => "build_5_store.attributes",
-            (false, true) => "build_5_store.alpha",
-            (false, false) => "build_5_store",
+        let masked = if alpha { ".alpha" } else { "" };
+        let variant = if stored { ".attributes" } else { masked };
+        let visit = |vertex, name: &str, variant: &str| match config.builder {
+            Builder::Raster => {
+                Visit::drawn(pipelines, &format!("voxel/{name}"), vertex, &format!("{name}{variant}"))
+            }
+            Builder::Binning => {
+                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
+                Visit::binned(pipelines, &format!("voxel/{name}"), &bin, &many, offset_of!(Header, groups))
+            }
         };
-        let voxels = || pipelines.raster("build_columns", "build_1_voxels");
+        let voxels = || visit("build_columns", "build_1_voxels", "");
         let lengths = || -> Result<Lengths, AdsError> {
-            let count = pipelines.raster("build_raster", count)?;
+            let count = visit("build_raster", "build_3_count", masked)?;
             Ok(Lengths { count, scan: Scan::new(pipelines, "build_4_scan")? })
         };
         let sort = || -> Result<Sort, AdsError> {
@@ -63,10 +71,13 @@ impl Build {
             Ok(Sort { all, long: pipelines.compute("build_7_sort_long")? })
         };
         Ok(Self {
+            pairs: (config.builder == Builder::Binning)
+                .then(|| PairsPass::new(pipelines, "build_0_pairs"))
+                .transpose()?,
             voxels: (config.axes != Axes::All).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: pipelines.raster("build_raster", store)?,
+            store: visit("build_raster", "build_5_store", variant)?,
             sort: config.sorts().then(sort).transpose()?,
             longest: (!config.sorts()).then(|| pipelines.compute("build_6_longest")).transpose()?,
             status: pipelines.compute("build_8_status")?,
@@ -78,9 +89,10 @@ impl Build {
         let lists = list_count(config.resolution);
         let group = u64::from(VOXEL_GROUP_SIZE);
         let words = u64::from(config.grid()).pow(3).div_ceil(8);
-        let (side, columns) = (config.resolution + 2, config.grid() + 2);
         // Where a triangle is kept in the view it faces most, one instance draws it there.
         let views = if config.axes == Axes::Triangle { 1 } else { 3 };
+        let views = [ViewDraw { side: config.resolution + 2, views, first: 0 }];
+        let columns = [ViewDraw { side: config.grid() + 2, views: 1, first: 0 }];
         let shaders = Access::COMPUTE | Access::FRAGMENT;
         let cleared: &[&str] = match config.axes {
             Axes::Triangle => &["voxels", "lists"],
@@ -88,8 +100,11 @@ impl Build {
         };
 
         target.pools.record_header(recorder, "voxel/build_0_clear", cleared, shaders | Access::VERTEX_READ);
+        if let Some(pairs) = &self.pairs {
+            pairs.record(recorder, target, "voxel/build_0_pairs");
+        }
         if let Some(voxels) = &self.voxels {
-            target.raster_pass(recorder, "voxel/build_1_voxels", voxels, columns, 1);
+            voxels.record(recorder, target, &columns);
         }
         let axes = |recorder: &mut Recorder<'_>| {
             if let Some(axes) = &self.axes {
@@ -101,10 +116,10 @@ impl Build {
             axes(recorder);
         }
         if let Some(lengths) = &self.lengths {
-            target.raster_pass(recorder, "voxel/build_3_count", &lengths.count, side, views);
+            lengths.count.record(recorder, target, &views);
             lengths.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
         }
-        target.raster_pass(recorder, "voxel/build_5_store", &self.store, side, views);
+        self.store.record(recorder, target, &views);
         if config.axes == Axes::All {
             axes(recorder);
         }

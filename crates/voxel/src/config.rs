@@ -1,6 +1,6 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constants::voxel as numbers;
 
 /// In which of the three views a fragment is kept, and along which axes a voxel is searched.
@@ -106,6 +106,8 @@ pub struct Config {
     pub accept: Accept,
     /// Which cells keep a triangle.
     pub coverage: Coverage,
+    /// Who puts triangles into cells. Changes no hit.
+    pub builder: Builder,
     /// What a fragment carries.
     pub payload: Payload,
     /// How lists are kept.
@@ -135,6 +137,7 @@ impl Config {
             samples: 3,
             accept: Accept::Plane,
             coverage: Coverage::Exact,
+            builder: Builder::Raster,
             payload: Payload::Index,
             storage: Storage::Contiguous,
             page: 4,
@@ -204,6 +207,13 @@ impl Config {
                 option: "accept",
                 value: "plane".to_owned(),
                 expected: "plane acceptance needs the march `exact`, since samples are points and planes count in a cell",
+            });
+        }
+        if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
+            return Err(AdsError::Option {
+                option: "builder",
+                value: self.builder.name().to_owned(),
+                expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
             });
         }
         let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;
@@ -290,7 +300,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
-            ("builder", "raster".to_owned()),
+            ("builder", self.builder.name().to_owned()),
             ("coverage", lower(&self.coverage)),
             ("addressing", self.addressing.name().to_owned()),
         ]

@@ -50,4 +50,10 @@ pub struct Header {
     pub fragments_address: [u32; 2],
     /// Device address of the sums of the scan, and the long lists behind them.
     pub scratch_address: [u32; 2],
+    /// Triangles with many cells of a view, also those beyond the capacity; only of the binning builder.
+    pub pairs: u32,
+    /// Those there is room for.
+    pub pair_capacity: u32,
+    /// Workgroups for them.
+    pub groups: [u32; 3],
 }

@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{Axes, Config, Header, Payload, Storage};
+use crate::{Axes, Builder, Config, Header, Payload, Storage};
 
 /// Names of the pools in the order of [`Sizes::pools`].
 pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "scratch"];
@@ -20,6 +20,8 @@ pub struct Demand {
     pub entries: u64,
     /// Lists that one dispatch does not sort; only where lists are sorted.
     pub long_lists: u64,
+    /// Triangles with many cells or columns of voxels, for the binning builder.
+    pub pairs: u64,
 }
 
 /// What a configuration allocates to hold what a build may ask for.
@@ -37,7 +39,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (normals, 12),
         (lists, 4),
         (demand.entries, 4 * entry_words(config)),
-        (scratch_words(config, demand.long_lists), 4),
+        (scratch_words(config, demand), 4),
     ];
     let pools: Vec<PoolSize> = POOLS
         .iter()
@@ -70,23 +72,47 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// Words for the sums of the scan, and for two of each long list behind them; none where nothing is counted or sorted.
-pub(crate) fn scratch_words(config: &Config, long_lists: u64) -> u64 {
+/// Words for the sums of the scan where lists are counted, and behind them for the triangles with many cells, and once those have
+/// been visited for two of each long list.
+pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
+    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
+    let long = if config.storage == Storage::Contiguous { 2 * demand.long_lists } else { 0 };
+    scan_words(config) + pairs.max(long)
+}
+
+/// Words for the sums of the scan.
+fn scan_words(config: &Config) -> u64 {
     match config.storage {
-        Storage::Contiguous => Scan::sums(list_count(config.resolution)) + 2 * long_lists,
+        Storage::Contiguous => Scan::sums(list_count(config.resolution)),
         Storage::Linked | Storage::Paged => 0,
     }
 }
 
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements("scratch").saturating_sub(scratch_words(config, 0)) / 2
+    let behind = sizes.elements("scratch").saturating_sub(scan_words(config));
+    if config.storage == Storage::Contiguous { behind / 2 } else { 0 }
+}
+
+/// Triangles with many cells that such pools have room for.
+pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+    match config.builder {
+        Builder::Raster => 0,
+        Builder::Binning => sizes.elements("scratch").saturating_sub(scan_words(config)),
+    }
+}
+
+/// Turns of the loops over the cells of a view, or over the columns of voxels and the few of each that a triangle reaches into in
+/// the view it faces most.
+pub(crate) fn widest_view(config: &Config) -> u64 {
+    let cells = |side: u32| (u64::from(side) + 2).pow(2);
+    cells(config.resolution).max(8 * cells(config.grid()))
 }
 
 /// The first guess where nothing has been counted: one a cell of one view.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
-    plan(config, Demand { entries, long_lists: 0 })
+    plan(config, Demand { entries, long_lists: 0, pairs: 1024 })
 }
 
 /// The cube that voxels and views divide: its lower corner, and its side, metres.
@@ -115,7 +141,8 @@ pub struct FormulaBytes {
     pub lists: u64,
     /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its fragments.
     pub fragments: u64,
-    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list.
+    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where that is more 4 per
+    /// triangle with many cells where they are binned.
     pub rest: u64,
 }
 
@@ -133,15 +160,17 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let averaged = config.axes != Axes::Triangle;
     let per_fragment = if config.payload == Payload::Index { 8 } else { 16 };
     let (per_entry, sums) = match config.storage {
-        Storage::Contiguous => (per_fragment, cells.div_ceil(1024) * 4 + demand.long_lists * 8),
+        Storage::Contiguous => (per_fragment, cells.div_ceil(1024) * 4),
         Storage::Linked => (per_fragment + 4, 0),
         Storage::Paged => (4 + u64::from(config.page) * per_fragment, 0),
     };
+    let long = if config.storage == Storage::Contiguous { 8 * demand.long_lists } else { 0 };
+    let pairs = if config.builder == Builder::Binning { 4 * demand.pairs } else { 0 };
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
         fragments: demand.entries * per_entry,
-        rest: 116 + sums,
+        rest: 136 + sums + long.max(pairs),
     }
 }
 
@@ -155,6 +184,7 @@ mod tests {
         for (resolution, grid) in [(64, None), (512, Some(64)), (33, Some(7)), (1, None)] {
             for config in [
                 Config { grid, ..Config::robust(resolution) },
+                Config { grid, builder: Builder::Binning, ..Config::robust(resolution) },
                 Config { grid, ..Config::published_hu(resolution) },
                 Config { grid, payload: Payload::Index, ..Config::published_hu(resolution) },
                 Config { grid, ..Config::published_selective(resolution) },
@@ -162,7 +192,7 @@ mod tests {
                 Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
                 Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
             ] {
-                let demand = Demand { entries: 12_345, long_lists: 3 };
+                let demand = Demand { entries: 12_345, long_lists: 3, pairs: 7 };
                 let sizes = plan(&config, demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
                 let more = formula_bytes(&config, Demand { entries: 12_346, ..demand }).total();
@@ -186,11 +216,11 @@ mod tests {
         assert!(message(bent).contains("coverage is conservative"));
         let nameless = message(Config { payload: Payload::Material, ..Config::robust(64) });
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
-        let many = Demand { entries: 1 << 32, long_lists: 0 };
+        let many = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
         // A word of a list names fewer pages than 32 bits could.
         let paged = Config { storage: Storage::Paged, page: 1, ..Config::robust(64) };
-        let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, long_lists: 0 };
+        let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
         assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));
         assert!(plan(&paged, Demand { entries: PAGE_LIMIT.into(), ..many }).is_ok());
     }

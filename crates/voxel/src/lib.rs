@@ -17,6 +17,6 @@ mod validate;
 pub use config::{Accept, Axes, Config, Coverage, March, Payload, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
-pub use rasray_ads::Addressing;
+pub use rasray_ads::{Addressing, Builder};
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};

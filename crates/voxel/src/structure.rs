@@ -3,14 +3,16 @@
 use rasray_ads::{
     AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
     PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
-use crate::layout::{Demand, cube, first_plan, formula_bytes, long_capacity, plan, scratch_words};
+use crate::layout::{
+    Demand, cube, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
+};
 use crate::{Accept, Config, Contents, Coverage, Header, March, Storage};
 
 /// Lists as long as the longest that a ray is given the rounds to read.
@@ -96,6 +98,8 @@ impl Voxels {
             lists_address: self.pools.address_of("lists"),
             fragments_address: self.pools.address_of("fragments"),
             scratch_address: self.pools.address_of("scratch"),
+            pair_capacity: pair_capacity(&self.config, self.pools.sizes()) as u32,
+            groups: [0, 0, bin_groups(widest_view(&self.config))],
             ..Header::default()
         }
     }
@@ -191,6 +195,11 @@ impl Structure for Voxels {
                     demand: header.long_demand.into(),
                     capacity: header.long_capacity.into(),
                 },
+                PoolStatus {
+                    name: "pairs",
+                    demand: header.pairs.into(),
+                    capacity: header.pair_capacity.into(),
+                },
             ],
             unsorted: header.unsorted.into(),
             corrupted: header.corrupted.into(),
@@ -209,7 +218,11 @@ impl Structure for Voxels {
             // How many pages are begun depends a little on which threads meet.
             entries += entries / 64;
         }
-        let demand = Demand { entries, long_lists: demand("long").max(long_capacity(&self.config, sizes)) };
+        let demand = Demand {
+            entries,
+            long_lists: demand("long").max(long_capacity(&self.config, sizes)),
+            pairs: demand("pairs").max(pair_capacity(&self.config, sizes)),
+        };
         // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
         plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
     }
@@ -265,10 +278,14 @@ impl Structure for Voxels {
 
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
-        let demand = Demand { entries: header.demand.into(), long_lists: header.long_demand.into() };
+        let demand = Demand {
+            entries: header.demand.into(),
+            long_lists: header.long_demand.into(),
+            pairs: header.pairs.into(),
+        };
         let bytes_by_part = self.pools.bytes_by_part(|pool| match pool.name {
             "fragments" => demand.entries,
-            "scratch" => scratch_words(&self.config, demand.long_lists),
+            "scratch" => scratch_words(&self.config, demand),
             _ => pool.elements,
         });
         Ok(StructureReport {

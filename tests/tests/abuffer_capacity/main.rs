@@ -44,7 +44,7 @@ fn beside(storage: Storage) -> Config {
 
 /// Room for so many fragments and triangles around the eye.
 fn room(fragments: u64, near_triangles: u64) -> Demand {
-    Demand { nodes: fragments, near_triangles, long_lists: 0, triangles: scene().len() as u64, fringe: 0 }
+    Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
 }
 
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {

@@ -9,6 +9,13 @@ fn records_of_voxels() {
     let modules = [
         &shaders::VOXEL_BUILD_COLUMNS,
         &shaders::VOXEL_BUILD_1_VOXELS,
+        &shaders::VOXEL_BUILD_0_PAIRS,
+        &shaders::VOXEL_BUILD_1_VOXELS_BIN,
+        &shaders::VOXEL_BUILD_1_VOXELS_BIN_MANY,
+        &shaders::VOXEL_BUILD_3_COUNT_BIN,
+        &shaders::VOXEL_BUILD_3_COUNT_BIN_MANY,
+        &shaders::VOXEL_BUILD_5_STORE_BIN,
+        &shaders::VOXEL_BUILD_5_STORE_BIN_MANY,
         &shaders::VOXEL_BUILD_2_AXES,
         &shaders::VOXEL_BUILD_RASTER,
         &shaders::VOXEL_BUILD_3_COUNT,
@@ -27,7 +34,7 @@ fn records_of_voxels() {
     check_layout!(modules, rasray_voxel::Header as "VoxelHeader" {
         status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, longest, samples, cell, voxel,
         cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
-        fragments_address, scratch_address,
+        fragments_address, scratch_address, pairs, pair_capacity, groups,
     });
     let direct = read_by_us(&shaders::VOXEL_TRACE_CLOSEST);
     let by_address = read_by_us(&shaders::VOXEL_TRACE_CLOSEST_ADDRESS);

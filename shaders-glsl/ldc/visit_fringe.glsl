@@ -1,18 +1,16 @@
-// What: keeps the triangle in cells that it reaches into without covering their centre, where no fragment stands for
-// it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a cell.
-// Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand. Conservative
-// coverage only.
+// What: keeps a triangle in a cell that it reaches into without covering its centre, where no fragment stands for it: at edges
+// towards triangles of another view, at silhouettes, and where it is smaller than a cell. The same for every builder.
+// Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand.
 // Source: not in the paper, whose rays pass between the views' cells there.
-#version 460
-#include "contract/extensions.glsl"
-#include "ldc/blocks.glsl"
-#include "ldc/fringe.glsl"
-#include "ldc/raster.glsl"
+#ifndef LDC_VISIT_FRINGE_GLSL
+#define LDC_VISIT_FRINGE_GLSL
 
-layout(location = 0) flat in uvec2 primitive_and_axis;
+#include "ldc/blocks.glsl"
+#include "ldc/covered.glsl"
+#include "ldc/fringe.glsl"
 
 // Whether the plane of a fragment of the cell passes within `close` metres of this point of the triangle, in the view.
-bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
+bool ldc_is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
     if (list.y - list.x > FRINGE_LIMIT) {
         return false;
@@ -34,14 +32,12 @@ bool is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_c
     return false;
 }
 
-void main() {
+void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(ldc_built)) {
         // What stands for what is not known until all fragments fit.
         return;
     }
-    AxisView view = ldc_built_view(primitive_and_axis.y);
-    uint primitive = primitive_and_axis.x;
-    ivec2 place = ldc_cell_at(gl_FragCoord);
+    AxisView view = ldc_built_view(axis);
     if (!axis_has_cell(view.resolution, place)) {
         return;
     }
@@ -64,7 +60,7 @@ void main() {
     // What is far smaller than a cell is not taken for a surface that is near for a cell only.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
-    if (is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
+    if (ldc_is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
@@ -75,3 +71,5 @@ void main() {
     ldc_widen_blocks(ldc_built, view.axis, place, depths.x, depths.y);
     fringe_add(ldc_built, cell, primitive, depths);
 }
+
+#endif

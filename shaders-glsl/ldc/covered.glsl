@@ -1,8 +1,8 @@
-// What: the draw of the build: every triangle once, in the view it faces most, pulled from the geometry.
+// What: which cells a triangle covers in the view it faces most, and at which depth, the same for every builder.
 // Reads: geometry, header. Writes: nothing.
-// Without attachments no layers are needed: the view travels as a varying.
-#ifndef LDC_RASTER_GLSL
-#define LDC_RASTER_GLSL
+// Where the rasterizer draws, without attachments, no layers are needed: the view travels as a varying.
+#ifndef LDC_COVERED_GLSL
+#define LDC_COVERED_GLSL
 
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"

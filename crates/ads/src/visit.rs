@@ -1,0 +1,137 @@
+//! Passes that visit the cells of every triangle, by drawing or by computing.
+
+use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
+
+use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
+
+/// Who puts triangles into cells. Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builder {
+    /// The rasterizer proposes cells, and the shared function decides.
+    Raster,
+    /// A compute pass goes through all cells that a triangle may reach into; the same function decides.
+    Binning,
+}
+
+impl Builder {
+    /// Every builder.
+    pub const ALL: [Self; 2] = [Self::Raster, Self::Binning];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Raster => "raster",
+            Self::Binning => "binning",
+        }
+    }
+}
+
+/// One such pass.
+#[derive(Debug)]
+pub struct Visit {
+    label: String,
+    passes: Passes,
+}
+
+#[derive(Debug)]
+enum Passes {
+    Raster(RasterPipeline),
+    Binning {
+        /// Triangles.
+        bin: ComputePipeline,
+        /// Those with many cells of a view.
+        many: ComputePipeline,
+        /// Byte of the header that says how many workgroups those get.
+        groups: u64,
+    },
+}
+
+impl Visit {
+    /// Draws with these shaders.
+    ///
+    /// # Errors
+    /// A module is not compiled in, or the device refuses it.
+    pub fn drawn(
+        pipelines: &BuildPipelines<'_>,
+        label: &str,
+        vertex: &str,
+        fragment: &str,
+    ) -> Result<Self, AdsError> {
+        Ok(Self { label: label.to_owned(), passes: Passes::Raster(pipelines.raster(vertex, fragment)?) })
+    }
+
+    /// Computes with `bin`, one invocation a triangle, and `many`, workgroups for those with many cells of a view, whose number
+    /// is three u32 at this byte of the header. The label gets the endings `_bin` and `_bin_many`.
+    ///
+    /// # Errors
+    /// A module is not compiled in, or the device refuses it.
+    pub fn binned(
+        pipelines: &BuildPipelines<'_>,
+        label: &str,
+        bin: &str,
+        many: &str,
+        groups: usize,
+    ) -> Result<Self, AdsError> {
+        let passes = Passes::Binning {
+            bin: pipelines.compute(bin)?,
+            many: pipelines.compute(many)?,
+            groups: groups as u64,
+        };
+        Ok(Self { label: label.to_owned(), passes })
+    }
+
+    /// Records it. The next pass may be a visit by the same builder, or computes.
+    pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw]) {
+        match &self.passes {
+            Passes::Raster(draw) => target.raster_views(recorder, &self.label, draw, draws),
+            Passes::Binning { bin, many, groups } => {
+                let readers = Access::COMPUTE | Access::INDIRECT_READ;
+                let label = format!("{}_bin", self.label);
+                target.compute_pass(recorder, &label, bin, triangle_groups(target), 0, readers);
+                target.indirect_pass(recorder, &format!("{label}_many"), many, *groups, Access::COMPUTE);
+            }
+        }
+    }
+}
+
+/// Workgroups of binning passes with an invocation for each triangle.
+fn triangle_groups(target: BuildTarget<'_>) -> u64 {
+    u64::from(target.geometry.triangle_count()).div_ceil(BIN_GROUP_SIZE.into())
+}
+
+/// The pass before all visits by computing: finds the triangles with many cells of a view.
+#[derive(Debug)]
+pub struct PairsPass(ComputePipeline);
+
+impl PairsPass {
+    /// # Errors
+    /// The module is not compiled in, or the device refuses it.
+    pub fn new(pipelines: &BuildPipelines<'_>, name: &str) -> Result<Self, AdsError> {
+        pipelines.compute(name).map(Self)
+    }
+
+    /// Records it.
+    pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, label: &str) {
+        let readers = Access::COMPUTE | Access::INDIRECT_READ;
+        target.compute_pass(recorder, label, &self.0, triangle_groups(target), 0, readers);
+    }
+}
+
+/// Workgroups for a triangle with many cells of a view: so many that the loops of no invocation turn more than `BIN_TURNS` times.
+/// `turns`: cells of the largest view, times those of a loop within each.
+pub fn bin_groups(turns: u64) -> u32 {
+    turns.div_ceil(u64::from(BIN_GROUP_SIZE) * BIN_TURNS as u64) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bin_groups;
+
+    #[test]
+    fn workgroups_bound_the_cells_of_an_invocation() {
+        for (side, groups) in [(3_u64, 1), (514, 1), (1386, 2), (8194, 35)] {
+            assert_eq!(bin_groups(side * side), groups, "{side} cells a side");
+        }
+    }
+}

@@ -1,0 +1,78 @@
+// What: what a binning pass of an A-buffer does with a triangle in a view; BIN_VISIT says which pass it is.
+// Reads: geometry, header, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: see abuffer/visit.glsl.
+// Source: MMRT section 3.3, by computing instead of drawing. The same functions decide as in the raster builder.
+#ifndef ABUFFER_BINNED_GLSL
+#define ABUFFER_BINNED_GLSL
+
+#include "ads/constants.glsl"
+#include "abuffer/visit.glsl"
+#if BIN_VISIT == BIN_VISIT_FRINGE
+#include "abuffer/visit_fringe.glsl"
+#endif
+
+// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+#define PairRef AbufferRef
+#define PAIR_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + place]
+#define PAIR_HEADER(s) ABUFFER_HEADER(s)
+#define PAIR_CAPACITY(s) ABUFFER_HEADER(s).pair_capacity
+#include "ads/bin_pairs.glsl"
+
+#define bin_built abuffer_built
+
+uint bin_view_count() {
+    return (abuffer_has_cube() ? VIEW_FACES : 0u) + (abuffer_has_camera() ? 1u : 0u);
+}
+
+// The number of a view by its place among those that are built.
+uint bin_view(uint place) {
+    return place < VIEW_FACES && abuffer_has_cube() ? place : ABUFFER_CAMERA;
+}
+
+// A triangle in a view, and the first and last cell that may keep it, the same in every pass.
+struct Bin {
+    uint primitive;
+    uint view;
+    uint resolution;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    ivec2 lower;
+    ivec2 upper;
+    bool many;
+};
+
+// False where no cell of the view keeps the triangle.
+bool bin_begin(uint primitive, uint place, out Bin bin) {
+    bin.primitive = primitive;
+    bin.view = bin_view(place);
+    bin.resolution = abuffer_resolution(abuffer_built, bin.view);
+    abuffer_view_vertices(abuffer_built, primitive, bin.view, bin.a, bin.b, bin.c);
+    float margin = 0.0;
+    if (abuffer_conservative()) {
+        margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
+    }
+    bool any_cell = coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper);
+    bin.many = bin_is_many(bin.lower, bin.upper);
+    return any_cell;
+}
+
+void bin_visit(Bin bin, ivec2 place) {
+#if BIN_VISIT == BIN_VISIT_FRINGE
+    abuffer_visit_fringe(bin.primitive, bin.view, place);
+#else
+    CellCoverage coverage;
+    if (!abuffer_covers(bin.a, bin.b, bin.c, place, bin.resolution, coverage)) {
+        return;
+    }
+    uint cell = abuffer_cell(abuffer_built, bin.view, place);
+#if BIN_VISIT == BIN_VISIT_BOUNDS
+    abuffer_visit_bounds(bin.primitive, cell, coverage);
+#elif BIN_VISIT == BIN_VISIT_COUNT
+    abuffer_visit_count(bin.primitive, cell, coverage);
+#elif BIN_VISIT == BIN_VISIT_STORE
+    abuffer_visit_store(bin.primitive, cell, coverage);
+#endif
+#endif
+}
+
+#endif

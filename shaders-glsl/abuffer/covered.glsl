@@ -1,0 +1,39 @@
+// What: which cells a triangle covers in a view, and at which depth, the same for every builder.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: nothing.
+#ifndef ABUFFER_COVERED_GLSL
+#define ABUFFER_COVERED_GLSL
+
+#include "contract/alpha.glsl"
+#include "ads/coverage.glsl"
+#include "ads/overlap.glsl"
+#include "abuffer/vertices.glsl"
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+    uint abuffer_first_view;
+};
+
+// Whether a triangle reaches into a cell, and its depths there. a, b, c in the view.
+bool abuffer_overlaps(AbufferRef s, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out vec2 depths) {
+    float half_side = 1.0 / float(resolution) + abuffer_fringe_margin(s, a, b, c);
+    return overlap_at(abuffer_near_size(s), overlap_begin(a, b, c), coverage_center(place, resolution), half_side, depths);
+}
+
+// Whether a cell keeps a fragment there: where triangles are tested, masks are looked up at the hit.
+bool abuffer_keeps(uint primitive, CellCoverage coverage) {
+    return abuffer_conservative() || alpha_accepts(primitive, coverage.barycentrics);
+}
+
+// Whether a triangle covers the centre of a cell, and what it is there. a, b, c in the view.
+bool abuffer_covers(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out CellCoverage coverage) {
+    bool covered = coverage_at_center(a, b, c, place, resolution, coverage);
+    if (covered && abuffer_conservative()) {
+        // Of the triangle itself, rounding included, not of its plane.
+        vec2 depths;
+        bool known = abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths);
+        coverage.extent = known ? max(depths.y - coverage.z, coverage.z - depths.x) : uintBitsToFloat(0x7F800000u);
+    }
+    return covered;
+}
+
+#endif

@@ -1,0 +1,26 @@
+// What: triangles with many cells of a view, which binning builders leave to a pass with workgroups for each.
+// The including file says where they are kept: PairRef, PAIR_HEADER(s) with pairs and groups, PAIR_WORD(s, place), PAIR_CAPACITY(s).
+// Reads, writes: pairs, header.pairs, header.groups.
+#ifndef ADS_BIN_PAIRS_GLSL
+#define ADS_BIN_PAIRS_GLSL
+
+// Leaves a pair to the pass for many cells: the view times the number of triangles, and the triangle. Those beyond the
+// capacity are counted only.
+void bin_leave(PairRef s, uint pair) {
+    uint place = atomicAdd(PAIR_HEADER(s).pairs, 1u);
+    if (place >= PAIR_CAPACITY(s)) {
+        return;
+    }
+    PAIR_WORD(s, place) = pair;
+    atomicMax(PAIR_HEADER(s).groups[0], min(place + 1u, BIN_PAIR_ROW));
+    atomicMax(PAIR_HEADER(s).groups[1], place / BIN_PAIR_ROW + 1u);
+}
+
+// The pair of a workgroup. False where there are not so many.
+bool bin_left(PairRef s, uint place, out uint pair) {
+    bool left = place < min(PAIR_HEADER(s).pairs, PAIR_CAPACITY(s));
+    pair = left ? PAIR_WORD(s, place) : 0u;
+    return left;
+}
+
+#endif

@@ -1,0 +1,38 @@
+// What: the one place that says what binning passes do with a triangle in a view. A structure whose fragments may be built by
+// computing has a file binned.glsl that includes ads/bin_pairs.glsl and defines bin_built, a PairRef, and
+//   uint bin_view_count()                                     views that are built
+//   Bin                                                       a triangle in a view, with `lower` and `upper`, the first and last
+//                                                             cell that the pass may visit, and whether they are `many`
+//   bool bin_begin(uint primitive, uint view, out Bin bin)    false where no pass visits a cell
+//   void bin_visit(Bin bin, ivec2 place)                      what the pass BIN_VISIT does in a cell
+// Every pass finds the same triangles to have many cells. BIN_VISIT_PAIRS only leaves those to the passes for many.
+// Reads, writes: see the structure.
+#ifndef ADS_BIN_SELECT_GLSL
+#define ADS_BIN_SELECT_GLSL
+
+#include "contract/structures.glsl"
+#include "ads/constants.glsl"
+
+#define BIN_VISIT_PAIRS 0
+#define BIN_VISIT_BOUNDS 1
+#define BIN_VISIT_COUNT 2
+#define BIN_VISIT_STORE 3
+#define BIN_VISIT_FRINGE 4
+#define BIN_VISIT_VOXELS 5
+
+bool bin_is_many(ivec2 lower, ivec2 upper) {
+    ivec2 size = upper - lower + 1;
+    return size.x * size.y > BIN_CELLS;
+}
+
+#if STRUCTURE == STRUCTURE_ABUFFER
+#include "abuffer/binned.glsl"
+#elif STRUCTURE == STRUCTURE_LDC
+#include "ldc/binned.glsl"
+#elif STRUCTURE == STRUCTURE_VOXEL
+#include "voxel/binned.glsl"
+#else
+#error "STRUCTURE names no structure that is binned: add it to ads/bin_select.glsl"
+#endif
+
+#endif

@@ -1,0 +1,63 @@
+// What: what a binning pass of a layered depth cube does with a triangle in the view it faces most; BIN_VISIT says which pass it
+// is.
+// Reads: geometry, header, with ALPHA_SCENE the scene; lists, depths, payload. Writes: see ldc/visit.glsl.
+// Source: Bürger et al. section 1.2, by computing instead of drawing. The same functions decide as in the raster builder.
+#ifndef LDC_BINNED_GLSL
+#define LDC_BINNED_GLSL
+
+#include "ads/constants.glsl"
+#include "ldc/visit.glsl"
+#if BIN_VISIT == BIN_VISIT_FRINGE
+#include "ldc/visit_fringe.glsl"
+#endif
+
+// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+#define PairRef LdcRef
+#define PAIR_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + place]
+#define PAIR_HEADER(s) LDC_HEADER(s)
+#define PAIR_CAPACITY(s) LDC_HEADER(s).pair_capacity
+#include "ads/bin_pairs.glsl"
+
+#define bin_built ldc_built
+
+uint bin_view_count() {
+    return 1u;
+}
+
+// A triangle in the view it faces most, and the first and last cell that may keep it, the same in every pass.
+struct Bin {
+    uint primitive;
+    uint axis;
+    ivec2 lower;
+    ivec2 upper;
+    bool many;
+};
+
+bool bin_begin(uint primitive, uint view, out Bin bin) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    bin.primitive = primitive;
+    bin.axis = axis_of_triangle(a, b, c);
+    bool has_area = triangle_has_area(a, b, c);
+    AxisView seen = ldc_built_view(bin.axis);
+    // Half a cell to its sides, and what the test of overlap adds for rounding.
+    float margin = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
+    bool any_cell = axis_cells(seen, axis_from_world(seen, a), axis_from_world(seen, b), axis_from_world(seen, c), margin,
+        bin.lower, bin.upper);
+    bin.many = bin_is_many(bin.lower, bin.upper);
+    return has_area && any_cell;
+}
+
+void bin_visit(Bin bin, ivec2 place) {
+#if BIN_VISIT == BIN_VISIT_COUNT
+    ldc_visit_count(bin.primitive, bin.axis, place);
+#elif BIN_VISIT == BIN_VISIT_STORE
+    ldc_visit_store(bin.primitive, bin.axis, place);
+#elif BIN_VISIT == BIN_VISIT_FRINGE
+    ldc_visit_fringe(bin.primitive, bin.axis, place);
+#endif
+}
+
+#endif

@@ -1,0 +1,41 @@
+// What: what the build does with a triangle in a cell of its view, the same for every builder: it counts, or stores.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks; scratch, header.layer_demand,
+// header.beyond.
+// Source: Bürger et al. sections 1.2 and 1.3.
+#ifndef LDC_VISIT_GLSL
+#define LDC_VISIT_GLSL
+
+#include "contract/alpha.glsl"
+#include "ldc/blocks.glsl"
+#include "ldc/covered.glsl"
+
+// Lengthens the cell's list, or in a second draw of layers that are peeled lets it grow from where it begins to where it ends.
+void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
+    float z;
+    vec2 barycentrics;
+    if (ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) && alpha_accepts(primitive, barycentrics)) {
+        uint layer = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, axis, cell)], 1u);
+        if (LDC_BUILD == LDC_BUILD_PEEL && build_step == 0u) {
+            ldc_count_layer(ldc_built, layer);
+        }
+    }
+}
+
+void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
+    float z;
+    vec2 barycentrics;
+    if (!ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) || !alpha_accepts(primitive, barycentrics)) {
+        return;
+    }
+    uint place = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, axis, cell)], 1u);
+    if (place >= LDC_HEADER(ldc_built).capacity) {
+        return;
+    }
+    uint bits = ldc_depth_bits(ldc_built, z);
+    ldc_add_depth(ldc_built, place, bits);
+    ldc_set_primitive(ldc_built, place, primitive);
+    float stored = ldc_depth_of_bits(ldc_built, bits);
+    ldc_widen_blocks(ldc_built, axis, cell, stored, stored);
+}
+
+#endif

@@ -1,0 +1,78 @@
+// What: what a binning pass of voxels with axis A-buffers does with a triangle in a view; BIN_VISIT says which pass it is.
+// Reads: geometry, header, voxels, with PAYLOAD_ATTRIBUTES the scene. Writes: see voxel/visit.glsl and voxel/visit_voxels.glsl.
+// Source: Hu et al. section 3.1, by computing instead of drawing. The same functions decide as in the raster builder.
+#ifndef VOXEL_BINNED_GLSL
+#define VOXEL_BINNED_GLSL
+
+#include "ads/constants.glsl"
+#include "voxel/visit.glsl"
+#include "voxel/visit_voxels.glsl"
+
+// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+#define PairRef VoxelRef
+#define PAIR_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + place]
+#define PAIR_HEADER(s) VOXEL_HEADER(s)
+#define PAIR_CAPACITY(s) VOXEL_HEADER(s).pair_capacity
+#include "ads/bin_pairs.glsl"
+
+#define bin_built voxel_built
+
+// Voxels are marked in the view that a triangle faces most, which is the first where it is kept in no other.
+uint bin_view_count() {
+    return VOXEL_AXES == VOXEL_AXES_TRIANGLE ? 1u : AXIS_VIEWS;
+}
+
+// A triangle in a view, and the first and last cell that may keep it; of the pass that marks voxels, the first and last column
+// of voxels.
+struct Bin {
+    uint primitive;
+    uint axis;
+    ivec2 lower;
+    ivec2 upper;
+    bool many;
+};
+
+bool bin_begin(uint primitive, uint view, out Bin bin) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    uint faced = axis_of_triangle(a, b, c);
+    bin.primitive = primitive;
+    bin.axis = VOXEL_AXES == VOXEL_AXES_TRIANGLE ? faced : view;
+    AxisView seen = voxel_view(voxel_built, bin.axis);
+    vec3 pa = axis_from_world(seen, a);
+    vec3 pb = axis_from_world(seen, b);
+    vec3 pc = axis_from_world(seen, c);
+    // Half a cell to its sides, and what the tests of overlap add for rounding.
+    float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
+    bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
+    bin.many = kept && bin_is_many(bin.lower, bin.upper);
+    bool marked = VOXEL_AXES != VOXEL_AXES_ALL && bin.axis == faced && triangle_has_area(a, b, c);
+    ivec2 lower;
+    ivec2 upper;
+    AxisView columns = voxel_column_view(voxel_built, bin.axis);
+    marked = marked && axis_cells(columns, pa, pb, pc, 0.5 + VOXEL_SLACK + 1.0 / 32.0, lower, upper);
+    bin.many = bin.many || (marked && bin_is_many(lower, upper));
+#if BIN_VISIT == BIN_VISIT_VOXELS
+    bin.lower = lower;
+    bin.upper = upper;
+    return marked;
+#elif BIN_VISIT == BIN_VISIT_PAIRS
+    return kept || marked;
+#else
+    return kept;
+#endif
+}
+
+void bin_visit(Bin bin, ivec2 place) {
+#if BIN_VISIT == BIN_VISIT_VOXELS
+    voxel_visit_voxels(bin.primitive, bin.axis, place);
+#elif BIN_VISIT == BIN_VISIT_COUNT
+    voxel_visit_count(bin.primitive, bin.axis, place);
+#elif BIN_VISIT == BIN_VISIT_STORE
+    voxel_visit_store(bin.primitive, bin.axis, place);
+#endif
+}
+
+#endif

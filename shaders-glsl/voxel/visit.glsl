@@ -1,0 +1,53 @@
+// What: what the build does with a triangle in a cell of a view, the same for every builder: it counts, or stores.
+// Reads: geometry, header, voxels (one axis a voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists, fragments, header;
+// voxels and normals.
+// Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2: in the view of its voxel's axis
+// only.
+#ifndef VOXEL_VISIT_GLSL
+#define VOXEL_VISIT_GLSL
+
+#include "voxel/covered.glsl"
+#include "voxel/mask.glsl"
+#ifdef PAYLOAD_ATTRIBUTES
+#include "voxel/attributes.glsl"
+#endif
+
+void voxel_visit_count(uint primitive, uint axis, ivec2 cell) {
+    VoxelFound found;
+    if (!voxel_fragment(primitive, axis, cell, found) || !voxel_mask_keeps(primitive, found.barycentrics)) {
+        return;
+    }
+    if (VOXEL_AXES == VOXEL_AXES_ALL) {
+        voxel_fill(primitive, found);
+    } else if (!voxel_keeps(voxel_built, found.voxel, axis)) {
+        return;
+    }
+    voxel_list_count_one(voxel_built, found.list);
+}
+
+void voxel_visit_store(uint primitive, uint axis, ivec2 cell) {
+    VoxelFound found;
+    if (!voxel_fragment(primitive, axis, cell, found) || !voxel_mask_keeps(primitive, found.barycentrics)
+        || !voxel_keeps(voxel_built, found.voxel, axis)) {
+        return;
+    }
+    if (VOXEL_AXES == VOXEL_AXES_ALL && !voxel_contiguous()) {
+        voxel_fill(primitive, found);
+    }
+    uint place = voxel_allocate(voxel_built, found.list);
+    if (place == VOXEL_NO_PLACE) {
+        return;
+    }
+    voxel_set_word(voxel_built, place, 0u, floatBitsToUint(found.z));
+#ifdef PAYLOAD_ATTRIBUTES
+    uvec3 words = voxel_pack_attributes(primitive, found.barycentrics);
+    for (uint word = 0u; word < 3u; word++) {
+        voxel_set_word(voxel_built, place, word + 1u, words[word]);
+    }
+#else
+    voxel_set_word(voxel_built, place, 1u, primitive);
+#endif
+    voxel_link(voxel_built, found.list, place);
+}
+
+#endif

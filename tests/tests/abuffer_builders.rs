@@ -1,0 +1,137 @@
+//! Both builders of A-buffers store the same fragments: what is drawn and what is computed.
+
+use rasray_abuffer::{
+    ABuffer, Accept, Addressing, Builder, Config, Contents, Coverage, Demand, Storage, Views, plan,
+};
+use rasray_ads::{CameraView, Check, Hit, Ray, Structure, Viewpoint};
+use rasray_gpu::Timing;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, all_sizes};
+use rasray_tracer::build_until_complete;
+
+/// Triangles of all sizes, with some that span the faces of a cube and pass the eye closely.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = all_sizes();
+    let mut random = Random::new(0x6275);
+    for _ in 0..40 {
+        triangles.push([random.point(-9.0, 9.0), random.point(-9.0, 9.0), random.point(-9.0, 9.0)]);
+    }
+    triangles
+}
+
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(0x6c64);
+    (0..count).map(|_| Ray::new(random.point(-2.0, 2.0), random.direction())).collect()
+}
+
+fn viewpoint(config: &Config, eye: [f32; 3]) -> Viewpoint {
+    let camera = CameraView {
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 0.8, 0.6],
+        forward: [0.0, -0.6, 0.8],
+        half_width: 0.7,
+        half_height: 0.5,
+    };
+    Viewpoint { eye, camera: config.views.has_camera().then_some(camera) }
+}
+
+struct Built {
+    contents: Contents,
+    hits: Vec<[u32; 4]>,
+    stored: Option<u64>,
+}
+
+fn built(bench: &Bench, triangles: &[Triangle], config: Config, eye: [f32; 3], rays: &[Ray]) -> Built {
+    let geometry = bench.geometry(triangles);
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    let viewpoint = viewpoint(&config, eye);
+    build_until_complete(bench.device(), &mut structure, viewpoint, Timing::None)
+        .expect("the build completes");
+    let report = structure.report().expect("the header is readable");
+    let parts = report.bytes_by_part.iter().filter(|(part, _)| *part != "slack");
+    assert_eq!(parts.map(|(_, bytes)| bytes).sum::<u64>(), report.formula_bytes, "{config:?}");
+    let hits = bench.trace(&structure, rays).hits.iter().map(bits).collect();
+    let contents = structure.download(bench.device()).expect("the device works");
+    Built { contents, hits, stored: report.stored }
+}
+
+#[test]
+fn both_builders_store_the_same_fragments() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(2000));
+    let mut compared = 0;
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
+        for (coverage, accept, views, resolution, eye) in [
+            (Coverage::Exact, Accept::Plane, Views::Cube, 37, [0.0; 3]),
+            (Coverage::Exact, Accept::Interval, Views::CubeCamera, 64, [0.3, -0.7, 0.2]),
+            (Coverage::Conservative, Accept::Plane, Views::Cube, 48, [12.0, 1.0, -3.0]),
+            (Coverage::Conservative, Accept::Plane, Views::CubeCamera, 5, [0.1, 0.0, 0.0]),
+            (Coverage::Exact, Accept::Plane, Views::Cube, 1, [0.0; 3]),
+        ] {
+            let addressing = if index % 2 == 0 { Addressing::Descriptor } else { Addressing::Address };
+            let config = Config {
+                storage,
+                coverage,
+                accept,
+                views,
+                camera_resolution: resolution + 9,
+                addressing,
+                ..Config::robust(resolution)
+            };
+            let [drawn, computed] = Builder::ALL
+                .map(|builder| built(&bench, &triangles, Config { builder, ..config }, eye, &rays));
+            let name = format!("{storage:?}, {coverage:?}, {views:?}, {resolution} cells a side");
+            // A view of few cells is gone through at once.
+            assert_eq!(computed.contents.header.pairs > 0, resolution > 1, "{name}");
+            assert_eq!(drawn.contents.header.pairs, 0, "{name}");
+            assert_eq!(drawn.stored, computed.stored, "{name}");
+            assert_eq!(drawn.contents.header.lost, computed.contents.header.lost, "{name}");
+            assert!(drawn.hits == computed.hits, "{name}: other hits");
+            assert!(drawn.hits.iter().any(|hit| hit[1] != u32::MAX), "{name}: nothing is hit");
+            // Sorted contiguous lists have one order; what is decoupled stands where threads put it.
+            if storage == Storage::Sb {
+                assert!(drawn.contents.lists == computed.contents.lists, "{name}: other lists");
+                compared += 1;
+            }
+        }
+    }
+    assert_eq!(compared, 5);
+}
+
+/// What has no room among the triangles with many cells is counted and grown, and nothing is answered until it has.
+#[test]
+fn every_edge_capacity_of_pairs() {
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays(500));
+    let geometry = bench.geometry(&triangles);
+    let config = Config { builder: Builder::Binning, ..Config::robust(48) };
+    let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    let mut build = |pairs| {
+        let demand = Demand {
+            nodes: 1 << 20,
+            near_triangles: 1 << 10,
+            triangles: triangles.len() as u64,
+            pairs,
+            ..Demand::default()
+        };
+        let sizes = plan(&config, demand).expect("in range");
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        let status = bench.build_once(&mut structure, [0.0; 3]);
+        let grown = match structure.check(&status) {
+            Check::Complete => None,
+            Check::Grow(sizes) => Some(sizes.elements("scratch")),
+        };
+        let hits: Vec<Hit> = if status.complete { bench.trace(&structure, &rays).hits } else { Vec::new() };
+        (status, grown, hits)
+    };
+    let (ample, grown, expected) = build(1 << 16);
+    let pairs = ample.demand("pairs").expect("the pool has a status");
+    assert!(ample.complete && grown.is_none() && pairs > 10, "{ample:?}");
+    for room in [0, 1, pairs / 2, pairs - 1] {
+        let (status, grown, _) = build(room);
+        assert_eq!((status.complete, status.demand("pairs"), grown), (false, Some(pairs), Some(pairs)));
+    }
+    let (status, _, hits) = build(pairs);
+    assert!(status.complete && hits == expected);
+}
