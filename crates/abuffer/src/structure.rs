@@ -14,7 +14,7 @@ use crate::layout::{
     Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
     widest_view,
 };
-use crate::{Accept, Config, Contents, Header, Storage};
+use crate::{Accept, Builder, Config, Contents, Header, Storage};
 
 /// A multiview, multilayer A-buffer.
 #[derive(Debug)]
@@ -67,7 +67,9 @@ impl ABuffer {
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
-        requirements.required.push(Feature::FragmentStoresAndAtomics);
+        if config.builder == Builder::Raster {
+            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        }
         config.addressing.add_to(&mut requirements);
         requirements
     }

@@ -13,7 +13,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, first_plan, formula_bytes, layer_capacity, long_capacity, pair_capacity, plan, scratch_words,
 };
-use crate::{Config, Contents, Header};
+use crate::{Builder, Config, Contents, Header};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most.
 #[derive(Debug)]
@@ -65,7 +65,9 @@ impl LayeredDepthCube {
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
-        requirements.required.push(Feature::FragmentStoresAndAtomics);
+        if config.builder == Builder::Raster {
+            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        }
         config.addressing.add_to(&mut requirements);
         requirements
     }

@@ -13,7 +13,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, cube, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
 };
-use crate::{Accept, Config, Contents, Coverage, Header, March, Storage};
+use crate::{Accept, Builder, Config, Contents, Coverage, Header, March, Storage};
 
 /// Lists as long as the longest that a ray is given the rounds to read.
 const LONG_LISTS_A_RAY: u32 = 64;
@@ -68,7 +68,9 @@ impl Voxels {
     /// What a device must and may offer for a configuration.
     pub fn requirements_of(config: &Config) -> Requirements {
         let mut requirements = Requirements::floor();
-        requirements.required.push(Feature::FragmentStoresAndAtomics);
+        if config.builder == Builder::Raster {
+            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        }
         config.addressing.add_to(&mut requirements);
         requirements
     }

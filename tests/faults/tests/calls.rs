@@ -18,9 +18,9 @@ const SYSTEMS: [(&str, Counts<usize>); 2] = [
     ("mmrt", Counts { quick: 8, software: 100, full: ALL }),
 ];
 
-/// After so many failed calls it is looked whether the next render gives the same picture. What is left behind is looked
-/// for after each.
-const LOOK: usize = 6;
+/// After so many failed calls it is looked whether the next render gives the same picture; in the full tier after each, as
+/// always for what is left behind.
+const LOOK: Counts<usize> = Counts { quick: 6, software: 1, full: 1 };
 
 /// What must be as before after a failure.
 #[derive(Debug, PartialEq)]
@@ -78,6 +78,7 @@ fn chosen(calls: &[&'static str], count: usize) -> Vec<usize> {
 #[test]
 fn each_failing_call_of_a_render_is_one_typed_error_and_leaves_nothing_behind() {
     let device = device().expect("a device");
+    let look = LOOK.on(&device, "failed calls between looks at the next render");
     for (system, counts) in SYSTEMS {
         let count = counts.on(&device, &format!("failing calls of a render through {system}, at most"));
         let spec = spec(system, "robust").expect("registered");
@@ -110,7 +111,7 @@ fn each_failing_call_of_a_render_is_one_typed_error_and_leaves_nothing_behind() 
                 }
             }
             assert_eq!(inventory(&device), before, "{injected:?} at {index} leaves something behind");
-            if number % LOOK == 0 || number + 1 == indices.len() {
+            if number % look == 0 || number + 1 == indices.len() {
                 assert_eq!(picture(&device, &spec).expect("the next run"), expected, "after {injected:?}");
             }
         }
