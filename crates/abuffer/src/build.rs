@@ -2,12 +2,14 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit};
+use rasray_ads::{
+    AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
+};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::{cell_count, draws, long_capacity};
-use crate::{Builder, Config, Header, March, Payload, Storage};
+use crate::{Config, Header, March, Payload, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -54,17 +56,8 @@ impl Build {
         }
         let masked = if alpha { ".alpha" } else { "" };
         let stored = if attributes { ".attributes" } else { masked };
-        let visit = |vertex, name: &str, variant: &str| match config.builder {
-            Builder::Raster => {
-                Visit::drawn(pipelines, &format!("abuffer/{name}"), vertex, &format!("{name}{variant}"))
-            }
-            Builder::Binning => {
-                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
-                let groups = offset_of!(Header, groups);
-                Visit::binned(pipelines, &format!("abuffer/{name}"), &bin, &many, groups)
-            }
-        };
-        let covered = |name, variant| visit("build_raster", name, variant);
+        let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
+        let covered = |name, variant| visits.visit("build_raster", name, variant);
         let bucketed = config.storage.is_bucketed();
         let scaled = bucketed && config.accept.needs_triangles();
         let lengths = || -> Result<Lengths, AdsError> {
@@ -81,16 +74,14 @@ impl Build {
         };
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            pairs: (config.builder == Builder::Binning)
-                .then(|| PairsPass::new(pipelines, "build_1_pairs"))
-                .transpose()?,
+            pairs: visits.pairs("build_1_pairs")?,
             bounds: bucketed.then(|| covered("build_2_bounds", masked)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: covered("build_6_store", stored)?,
             fringe: config
                 .has_fringe()
-                .then(|| visit("build_raster.fringe", "build_7_fringe", ""))
+                .then(|| visits.visit("build_raster.fringe", "build_7_fringe", ""))
                 .transpose()?,
             lost: pipelines.compute("build_7_lost")?,
             pyramid: (config.march == March::Pyramid)
@@ -122,7 +113,7 @@ impl Build {
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
         if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target, "abuffer/build_1_pairs");
+            pairs.record(recorder, target);
         }
         if let Some(bounds) = &self.bounds {
             bounds.record(recorder, target, &draws);

@@ -54,7 +54,7 @@ pub use structure::{
 };
 pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 pub use viewpoint::{CameraView, Viewpoint};
-pub use visit::{Builder, PairsPass, Visit, bin_groups};
+pub use visit::{Builder, PairsPass, Visit, Visits, bin_groups};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

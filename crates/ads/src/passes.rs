@@ -44,6 +44,11 @@ impl<'a> BuildPipelines<'a> {
         Self { device, modules, sets, constants }
     }
 
+    /// The label of the pass that a module of that name makes.
+    pub(crate) fn label(&self, name: &str) -> String {
+        format!("{}/{name}", self.modules.prefix)
+    }
+
     /// A compute pass of that name.
     ///
     /// # Errors

@@ -102,19 +102,56 @@ fn triangle_groups(target: BuildTarget<'_>) -> u64 {
 
 /// The pass before all visits by computing: finds the triangles with many cells of a view.
 #[derive(Debug)]
-pub struct PairsPass(ComputePipeline);
+pub struct PairsPass {
+    label: String,
+    pipeline: ComputePipeline,
+}
 
 impl PairsPass {
+    /// Records it.
+    pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+        let readers = Access::COMPUTE | Access::INDIRECT_READ;
+        target.compute_pass(recorder, &self.label, &self.pipeline, triangle_groups(target), 0, readers);
+    }
+}
+
+/// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader `build_2_bounds.alpha`
+/// has compute shaders `build_2_bounds_bin.alpha` and `build_2_bounds_bin_many.alpha` beside it.
+#[derive(Clone, Copy, Debug)]
+pub struct Visits<'a> {
+    /// What makes pipelines.
+    pub pipelines: &'a BuildPipelines<'a>,
+    /// Who builds.
+    pub builder: Builder,
+    /// Byte of the header that says how many workgroups triangles with many cells of a view get: three u32.
+    pub groups: usize,
+}
+
+impl Visits<'_> {
+    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader.
+    ///
     /// # Errors
-    /// The module is not compiled in, or the device refuses it.
-    pub fn new(pipelines: &BuildPipelines<'_>, name: &str) -> Result<Self, AdsError> {
-        pipelines.compute(name).map(Self)
+    /// A module is not compiled in, or the device refuses it.
+    pub fn visit(&self, vertex: &str, name: &str, variant: &str) -> Result<Visit, AdsError> {
+        let label = self.pipelines.label(name);
+        match self.builder {
+            Builder::Raster => Visit::drawn(self.pipelines, &label, vertex, &format!("{name}{variant}")),
+            Builder::Binning => {
+                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
+                Visit::binned(self.pipelines, &label, &bin, &many, self.groups)
+            }
+        }
     }
 
-    /// Records it.
-    pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, label: &str) {
-        let readers = Access::COMPUTE | Access::INDIRECT_READ;
-        target.compute_pass(recorder, label, &self.0, triangle_groups(target), 0, readers);
+    /// The pass of that name before all visits, where they compute.
+    ///
+    /// # Errors
+    /// The module is not compiled in, or the device refuses it.
+    pub fn pairs(&self, name: &str) -> Result<Option<PairsPass>, AdsError> {
+        let made = || -> Result<PairsPass, AdsError> {
+            Ok(PairsPass { label: self.pipelines.label(name), pipeline: self.pipelines.compute(name)? })
+        };
+        (self.builder == Builder::Binning).then(made).transpose()
     }
 }
 

@@ -2,13 +2,15 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit};
+use rasray_ads::{
+    AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+};
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, long_capacity};
-use crate::{Builder, Config, Coverage, Depth, Header, Making, Payload};
+use crate::{Config, Coverage, Depth, Header, Making, Payload};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
 const DRAWS: u32 = 1;
@@ -54,19 +56,12 @@ impl Build {
             SceneBinding::for_attributes(scene)?;
         }
         let masked = if alpha { ".alpha" } else { "" };
-        let visit = |vertex, name: &str, variant: &str| match config.builder {
-            Builder::Raster => {
-                Visit::drawn(pipelines, &format!("ldc/{name}"), vertex, &format!("{name}{variant}"))
-            }
-            Builder::Binning => {
-                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
-                Visit::binned(pipelines, &format!("ldc/{name}"), &bin, &many, offset_of!(Header, groups))
-            }
-        };
+        let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
+        let covered = |name| visits.visit("build_raster", name, masked);
         let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
         let layers = match config.making {
             Making::Single => Layers::Single {
-                store: visit("build_raster", "build_3_store", masked)?,
+                store: covered("build_3_store")?,
                 sort: pipelines.compute("build_5_sort")?,
                 sort_long: pipelines.compute("build_6_sort_long")?,
             },
@@ -74,13 +69,11 @@ impl Build {
         };
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
-            pairs: (config.builder == Builder::Binning)
-                .then(|| PairsPass::new(pipelines, "build_0_pairs"))
-                .transpose()?,
-            count: visit("build_raster", "build_1_count", masked)?,
+            pairs: visits.pairs("build_0_pairs")?,
+            count: covered("build_1_count")?,
             scan: Scan::new(pipelines, "build_2_scan")?,
             layers,
-            fringe: kept.then(|| visit("build_raster.fringe", "build_4_fringe", "")).transpose()?,
+            fringe: kept.then(|| visits.visit("build_raster.fringe", "build_4_fringe", "")).transpose()?,
             attributes: stored.then(|| pipelines.compute("build_7_attributes")).transpose()?,
             status: pipelines.compute("build_8_status")?,
         })
@@ -100,7 +93,7 @@ impl Build {
         };
         target.pools.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target, "ldc/build_0_pairs");
+            pairs.record(recorder, target);
         }
         let views = [ViewDraw { side, views: DRAWS, first: 0 }];
         self.count.record(recorder, target, &views);

@@ -2,13 +2,15 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit};
+use rasray_ads::{
+    AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Builder, Config, Header, Payload, Storage};
+use crate::{Axes, Config, Header, Payload, Storage};
 
 /// What counts the lengths of contiguous lists and turns them into places.
 #[derive(Debug)]
@@ -52,18 +54,10 @@ impl Build {
         }
         let masked = if alpha { ".alpha" } else { "" };
         let variant = if stored { ".attributes" } else { masked };
-        let visit = |vertex, name: &str, variant: &str| match config.builder {
-            Builder::Raster => {
-                Visit::drawn(pipelines, &format!("voxel/{name}"), vertex, &format!("{name}{variant}"))
-            }
-            Builder::Binning => {
-                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
-                Visit::binned(pipelines, &format!("voxel/{name}"), &bin, &many, offset_of!(Header, groups))
-            }
-        };
-        let voxels = || visit("build_columns", "build_1_voxels", "");
+        let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
+        let voxels = || visits.visit("build_columns", "build_1_voxels", "");
         let lengths = || -> Result<Lengths, AdsError> {
-            let count = visit("build_raster", "build_3_count", masked)?;
+            let count = visits.visit("build_raster", "build_3_count", masked)?;
             Ok(Lengths { count, scan: Scan::new(pipelines, "build_4_scan")? })
         };
         let sort = || -> Result<Sort, AdsError> {
@@ -71,13 +65,11 @@ impl Build {
             Ok(Sort { all, long: pipelines.compute("build_7_sort_long")? })
         };
         Ok(Self {
-            pairs: (config.builder == Builder::Binning)
-                .then(|| PairsPass::new(pipelines, "build_0_pairs"))
-                .transpose()?,
+            pairs: visits.pairs("build_0_pairs")?,
             voxels: (config.axes != Axes::All).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: visit("build_raster", "build_5_store", variant)?,
+            store: visits.visit("build_raster", "build_5_store", variant)?,
             sort: config.sorts().then(sort).transpose()?,
             longest: (!config.sorts()).then(|| pipelines.compute("build_6_longest")).transpose()?,
             status: pipelines.compute("build_8_status")?,
@@ -101,7 +93,7 @@ impl Build {
 
         target.pools.record_header(recorder, "voxel/build_0_clear", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target, "voxel/build_0_pairs");
+            pairs.record(recorder, target);
         }
         if let Some(voxels) = &self.voxels {
             voxels.record(recorder, target, &columns);
