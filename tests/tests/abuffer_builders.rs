@@ -49,8 +49,7 @@ fn built(bench: &Bench, triangles: &[Triangle], config: Config, eye: [f32; 3], r
     build_until_complete(bench.device(), &mut structure, viewpoint, Timing::None)
         .expect("the build completes");
     let report = structure.report().expect("the header is readable");
-    let parts = report.bytes_by_part.iter().filter(|(part, _)| *part != "slack");
-    assert_eq!(parts.map(|(_, bytes)| bytes).sum::<u64>(), report.formula_bytes, "{config:?}");
+    assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{config:?}");
     let hits = bench.trace(&structure, rays).hits.iter().map(bits).collect();
     let contents = structure.download(bench.device()).expect("the device works");
     Built { contents, hits, stored: report.stored }

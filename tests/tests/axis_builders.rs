@@ -20,8 +20,7 @@ fn rays() -> Vec<Ray> {
 fn built(bench: &Bench, structure: &mut dyn Structure, name: &str) -> (Vec<[u32; 4]>, u64) {
     build_until_complete(bench.device(), structure, [0.0; 3], Timing::None).expect("the build completes");
     let report = structure.report().expect("the header is readable");
-    let parts = report.bytes_by_part.iter().filter(|(part, _)| *part != "slack");
-    assert_eq!(parts.map(|(_, bytes)| bytes).sum::<u64>(), report.formula_bytes, "{name}");
+    assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{name}");
     let hits = bench.trace(structure, &rays()).hits.iter().map(bits).collect();
     let status = structure.status().expect("the header is readable");
     (hits, status.demand("pairs").expect("the pool has a status"))

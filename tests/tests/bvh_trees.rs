@@ -46,7 +46,7 @@ fn rebuild(bench: &Bench, bvh: &mut Bvh, triangles: &[Triangle]) -> Contents {
     build_until_complete(bench.device(), bvh, [0.0; 3], Timing::None).expect("the build completes");
     let contents = bvh.download(bench.device()).expect("the tree can be downloaded");
     let report = bvh.report().expect("the header is readable");
-    let slack = report.bytes_by_part.iter().find(|(name, _)| *name == "slack").map_or(0, |(_, bytes)| *bytes);
+    let slack = report.slack();
     assert_eq!(
         report.bytes() - slack,
         report.formula_bytes,

@@ -158,25 +158,12 @@ fn halves_lose_pairs_that_floats_tell_apart() {
     }
 }
 
-/// Triangles over the outermost pixels of the face towards +z, for views of this many pixels a side; a single triangle where
-/// there is one pixel, since a sample names only one.
+/// Triangles over the outermost pixels; a single triangle where there is one pixel, since a sample names only one.
 fn outermost(size: u32) -> Vec<Triangle> {
-    if size == 1 {
-        return vec![[[-15.0, -5.0, 5.0], [15.0, -5.0, 5.0], [0.0, 25.0, 5.0]]];
+    match size {
+        1 => vec![[[-15.0, -5.0, 5.0], [15.0, -5.0, 5.0], [0.0, 25.0, 5.0]]],
+        _ => hard_cases::outermost_pixels(size as usize),
     }
-    let (inner, outer) = ((5.0 * (1.0 - 2.0 / f64::from(size))) as f32, 5.0);
-    let side = |turn: usize| {
-        let corner = |x: f32, y: f32| match turn {
-            0 => [x, y, 5.0],
-            1 => [-y, x, 5.0],
-            2 => [-x, -y, 5.0],
-            _ => [y, -x, 5.0],
-        };
-        let [a, b, c, d] =
-            [corner(inner, -inner), corner(outer, -outer), corner(outer, outer), corner(inner, inner)];
-        [[a, b, c], [a, c, d]]
-    };
-    (0..4).flat_map(side).collect()
 }
 
 /// Rays at points of the face within these triangles, every other one from the eye. None starts as close as a pixel is wide:

@@ -25,10 +25,9 @@ fn made(bench: &Bench, scene: &GpuScene, system: &str, options: &[(&str, &str)])
     build_until_complete(bench.device(), structure.as_mut(), scene.eye(), Timing::None)
         .expect("the build completes");
     let report = structure.report().expect("the header is readable");
-    let slack = report.bytes_by_part.iter().find(|part| part.0 == "slack").map_or(0, |part| part.1);
     assert_eq!(
         report.formula_bytes,
-        report.bytes() - slack,
+        report.bytes() - report.slack(),
         "{system}: what is stored is what the formula says"
     );
     structure

@@ -123,6 +123,11 @@ impl StructureReport {
     pub fn bytes(&self) -> u64 {
         self.bytes_by_part.iter().map(|(_, bytes)| bytes).sum()
     }
+
+    /// Bytes allocated beyond what is filled: the part "slack", 0 where there is none.
+    pub fn slack(&self) -> u64 {
+        self.bytes_by_part.iter().find(|(name, _)| *name == "slack").map_or(0, |(_, bytes)| *bytes)
+    }
 }
 
 /// What a shader of one's own needs to call the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,

@@ -43,6 +43,7 @@ pub use files::{HardFile, Loading, Refusal, file_ids, files};
 pub use grid::Grid;
 pub use random::Stream;
 pub use transforms::{Transformed, transformed};
+pub use views::outermost_pixels;
 
 use case::Entry;
 use rasray_reference::oracle::Ray;

@@ -203,8 +203,9 @@ fn on_face(context: &Context) -> Content {
     Content::new(cube([0.0; 3], 2.0), rays, Expectation::All(Answer::Hit)).seen_from(eye)
 }
 
-fn outer_ring(context: &Context) -> Content {
-    let (inner, outer) = (5.0 * (1.0 - 2.0 / FACE as f32), 5.0);
+/// Triangles over the outermost pixels of the face towards +z, for views of this many pixels a side, at least two.
+pub fn outermost_pixels(size: usize) -> Vec<Triangle> {
+    let (inner, outer) = (5.0 * (1.0 - 2.0 / size as f32), 5.0);
     let side = |turn: usize| {
         let corner = |x: f32, y: f32| match turn {
             0 => [x, y, 5.0],
@@ -214,7 +215,11 @@ fn outer_ring(context: &Context) -> Content {
         };
         quad(corner(inner, -inner), corner(outer, -inner), corner(outer, outer), corner(inner, outer))
     };
-    let triangles: Vec<Triangle> = (0..4).flat_map(side).collect();
+    (0..4).flat_map(side).collect()
+}
+
+fn outer_ring(context: &Context) -> Content {
+    let triangles = outermost_pixels(FACE);
     let rays = context.rays(|random, index| {
         let target = point_on(&triangles[random.below(8)], random.weights(0.02));
         aim(if index % 2 == 0 { [0.0; 3] } else { random.near([0.0; 3], 2.0) }, target)

@@ -246,10 +246,8 @@ impl Built {
     /// Bytes of the structure, by part, with its formula.
     pub(super) fn memory(&self, device: &Device) -> Result<Memory, AppError> {
         let report = self.structure.report().map_err(device_error)?;
-        let slack =
-            report.bytes_by_part.iter().find(|(name, _)| *name == "slack").map_or(0, |(_, bytes)| *bytes);
         Ok(Memory {
-            structure_bytes: Some(report.bytes() - slack),
+            structure_bytes: Some(report.bytes() - report.slack()),
             formula_bytes: Some(report.formula_bytes),
             capacity_bytes: Some(report.bytes()),
             diagnostic_bytes: None,
