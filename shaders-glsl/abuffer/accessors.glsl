@@ -42,7 +42,7 @@ bool abuffer_bucketed() {
 
 // Whether cells know the smallest and largest depth of their fragments.
 bool abuffer_has_ends() {
-    return abuffer_bucketed() || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID;
+    return abuffer_bucketed() || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID || ABUFFER_SINGLE_LAYER != 0u;
 }
 
 // Nodes in pages that are linked.
@@ -78,7 +78,7 @@ uint abuffer_extent_word() {
 }
 
 uint abuffer_data_stride() {
-    return ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX ? 1u : 4u;
+    return ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX || ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL ? 1u : 4u;
 }
 
 // Word of a node's first link: behind the depth, and behind the payload where that is inline.
@@ -110,6 +110,21 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
     uint bits = floatBitsToUint(z);
     atomicMax(ABUFFER_BOUNDS(s)[word], ~bits);
     atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
+}
+
+// The same for one end alone, where only the nearest fragments are kept: the near one is known before they are stored, the
+// far one is that of what is.
+void abuffer_widen_near(AbufferRef s, uint cell, float z) {
+    atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()], ~floatBitsToUint(z));
+}
+
+void abuffer_widen_far(AbufferRef s, uint cell, float z) {
+    atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride() + 1u], floatBitsToUint(z));
+}
+
+// The smallest depth of a cell that has been seen to hold something.
+float abuffer_z_min(AbufferRef s, uint cell) {
+    return uintBitsToFloat(~ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()]);
 }
 
 // Widens the extent of a cell, where it has one.

@@ -24,6 +24,8 @@
 // What a fragment carries.
 #define ABUFFER_PAYLOAD_INDEX 0u
 #define ABUFFER_PAYLOAD_ATTRIBUTES 1u
+#define ABUFFER_PAYLOAD_NORMAL 2u
+#define ABUFFER_PAYLOAD_PLANE 3u
 
 // Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its centre are kept, so
 // that triangles can be tested in place of planes.

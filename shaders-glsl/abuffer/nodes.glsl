@@ -76,11 +76,32 @@ void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     ABUFFER_DATA(s)[(link - 1u) * abuffer_data_stride() + word] = value;
 }
 
-// The order of sorted lists: by depth, ties by the first word of payload.
+// The words of a fragment's payload; zeros behind its last.
+uvec4 abuffer_payload(AbufferRef s, uint link) {
+    uvec4 words = uvec4(0u);
+    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+        words[word] = abuffer_data(s, link, word);
+    }
+    return words;
+}
+
+// Whether a fragment's payload has the lower words, the first that differ.
+bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
+    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+        uint left_word = abuffer_data(s, left, word);
+        uint right_word = abuffer_data(s, right, word);
+        if (left_word != right_word) {
+            return left_word < right_word;
+        }
+    }
+    return false;
+}
+
+// The order of sorted lists: by depth, ties by payload.
 bool abuffer_comes_first(AbufferRef s, uint left, uint right) {
     float left_z = abuffer_z(s, left);
     float right_z = abuffer_z(s, right);
-    return left_z < right_z || (left_z == right_z && abuffer_data(s, left, 0u) <= abuffer_data(s, right, 0u));
+    return left_z < right_z || (left_z == right_z && !abuffer_payload_is_lower(s, right, left));
 }
 
 #endif

@@ -1,5 +1,5 @@
 // What: searches the lists of one cell for the nearest fragment that a ray hits within it.
-// Reads: bounds, lists, nodes, data, fringe, geometry (plane acceptance). Writes: nothing.
+// Reads: bounds, lists, nodes, data, fringe, geometry (plane acceptance of ids). Writes: nothing.
 // Source: MMRT section 3.4. The bucket range, the order and the early ends only skip fragments that
 // the acceptance would refuse, so hits do not depend on them.
 #ifndef ABUFFER_SEARCH_GLSL
@@ -13,6 +13,7 @@
 #include "abuffer/fringe.glsl"
 #include "abuffer/slope.glsl"
 #include "abuffer/seek.glsl"
+#include "abuffer/stored_plane.glsl"
 
 // One search, able to stop between two nodes.
 struct AbufferSearch {
@@ -46,6 +47,36 @@ bool abuffer_meets(AbufferRef s, AbufferSearch search, uint link, float z, float
     }
     vec2 depths = abuffer_slope_depths(s, search.view, search.place, abuffer_data(s, link, 0u), z);
     return depths.x <= ray_z.y && depths.y >= ray_z.x;
+}
+
+// Whether a fragment without an id replaces the best hit: nearer, or as near as another such and lower in its words.
+bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
+    bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
+    return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
+}
+
+// Judges the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if it may. Rays that
+// leave a surface begin a cell off it, so that they need not be told from others. The caller counts the test.
+void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {
+    precise vec3 origin = ray.origin - abuffer_eye(s);
+    float t;
+    uint verdict = TEST_ACCEPTED;
+    if (!abuffer_meets_plane(abuffer_payload(s, link), origin, ray.direction, t)) {
+        verdict = TEST_PARALLEL;
+    } else if (!(t > ray.t_min)) {
+        verdict = TEST_BEFORE;
+    } else if (!(t >= t_low && t <= t_high)) {
+        verdict = TEST_OUTSIDE_CELL;
+    } else if (!(t < ray.t_max)) {
+        verdict = TEST_BEYOND;
+    } else if (!abuffer_is_better(s, best, t, link)) {
+        verdict = TEST_NOT_BETTER;
+    }
+    trace_log(STEP_TEST, PRIMITIVE_UNKNOWN, verdict, 0u, t, 0.0);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, PRIMITIVE_UNKNOWN, 0u, 0u, t, t);
+        best = Hit(t, PRIMITIVE_UNKNOWN, uintBitsToFloat(link), 0.0);
+    }
 }
 
 // Tests a triangle itself. A hit counts wherever it lies. The caller counts the test.
@@ -177,24 +208,25 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
                     abuffer_log_outside(s, current, z);
                     continue;
                 }
-                uint primitive = abuffer_data(s, current, 0u);
                 state.tests++;
                 if (abuffer_conservative()) {
-                    abuffer_test(ray, primitive, state);
+                    abuffer_test(ray, abuffer_data(s, current, 0u), state);
+                } else if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
+                    abuffer_test_stored_plane(s, ray, current, search.t_low, search.t_high, state.best);
                 } else {
-                    test_plane(plane_cell, ray, primitive, search.t_low, search.t_high, state.best);
+                    test_plane(plane_cell, ray, abuffer_data(s, current, 0u), search.t_low, search.t_high, state.best);
                 }
             } else if (abuffer_meets(s, search, current, z, low, high, vec2(near_z, far_z))) {
                 // The hit lies where the ray passes the fragment's depth, within the cell.
                 float t = clamp((z - origin_z) / direction_z, search.t_low, search.t_high);
                 t = direction_z == 0.0 ? search.t_low : t;
                 uint primitive = PRIMITIVE_UNKNOWN;
-                bool better = t < state.best.t;
+                bool better;
                 if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
                     primitive = abuffer_data(s, current, 0u);
                     better = hit_is_better(state.best, t, primitive);
-                } else if (t == state.best.t && state.best.primitive == PRIMITIVE_UNKNOWN) {
-                    better = abuffer_data(s, current, 0u) < abuffer_data(s, floatBitsToUint(state.best.a), 0u);
+                } else {
+                    better = abuffer_is_better(s, state.best, t, current);
                 }
                 // A fragment without an id cannot be the triangle that is excluded.
                 bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;

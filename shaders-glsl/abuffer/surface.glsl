@@ -1,5 +1,5 @@
 // What: the surface at a hit of the A-buffer.
-// Reads: the scene (payload index) or the fragment's own words (payload attributes). Writes: nothing.
+// Reads: the scene (payload index) or the fragment's own words (the other payloads). Writes: nothing.
 // With payload index the hit names a triangle and the barycentrics of the point on its plane.
 #ifndef ABUFFER_SURFACE_GLSL
 #define ABUFFER_SURFACE_GLSL
@@ -7,6 +7,7 @@
 #include "scene/plane_surface.glsl"
 #include "abuffer/nodes.glsl"
 #include "abuffer/attributes.glsl"
+#include "abuffer/stored_plane.glsl"
 
 // The size of a cell at a point: what the A-buffer cannot tell apart, metres.
 float abuffer_footprint(AbufferRef s, vec3 position) {
@@ -22,10 +23,15 @@ Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
         return plane_surface(ray, hit);
     }
     uint link = floatBitsToUint(hit.a);
-    uvec4 words = uvec4(abuffer_data(s, link, 0u), abuffer_data(s, link, 1u), abuffer_data(s, link, 2u),
-        abuffer_data(s, link, 3u));
-    vec3 position = ray.origin + hit.t * ray.direction;
-    return abuffer_attributes_surface(words, ray, hit.t, abuffer_footprint(s, position));
+    uvec4 words = abuffer_payload(s, link);
+    float footprint = abuffer_footprint(s, ray.origin + hit.t * ray.direction);
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
+        return stored_shape(stored_unpack_normal(words.x), ray, hit.t, footprint);
+    }
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
+        return stored_shape(uintBitsToFloat(words.xyz), ray, hit.t, footprint);
+    }
+    return abuffer_attributes_surface(words, ray, hit.t, footprint);
 }
 
 #endif

@@ -19,6 +19,7 @@ layout(constant_id = 17) const uint ABUFFER_STORAGE = ABUFFER_STORAGE_DLLB;
 layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
+layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
 
 // Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
 bool abuffer_conservative() {

@@ -7,31 +7,77 @@
 
 #include "abuffer/covered.glsl"
 #include "abuffer/lists.glsl"
+#include "abuffer/stored_plane.glsl"
 #ifdef PAYLOAD_ATTRIBUTES
 #include "abuffer/attributes.glsl"
 #endif
 
+// How much farther than the nearest a fragment may be that counts as of the same layer, as a share of its depth: triangles
+// that meet in a centre differ by rounding there, and so may the hardware's depths of two draws.
+#define ABUFFER_LAYER_SHARE 4.8e-7
+
+// Whether a fragment is of the layers that are kept.
+bool abuffer_in_layer(uint cell, CellCoverage coverage) {
+    if (ABUFFER_SINGLE_LAYER == 0u) {
+        return true;
+    }
+    precise float farthest = abuffer_z_min(abuffer_built, cell) * (1.0 + ABUFFER_LAYER_SHARE);
+    return coverage.z <= farthest;
+}
+
+// Stores what a fragment carries.
+void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
+    uvec4 words = uvec4(primitive, 0u, 0u, 0u);
+#ifdef PAYLOAD_ATTRIBUTES
+    words = abuffer_pack_attributes(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
+        words.x = words.y;
+    }
+#else
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
+        words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
+    }
+#endif
+    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+        abuffer_set_data(abuffer_built, link, word, words[word]);
+    }
+}
+
 void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
-    if (abuffer_keeps(primitive, coverage)) {
+    if (!abuffer_keeps(primitive, coverage)) {
+        return;
+    }
+    if (ABUFFER_SINGLE_LAYER != 0u) {
+        abuffer_widen_near(abuffer_built, cell, coverage.z);
+    } else {
         abuffer_widen_bounds(abuffer_built, cell, coverage.z);
         abuffer_widen_extent(abuffer_built, cell, coverage.extent);
     }
 }
 
 void abuffer_visit_count(uint primitive, uint cell, CellCoverage coverage) {
-    if (abuffer_keeps(primitive, coverage)) {
+    if (abuffer_keeps(primitive, coverage) && abuffer_in_layer(cell, coverage)) {
         abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
     }
 }
 
 void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
+    bool keeps = abuffer_keeps(primitive, coverage);
+    if (keeps && !abuffer_in_layer(cell, coverage)) {
+        // Not marked: a triangle that is behind others everywhere is lost.
+        return;
+    }
     abuffer_mark(abuffer_built, primitive);
-    if (!abuffer_keeps(primitive, coverage)) {
+    if (!keeps) {
         return;
     }
     float z = coverage.z;
     uint bucket = 0u;
-    if (abuffer_bucketed()) {
+    if (ABUFFER_SINGLE_LAYER != 0u) {
+        z = max(z, abuffer_z_min(abuffer_built, cell));
+        abuffer_widen_far(abuffer_built, cell, z);
+        abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+    } else if (abuffer_bucketed()) {
         AbufferBounds bounds = abuffer_bounds(abuffer_built, cell);
         // The bounds pass may have seen a depth that differs in the last bit.
         z = clamp(z, bounds.z_min, bounds.z_max);
@@ -47,14 +93,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (link == 0u) {
         return;
     }
-#ifdef PAYLOAD_ATTRIBUTES
-    uvec4 attributes = abuffer_pack_attributes(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
-    for (uint word = 0u; word < 4u; word++) {
-        abuffer_set_data(abuffer_built, link, word, attributes[word]);
-    }
-#else
-    abuffer_set_data(abuffer_built, link, 0u, primitive);
-#endif
+    abuffer_store_payload(primitive, coverage, link);
     abuffer_push(abuffer_built, list, link, z);
 }
 

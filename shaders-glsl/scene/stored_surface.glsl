@@ -62,21 +62,28 @@ void stored_set_terms(inout Surface s, uint word) {
     s.specular = terms.w;
 }
 
-// The surface of a fragment that a ray meets at t, known within `position_error` metres. Terms that these words lack take
-// their defaults: dull and opaque to light, no emission, the shading normal as geometric normal.
-Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
+// The surface of a fragment that a ray meets at t, known within `position_error` metres, of which the normal alone is stored:
+// white, dull and opaque to light, no emission, the stored normal as geometric and shading normal.
+Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     Surface s = surface_miss(ray);
-    vec4 albedo = unpackUnorm4x8(words.x);
-    vec3 normal = stored_unpack_normal(words.y);
     s.position = ray.origin + t * ray.direction;
     s.position_error = position_error;
     s.geometric_normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
     s.primitive = PRIMITIVE_UNKNOWN;
     s.normal = s.geometric_normal;
-    s.valid = SURFACE_POSITION | SURFACE_NORMAL | SURFACE_MATERIAL;
+    s.valid = SURFACE_POSITION | SURFACE_NORMAL;
+    s.base_color = vec3(1.0);
+    s.t = t;
+    return s;
+}
+
+// The same with colour and opacity. Terms that these words lack take their defaults.
+Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
+    Surface s = stored_shape(stored_unpack_normal(words.y), ray, t, position_error);
+    vec4 albedo = unpackUnorm4x8(words.x);
+    s.valid |= SURFACE_MATERIAL;
     s.base_color = albedo.rgb;
     s.opacity = albedo.a;
-    s.t = t;
     return s;
 }
 

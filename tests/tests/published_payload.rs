@@ -113,6 +113,58 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
     (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
 }
 
+/// What the paper stores for ambient occlusion is enough for it: hits and normals are those of all attributes, bit for bit, but for
+/// one ray in a thousand where fragments meet at one t.
+#[test]
+fn normals_alone_serve_ambient_occlusion() {
+    let bench = Bench::new();
+    for name in ["cornell", "spheres:10k", "atrium:detail=0.25"] {
+        let scene = stage(&bench, name, SIZE);
+        let rays = rays(&scene, 2000);
+        let mut expected: Option<(Vec<_>, f32)> = None;
+        for (payload, storage, inline, builder, coverage) in [
+            ("attributes", "dllb", "off", "raster", "exact"),
+            ("normal", "dllb", "off", "raster", "exact"),
+            ("normal", "sb", "off", "binning", "exact"),
+            ("normal", "paged", "on", "raster", "exact"),
+        ] {
+            let options = [
+                ("resolution", "64"),
+                ("payload", payload),
+                ("storage", storage),
+                ("inline", inline),
+                ("builder", builder),
+                ("coverage", coverage),
+            ];
+            let mut structure = made(&bench, &scene, "mmrt", &options);
+            let found = surfaces(&bench, structure.as_ref(), &rays);
+            let stored = |surface: &Surface| surface.valid != 0 && surface.primitive == PRIMITIVE_UNKNOWN;
+            let met = found.iter().filter(|(_, surface)| stored(surface)).count();
+            assert!(met > rays.len() / 8, "{name}: {met} fragments");
+            if payload == "normal" {
+                let white = |surface: &Surface| surface.base_color == [1.0; 3] && surface.metallic == 0.0;
+                assert!(found.iter().all(|(_, surface)| !stored(surface) || white(surface)), "{name}");
+            }
+            let key = |(hit, surface): &(Hit, Surface)| {
+                let met = hit.is_hit().then_some((surface.position, surface.normal, surface.position_error));
+                (hit.t.to_bits(), hit.primitive, met)
+            };
+            let answers: Vec<_> = found.iter().map(key).collect();
+            let mean = mean(&bench, &scene, structure.as_mut());
+            match &expected {
+                None => expected = Some((answers, mean)),
+                // Fragments at one t are told apart by their words, which are others.
+                Some((expected, mean_of_all)) => {
+                    assert!((mean - mean_of_all).abs() < 1.0e-3, "{name}: {mean}, {mean_of_all} with all");
+                    let other = expected.iter().zip(&answers).filter(|(all, one)| all != one).count();
+                    assert!(other <= rays.len() / 1000, "{name}, {storage}: {other} other answers");
+                }
+            }
+            println!("{name}, {payload}, {storage}: {met} fragments, mean {mean}");
+        }
+    }
+}
+
 /// Fragments carry the same whether they were drawn or computed, with what masks cut out of them left out.
 #[test]
 fn both_builders_store_the_same_attributes() {
@@ -120,9 +172,12 @@ fn both_builders_store_the_same_attributes() {
     for name in ["cornell", "atrium:detail=0.25"] {
         let scene = stage(&bench, name, SIZE);
         let rays = rays(&scene, 2000);
-        for system in SYSTEMS {
+        for (system, payload) in
+            SYSTEMS.map(|system| (system, "attributes")).into_iter().chain([("mmrt", "normal")])
+        {
             let found = |builder| {
-                let options = [("resolution", "48"), ("coverage", "exact"), ("builder", builder)];
+                let options =
+                    [("resolution", "48"), ("coverage", "exact"), ("payload", payload), ("builder", builder)];
                 let structure = made(&bench, &scene, system, &options);
                 let key = |(hit, surface): (Hit, Surface)| {
                     let met = hit.is_hit().then_some((surface.base_color, surface.normal));

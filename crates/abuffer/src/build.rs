@@ -9,7 +9,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
 
 use crate::layout::{cell_count, draws, long_capacity};
-use crate::{Config, Header, March, Payload, Storage};
+use crate::{Config, Header, March, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -50,9 +50,9 @@ impl Build {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
-        let attributes = config.payload == Payload::Attributes;
+        let attributes = config.payload.needs_scene();
         if attributes {
-            SceneBinding::for_attributes(scene)?;
+            SceneBinding::for_payload(scene, config.payload.name())?;
         }
         let masked = if alpha { ".alpha" } else { "" };
         let stored = if attributes { ".attributes" } else { masked };
@@ -75,7 +75,7 @@ impl Build {
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             pairs: visits.pairs("build_1_pairs")?,
-            bounds: bucketed.then(|| covered("build_2_bounds", masked)).transpose()?,
+            bounds: config.has_bounds_pass().then(|| covered("build_2_bounds", masked)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: covered("build_6_store", stored)?,

@@ -1,158 +1,8 @@
 //! Options of the A-buffer and the two presets.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters};
-use rasray_shaders_glsl::constants::abuffer as numbers;
 
-/// How a ray steps through cells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum March {
-    /// Steps of equal length on the screen, at most [`Config::samples`] a face. Cells between are not
-    /// visited.
-    Samples,
-    /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
-    Dda,
-    /// Every cell the ray crosses.
-    Exact,
-    /// The same hits with leaps over blocks of cells that hold nothing at the ray's depths.
-    Pyramid,
-}
-
-/// When a fragment counts as hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Accept {
-    /// Its depth lies in the ray's half-open depth interval within the cell.
-    Interval,
-    /// The same, with each fragment extended away from the eye by [`Config::thickness`].
-    Thickness,
-    /// The depths that its triangle takes within the cell meet those of the ray. Needs [`Payload::Index`].
-    Slope,
-    /// The ray meets the plane of its triangle within the cell. Needs [`Payload::Index`].
-    Plane,
-}
-
-impl Accept {
-    /// Whether it looks at the fragment's triangle; then cells store how far triangles reach in depth.
-    pub fn needs_triangles(self) -> bool {
-        matches!(self, Self::Slope | Self::Plane)
-    }
-}
-
-/// What a fragment carries beside its node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Payload {
-    /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
-    Index,
-    /// The paper's quantised attributes, 16 bytes. Needs a scene.
-    Attributes,
-}
-
-/// Who decides which cells a triangle covers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coverage {
-    /// The rasterizer, with its sub-pixel grid.
-    Hardware,
-    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
-    Exact,
-    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe: edge-on ones,
-    /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
-    /// finds ([`Config::is_exact`]). Needs [`Accept::Plane`].
-    Conservative,
-}
-
-/// Which views are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Views {
-    /// Six faces of a cube around the eye: all that is around it.
-    Cube,
-    /// The same, and what the camera sees, with [`Config::camera_resolution`] cells a side.
-    CubeCamera,
-    /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
-    Camera,
-}
-
-impl Views {
-    /// Every choice.
-    pub const ALL: [Self; 3] = [Self::Cube, Self::CubeCamera, Self::Camera];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Cube => "cube",
-            Self::CubeCamera => "cube+camera",
-            Self::Camera => "camera",
-        }
-    }
-
-    /// Whether the faces of the cube are among them.
-    pub fn has_cube(self) -> bool {
-        self != Self::Camera
-    }
-
-    /// Whether the camera's view is among them.
-    pub fn has_camera(self) -> bool {
-        self != Self::Cube
-    }
-
-    fn number(self) -> u32 {
-        let cube = if self.has_cube() { numbers::ABUFFER_VIEWS_CUBE } else { 0 };
-        cube | if self.has_camera() { numbers::ABUFFER_VIEWS_CAMERA } else { 0 }
-    }
-}
-
-/// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Storage {
-    /// One linked list a cell, read from its near end.
-    Ll,
-    /// One doubly linked list a cell, read from either end.
-    Dll,
-    /// A linked list a depth bucket.
-    Llb,
-    /// A doubly linked list a depth bucket: the paper's own.
-    Dllb,
-    /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
-    Sb,
-    /// A linked list of pages a depth bucket; a page holds [`Config::page`] fragments.
-    Paged,
-}
-
-impl Storage {
-    /// Every storage.
-    pub const ALL: [Self; 6] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb, Self::Paged];
-
-    /// The word of options and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ll => "ll",
-            Self::Dll => "dll",
-            Self::Llb => "llb",
-            Self::Dllb => "dllb",
-            Self::Sb => "sb",
-            Self::Paged => "paged",
-        }
-    }
-
-    /// Whether a cell has depth bounds and a list a bucket.
-    pub fn is_bucketed(self) -> bool {
-        matches!(self, Self::Llb | Self::Dllb | Self::Paged)
-    }
-
-    /// Whether nodes link both ways.
-    pub fn is_doubly_linked(self) -> bool {
-        matches!(self, Self::Dll | Self::Dllb)
-    }
-
-    fn number(self) -> u32 {
-        match self {
-            Self::Ll => numbers::ABUFFER_STORAGE_LL,
-            Self::Dll => numbers::ABUFFER_STORAGE_DLL,
-            Self::Llb => numbers::ABUFFER_STORAGE_LLB,
-            Self::Dllb => numbers::ABUFFER_STORAGE_DLLB,
-            Self::Sb => numbers::ABUFFER_STORAGE_SB,
-            Self::Paged => numbers::ABUFFER_STORAGE_PAGED,
-        }
-    }
-}
+use crate::{Accept, Coverage, March, Payload, Storage, Views};
 
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,8 +19,11 @@ pub struct Config {
     pub inline: bool,
     /// Fragments a page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]). Changes no hit.
+    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all layers. Changes no hit.
     pub buckets: u32,
+    /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
+    /// [`Coverage::Conservative`]. Rays then meet nothing that is behind something else as seen from the eye.
+    pub single_layer: bool,
     /// How rays step.
     pub march: March,
     /// Most samples a face, 1 to 65535; only for [`March::Samples`].
@@ -211,6 +64,7 @@ impl Config {
             inline: false,
             page: 4,
             buckets: 4,
+            single_layer: false,
             march: March::Exact,
             samples: 100,
             accept: Accept::Plane,
@@ -272,11 +126,13 @@ impl Config {
                 expected: "a finite length in metres, 0 or more",
             });
         }
-        if self.accept.needs_triangles() && self.payload != Payload::Index {
+        let plane = self.accept == Accept::Plane && self.payload == Payload::Plane;
+        if self.accept.needs_triangles() && self.payload != Payload::Index && !plane {
             return Err(AdsError::Option {
                 option: "accept",
                 value: format!("{:?}", self.accept).to_lowercase(),
-                expected: "the acceptances plane and slope need the payload `index`, which names the triangle",
+                expected: "the acceptances plane and slope need the payload `index`, which names the triangle; plane also \
+                           goes with the payload `plane`",
             });
         }
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
@@ -286,11 +142,19 @@ impl Config {
                 expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
             });
         }
-        if self.has_fringe() && self.accept != Accept::Plane {
+        if self.has_fringe() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
             return Err(AdsError::Option {
                 option: "coverage",
                 value: "conservative".to_owned(),
-                expected: "conservative coverage tests triangles, which fragments name with `accept=plane` only",
+                expected: "conservative coverage tests triangles, which fragments name with `accept=plane` and \
+                           `payload=index` only",
+            });
+        }
+        if self.has_fringe() && self.single_layer {
+            return Err(AdsError::Option {
+                option: "single-layer",
+                value: "on".to_owned(),
+                expected: "conservative coverage keeps every triangle that reaches into a cell: leave it off",
             });
         }
         Ok(())
@@ -309,57 +173,39 @@ impl Config {
 
     /// Whether cells know the smallest and largest depth of their fragments.
     pub(crate) fn has_ends(&self) -> bool {
-        self.storage.is_bucketed() || self.march == March::Pyramid
+        self.storage.is_bucketed() || self.march == March::Pyramid || self.single_layer
+    }
+
+    /// Whether depth bounds are found before fragments are stored.
+    pub(crate) fn has_bounds_pass(&self) -> bool {
+        self.storage.is_bucketed() || self.single_layer
+    }
+
+    /// Whether the fragments of a cell are kept by depth in several lists.
+    fn has_buckets(&self) -> bool {
+        self.storage.is_bucketed() && !self.single_layer
     }
 
     /// Lists a cell.
     pub fn lists(&self) -> u32 {
-        if self.storage.is_bucketed() { self.buckets } else { 1 }
+        if self.has_buckets() { self.buckets } else { 1 }
     }
 
     /// Specialisation constants: id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         vec![
             (10, self.lists()),
-            (
-                11,
-                match self.march {
-                    March::Samples => numbers::ABUFFER_MARCH_SAMPLES,
-                    March::Dda => numbers::ABUFFER_MARCH_DDA,
-                    March::Exact => numbers::ABUFFER_MARCH_EXACT,
-                    March::Pyramid => numbers::ABUFFER_MARCH_PYRAMID,
-                },
-            ),
-            (
-                12,
-                match self.accept {
-                    Accept::Interval => numbers::ABUFFER_ACCEPT_INTERVAL,
-                    Accept::Thickness => numbers::ABUFFER_ACCEPT_THICKNESS,
-                    Accept::Slope => numbers::ABUFFER_ACCEPT_SLOPE,
-                    Accept::Plane => numbers::ABUFFER_ACCEPT_PLANE,
-                },
-            ),
+            (11, self.march.number()),
+            (12, self.accept.number()),
             (13, u32::from(self.sort)),
             (14, u32::from(self.skip)),
-            (
-                15,
-                match self.payload {
-                    Payload::Index => numbers::ABUFFER_PAYLOAD_INDEX,
-                    Payload::Attributes => numbers::ABUFFER_PAYLOAD_ATTRIBUTES,
-                },
-            ),
-            (
-                16,
-                match self.coverage {
-                    Coverage::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
-                    Coverage::Exact => numbers::ABUFFER_COVERAGE_EXACT,
-                    Coverage::Conservative => numbers::ABUFFER_COVERAGE_CONSERVATIVE,
-                },
-            ),
+            (15, self.payload.number()),
+            (16, self.coverage.number()),
             (17, self.storage.number()),
             (18, u32::from(self.inline)),
             (19, self.page),
             (20, self.views.number()),
+            (21, u32::from(self.single_layer)),
         ]
     }
 
@@ -373,7 +219,8 @@ impl Config {
             ("resolution", self.resolution.to_string()),
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
-            ("payload", lower(&self.payload)),
+            ("payload", self.payload.name().to_owned()),
+            ("single-layer", switch(self.single_layer)),
             ("views", self.views.name().to_owned()),
             ("sort", switch(self.sort)),
             ("skip", switch(self.skip)),
@@ -381,7 +228,7 @@ impl Config {
         if self.views.has_camera() {
             options.push(("camera-resolution", self.camera_resolution.to_string()));
         }
-        if self.storage.is_bucketed() {
+        if self.has_buckets() {
             options.push(("buckets", self.buckets.to_string()));
         }
         if self.storage == Storage::Paged {

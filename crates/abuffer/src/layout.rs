@@ -54,8 +54,8 @@ pub struct Demand {
 /// Words of a fragment's payload.
 pub(crate) fn data_words(payload: Payload) -> u64 {
     match payload {
-        Payload::Index => 1,
-        Payload::Attributes => 4,
+        Payload::Index | Payload::Normal => 1,
+        Payload::Attributes | Payload::Plane => 4,
     }
 }
 
@@ -194,11 +194,11 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
 /// Bytes of table 2 of the paper for counted cells, buckets and fragments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell, `m_p` of the table.
+    /// Per cell, `m_p` of the table; of a single layer with one bucket, and 8 where the storage has none.
     pub cells: u64,
     /// Per cell with plane or slope acceptance: extent 4, and scale 4 where there are buckets.
     pub plane: u64,
-    /// March by pyramid: 8 per block of cells, and per cell where there are no buckets.
+    /// March by pyramid: 8 per block of cells, and per cell where there are neither buckets nor a single layer.
     pub pyramid: u64,
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
@@ -226,7 +226,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         Views::CubeCamera => 6 * side * side + camera_side * camera_side,
         Views::Camera => camera_side * camera_side,
     };
-    let buckets = u64::from(config.buckets);
+    let buckets = if config.single_layer { 1 } else { u64::from(config.buckets) };
+    let unbounded = matches!(config.storage, Storage::Sb | Storage::Ll | Storage::Dll);
     // Columns of table 2: bytes a cell, bytes a fragment, and bytes for the scale of buckets.
     let (per_cell, per_fragment, scale) = match config.storage {
         Storage::Sb => (8, if config.inline { 4 } else { 8 }, 0),
@@ -236,7 +237,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         Storage::Dllb => (8 + 8 * buckets, 12, 4),
         Storage::Paged => (8 + 4 * buckets, 4, 4),
     };
-    let payload = if config.payload == Payload::Index { 4 } else { 16 };
+    let payload = if matches!(config.payload, Payload::Index | Payload::Normal) { 4 } else { 16 };
     let per_node = match config.storage {
         Storage::Paged => 4 + u64::from(config.page) * (per_fragment + payload),
         _ => per_fragment + payload,
@@ -252,9 +253,10 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     };
     let cube_blocks = if config.views == Views::Camera { 0 } else { blocks(6, side) };
     let camera_blocks = if config.views == Views::Cube { 0 } else { blocks(1, camera_side) };
-    let bounded = if matches!(config.storage, Storage::Sb | Storage::Ll | Storage::Dll) { cells } else { 0 };
+    let bounded = if unbounded && !config.single_layer { cells } else { 0 };
+    let single = if unbounded && config.single_layer { 8 * cells } else { 0 };
     FormulaBytes {
-        cells: cells * per_cell,
+        cells: cells * per_cell + single,
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
@@ -281,18 +283,21 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         for storage in Storage::ALL {
-            for (inline, buckets, accept, payload, march) in [
-                (false, 1, Accept::Interval, Payload::Attributes, March::Samples),
-                (false, 2, Accept::Slope, Payload::Index, March::Pyramid),
-                (false, 4, Accept::Plane, Payload::Index, March::Exact),
-                (true, 4, Accept::Plane, Payload::Index, March::Pyramid),
-                (true, 8, Accept::Interval, Payload::Attributes, March::Dda),
-                (false, 32, Accept::Thickness, Payload::Index, March::Pyramid),
-                (false, 3, Accept::Plane, Payload::Index, March::Pyramid),
+            for (inline, buckets, accept, payload, march, single_layer) in [
+                (false, 1, Accept::Interval, Payload::Attributes, March::Samples, false),
+                (false, 2, Accept::Slope, Payload::Index, March::Pyramid, false),
+                (false, 4, Accept::Plane, Payload::Index, March::Exact, false),
+                (true, 4, Accept::Plane, Payload::Index, March::Pyramid, false),
+                (true, 8, Accept::Interval, Payload::Attributes, March::Dda, false),
+                (false, 32, Accept::Thickness, Payload::Index, March::Pyramid, false),
+                (false, 3, Accept::Plane, Payload::Index, March::Pyramid, false),
+                (false, 4, Accept::Interval, Payload::Normal, March::Samples, true),
+                (true, 4, Accept::Plane, Payload::Plane, March::Exact, false),
+                (false, 5, Accept::Plane, Payload::Plane, March::Pyramid, true),
             ] {
                 let page = if inline { 8 } else { 2 };
                 let views = Views::ALL[buckets as usize % 3];
-                let kept = accept == Accept::Plane && march == March::Pyramid;
+                let kept = accept == Accept::Plane && march == March::Pyramid && !single_layer;
                 let coverage = if kept { Coverage::Conservative } else { Coverage::Exact };
                 let builder = Builder::ALL[buckets as usize % 2];
                 let config = Config {
@@ -303,6 +308,7 @@ mod tests {
                     accept,
                     payload,
                     march,
+                    single_layer,
                     views,
                     coverage,
                     builder,

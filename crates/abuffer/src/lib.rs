@@ -9,15 +9,19 @@
 //! [`ABuffer`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
 mod build;
+mod choices;
 mod config;
+mod fault;
 mod header;
 mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Config, Coverage, March, Payload, Storage, Views};
+pub use choices::{Accept, Coverage, March, Payload, Storage, Views};
+pub use config::Config;
+pub use fault::Fault;
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::ABuffer;
-pub use validate::{Contents, Fault, well_formed};
+pub use validate::{Contents, Fragment, well_formed};

@@ -1,7 +1,7 @@
 //! Checks the contents of a built A-buffer.
 
 use crate::layout::{bounds_words, data_words, fragment_words, node_slots, node_words};
-use crate::{Config, Header, Storage, cell_count};
+use crate::{Config, Fault, Header, Storage, cell_count};
 
 /// All pools but the pairs of the binning builder as downloaded, in words.
 #[derive(Clone, Debug)]
@@ -26,6 +26,15 @@ pub struct Contents {
     pub scratch: Vec<u32>,
     /// Triangle and next link of each node of the fringe.
     pub fringe: Vec<u32>,
+}
+
+/// A fragment as it is stored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fragment<'a> {
+    /// Depth at the cell's centre, metres.
+    pub z: f32,
+    /// The words of its payload.
+    pub payload: &'a [u32],
 }
 
 impl Contents {
@@ -65,13 +74,13 @@ impl Contents {
         if self.config.storage == Storage::Sb { self.node(link)[1] } else { link - 1 }
     }
 
-    /// The first word of payload: what orders fragments of one depth.
-    fn payload(&self, link: u32) -> u32 {
+    /// The words of a fragment's payload: what orders fragments of one depth.
+    fn payload(&self, link: u32) -> &[u32] {
         let words = data_words(self.config.payload) as usize;
         if self.config.inline {
-            self.node(link)[1]
+            &self.node(link)[1..][..words]
         } else {
-            self.data[self.payload_place(link) as usize * words]
+            &self.data[self.payload_place(link) as usize * words..][..words]
         }
     }
 
@@ -103,125 +112,30 @@ impl Contents {
         Ok(found)
     }
 
+    /// The fragments of each cell, over all its buckets.
+    ///
+    /// # Errors
+    /// A link names no node, or lists are damaged otherwise.
+    pub fn fragments(&self) -> Result<Vec<Vec<Fragment<'_>>>, Fault> {
+        let mut pages = vec![false; self.stored() / self.slots()];
+        let (mut linked, mut place) = (0, 0);
+        let mut cells = Vec::new();
+        for cell in 0..cell_count(&self.config) as usize {
+            let mut found = Vec::new();
+            for bucket in 0..self.config.lists() as usize {
+                let links = links(self, cell, bucket, linked, &mut place, &mut pages)?;
+                linked += links.len();
+                let fragment = |link| Fragment { z: self.z(link), payload: self.payload(link) };
+                found.extend(links.into_iter().map(fragment));
+            }
+            cells.push(found);
+        }
+        Ok(cells)
+    }
+
     fn head(&self, list: usize) -> u32 {
         if self.config.storage.is_doubly_linked() { self.lists[2 * list] } else { self.lists[list] }
     }
-}
-
-/// What is wrong with a list.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Fault {
-    /// A link names no node.
-    #[error("cell {cell}, bucket {bucket}: link {link} names no node")]
-    Dangling {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// The link.
-        link: u32,
-    },
-    /// A link of the fringe names no node, or leads in a circle.
-    #[error("cell {cell}: link {link} of the fringe names no node, or leads in a circle")]
-    Fringe {
-        /// Cell.
-        cell: usize,
-        /// The link.
-        link: u32,
-    },
-    /// A node is in no list, or in more than one.
-    #[error("{stored} nodes were allocated and {linked} are in lists")]
-    Count {
-        /// Nodes allocated.
-        stored: usize,
-        /// Nodes found in lists.
-        linked: usize,
-    },
-    /// Forward and backward links disagree.
-    #[error("cell {cell}, bucket {bucket}: the backward link of node {link} is {prev}, expected {expected}")]
-    Backward {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// The node's link.
-        link: u32,
-        /// What is stored.
-        prev: u32,
-        /// What should be.
-        expected: u32,
-    },
-    /// A contiguous list does not begin where the one before it ends.
-    #[error("cell {cell}: the list begins at place {first}, expected {expected}")]
-    Place {
-        /// Cell.
-        cell: usize,
-        /// What is stored.
-        first: u32,
-        /// What should be.
-        expected: usize,
-    },
-    /// A page is in two lists, or has more or fewer used slots than the word that leads to it says.
-    #[error(
-        "cell {cell}, bucket {bucket}: page {page} is in two lists, or its used slots are not those counted"
-    )]
-    Page {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// Number of the page.
-        page: usize,
-    },
-    /// A contiguous node names a payload that does not exist or is another's.
-    #[error("cell {cell}: node {link} names the payload {place}, which does not exist or is another's")]
-    Payload {
-        /// Cell.
-        cell: usize,
-        /// The node's link.
-        link: u32,
-        /// What is stored.
-        place: u32,
-    },
-    /// The tail is not the last node.
-    #[error("cell {cell}, bucket {bucket}: the tail is {tail}, the last node is {last}")]
-    Tail {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// What is stored.
-        tail: u32,
-        /// The last node's link.
-        last: u32,
-    },
-    /// A sorted list is not in order.
-    #[error("cell {cell}, bucket {bucket}: node {link} is out of order")]
-    Order {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// The node's link.
-        link: u32,
-    },
-    /// A depth lies outside of the cell's bounds or is not a positive number.
-    #[error("cell {cell}, bucket {bucket}: depth {z} of node {link} is outside of [{z_min}, {z_max}]")]
-    Depth {
-        /// Cell.
-        cell: usize,
-        /// Bucket.
-        bucket: usize,
-        /// The node's link.
-        link: u32,
-        /// The depth, as text: it may be no number.
-        z: String,
-        /// Smallest depth of the cell.
-        z_min: String,
-        /// Largest depth of the cell.
-        z_max: String,
-    },
 }
 
 /// Checks that every allocated node is in exactly one list, that links agree in both directions, that
@@ -242,11 +156,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let mut place = 0;
     for cell in 0..cell_count(config) as usize {
         for bucket in 0..buckets {
-            let links = match config.storage {
-                Storage::Sb => contiguous(contents, cell, &mut place)?,
-                Storage::Paged => turn_pages(contents, cell, bucket, &mut pages)?,
-                _ => follow(contents, cell, bucket, linked)?,
-            };
+            let links = links(contents, cell, bucket, linked, &mut place, &mut pages)?;
             for &link in &links {
                 check_depth(contents, cell, bucket, link)?;
                 if config.storage == Storage::Sb && !config.inline {
@@ -281,6 +191,23 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     }
     let expected = contents.header.fringe_demand.min(contents.header.fringe_capacity) as usize;
     if beside == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked: beside }) }
+}
+
+/// The links of a list. `linked` nodes are in lists before it, a contiguous one begins at `place`, and `pages` are those that
+/// lists before it have.
+fn links(
+    contents: &Contents,
+    cell: usize,
+    bucket: usize,
+    linked: usize,
+    place: &mut usize,
+    pages: &mut [bool],
+) -> Result<Vec<u32>, Fault> {
+    match contents.config.storage {
+        Storage::Sb => contiguous(contents, cell, place),
+        Storage::Paged => turn_pages(contents, cell, bucket, pages),
+        _ => follow(contents, cell, bucket, linked),
+    }
 }
 
 /// The links of a paged list, as far as its pages were stored.

@@ -19,15 +19,15 @@ pub struct SceneBinding {
 }
 
 impl SceneBinding {
-    /// The scene that a structure with `payload=attributes` reads while it is built.
+    /// The scene that a structure with such a `payload` reads while it is built.
     ///
     /// # Errors
     /// There is none.
-    pub fn for_attributes(scene: Option<&Self>) -> Result<&Self, AdsError> {
+    pub fn for_payload<'a>(scene: Option<&'a Self>, payload: &str) -> Result<&'a Self, AdsError> {
         scene.ok_or(AdsError::Option {
             option: "payload",
-            value: "attributes".to_owned(),
-            expected: "attributes are read from a scene; without one use `index`",
+            value: payload.to_owned(),
+            expected: "what fragments are shaded by is read from a scene; without one use `index`",
         })
     }
 }

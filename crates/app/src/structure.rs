@@ -81,6 +81,10 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckets: Option<u32>,
+    /// Keep the nearest fragments of each cell alone
+    #[arg(long, value_enum)]
+    #[serde(rename = "single-layer", skip_serializing_if = "Option::is_none")]
+    pub single_layer: Option<Switch>,
     /// With --storage bricks: depth slices, the same for all tiles
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -31,6 +31,10 @@ pub enum Payload {
     Index,
     /// Surface attributes, quantised as published
     Attributes,
+    /// The shading normal alone, quantised as published for ambient occlusion
+    Normal,
+    /// The plane of its triangle in full, and nothing to shade by
+    Plane,
 }
 
 /// How a ray steps through cells.
@@ -61,7 +65,7 @@ pub enum Accept {
     Tolerance,
     /// The depths that its triangle takes within the cell meet those of the ray; needs the payload index
     Slope,
-    /// The ray meets the plane of its triangle within the cell; needs the payload index
+    /// The ray meets the plane of its triangle within the cell; needs the payload index or plane
     Plane,
     /// An odd number of fragments lies before one point of the ray, and an even number before the next
     Parity,

@@ -2,8 +2,9 @@
 //! options, and how options given once reach several systems.
 
 use crate::error::AppError;
-use crate::structure::{Preset, StructureOptions, SystemName};
+use crate::structure::{Payload, Preset, StructureOptions, SystemName};
 use clap::{Parser, ValueEnum};
+use rasray_scene::needs::{Integrator, Workload};
 use rasray_systems::{SYSTEMS, Spec, System};
 use serde_json::Value;
 
@@ -24,6 +25,19 @@ impl SystemConfig {
     /// The system's row in the registry.
     pub fn entry(&self) -> &'static System {
         entry(self.name)
+    }
+
+    /// The same for images of a workload: published fragments carry what their paper keeps for occlusion where nothing else is
+    /// asked for, unless a payload was given.
+    #[must_use]
+    pub fn serving(mut self, workload: Workload) -> Self {
+        let occlusion = workload.integrator == Integrator::AmbientOcclusion;
+        if occlusion && self.preset == Preset::Published && self.options.payload.is_none() {
+            let word = self.entry().occlusion_payload;
+            self.options.payload =
+                word.map(|word| Payload::from_str(word, false).expect("a test looks it up"));
+        }
+        self
     }
 
     /// What the registry makes the structure from.
@@ -252,6 +266,26 @@ mod tests {
             }
         }
         assert!(tried > 10);
+    }
+
+    #[test]
+    fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
+        let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
+        let path = Workload { integrator: Integrator::Path, bounces: 1 };
+        let plain = StructureOptions::default();
+        for name in SystemName::value_variants() {
+            let Ok(config) = single(*name, Preset::Published, &plain) else { continue };
+            let payload = config.clone().serving(occlusion).options.payload.as_ref().map(word);
+            assert_eq!(payload.as_deref(), entry(*name).occlusion_payload);
+            assert!(config.clone().serving(occlusion).spec().is_ok());
+            assert_eq!(config.clone().serving(path), config);
+        }
+        let given = StructureOptions { payload: Some(Payload::Attributes), ..plain.clone() };
+        for (preset, options) in [(Preset::Published, &given), (Preset::Robust, &plain)] {
+            let config = single(SystemName::Mmrt, preset, options).expect("valid");
+            assert_eq!(config.clone().serving(occlusion), config);
+        }
+        assert_eq!(entry(SystemName::Mmrt).occlusion_payload, Some("normal"));
     }
 
     #[test]

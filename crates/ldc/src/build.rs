@@ -53,7 +53,7 @@ impl Build {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload == Payload::Attributes;
         if stored {
-            SceneBinding::for_attributes(scene)?;
+            SceneBinding::for_payload(scene, "attributes")?;
         }
         let masked = if alpha { ".alpha" } else { "" };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };

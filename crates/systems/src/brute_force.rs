@@ -10,6 +10,7 @@ pub(crate) const SYSTEM: System = System {
     name: "brute-force",
     structure: |_| "brute-force",
     presets: &[Preset::Robust],
+    occlusion_payload: None,
     options: &[],
     requirements: |_| Ok(Requirements::floor()),
     create: |spec, device, geometry, scene| {

@@ -11,6 +11,7 @@ pub(crate) const SYSTEM: System = System {
     name: "hu",
     structure: |spec| if keeps_triangles(spec) { "ads-primitive" } else { "voxel" },
     presets: &[Preset::Robust, Preset::Published],
+    occlusion_payload: None,
     options: &voxel::OPTIONS,
     requirements: |spec| {
         Ok(if keeps_triangles(spec) {

@@ -12,6 +12,7 @@ pub(crate) const SYSTEM: System = System {
     name: "ldc",
     structure: |_| "ldc",
     presets: &[Preset::Robust, Preset::Published],
+    occlusion_payload: None,
     options: &OPTIONS,
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {

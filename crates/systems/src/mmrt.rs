@@ -12,6 +12,7 @@ pub(crate) const SYSTEM: System = System {
     name: "mmrt",
     structure: |_| "abuffer",
     presets: &[Preset::Robust, Preset::Published],
+    occlusion_payload: Some("normal"),
     options: &OPTIONS,
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
@@ -20,9 +21,10 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 18] = [
+const OPTIONS: [&str; 19] = [
     "resolution",
     "buckets",
+    "single-layer",
     "storage",
     "inline",
     "page",
@@ -58,6 +60,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "samples" => config.samples = given.number()?,
             "capacity" => config.fragments = Some(given.number()?.into()),
             "thickness" => config.thickness = given.length()?,
+            "single-layer" => config.single_layer = given.switch()?,
             "sort" => config.sort = given.switch()?,
             "skip" => config.skip = given.switch()?,
             "storage" => {
@@ -71,8 +74,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "views" => config.views = given.choice(&Views::ALL.map(|views| (views.name(), views)))?,
             "camera-resolution" => config.camera_resolution = given.number()?,
             "payload" => {
-                config.payload =
-                    given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
+                config.payload = given.choice(&Payload::ALL.map(|payload| (payload.name(), payload)))?;
             }
             "march" => {
                 config.march = given.choice(&[

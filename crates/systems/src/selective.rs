@@ -9,6 +9,7 @@ pub(crate) const SYSTEM: System = System {
     name: "selective",
     structure: |_| "voxel",
     presets: &[Preset::Robust, Preset::Published],
+    occlusion_payload: None,
     options: &voxel::OPTIONS,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {

@@ -50,7 +50,7 @@ impl Build {
         let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload != Payload::Index;
         if stored {
-            SceneBinding::for_attributes(scene)?;
+            SceneBinding::for_payload(scene, "attributes")?;
         }
         let masked = if alpha { ".alpha" } else { "" };
         let variant = if stored { ".attributes" } else { masked };

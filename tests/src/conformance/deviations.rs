@@ -14,6 +14,8 @@ const FAR_PLATES: &str =
     "plates so far off that they fill a few cells only, all of whose centres are near an edge";
 const CORNER: &str = "rays at the ends of the diagonal, where centres of cells lie beside the quad";
 const LEFT_PLATES: &str = "plates so near to where rays begin that these count as leaving them";
+const NEIGHBOURS: &str =
+    "rays that begin on a surface, not a cell off it, meet the planes of the triangles beside theirs";
 const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
 const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
 
@@ -65,6 +67,26 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("V2-6", EDGE_ON, 0.99, 1.0),
     deviation("V16", THIN, 0.99, 1.0),
     deviation("T2", NEEDLE, 0.524, 0.826),
+];
+
+/// The same where fragments carry the planes themselves.
+pub(super) const PLANES_64: &[Deviation] = &[
+    deviation("G1", THIN, 0.699, 1.0),
+    deviation("G2", THIN, 0.99, 1.0),
+    deviation("G7", THIN, 0.49, 0.767),
+    deviation("G12", EDGE_ON, 0.99, 1.0),
+    deviation("V1", EDGE_ON, 0.99, 1.0),
+    deviation("V2-1", EDGE_ON, 0.103, 0.162),
+    deviation("V2-2", EDGE_ON, 0.403, 0.631),
+    deviation("V2-3", EDGE_ON, 0.99, 1.0),
+    deviation("V2-4", EDGE_ON, 0.99, 1.0),
+    deviation("V2-5", EDGE_ON, 0.99, 1.0),
+    deviation("V2-6", EDGE_ON, 0.99, 1.0),
+    deviation("V16", THIN, 0.99, 1.0),
+    deviation("T2", NEEDLE, 0.26, 0.42),
+    deviation("P1", NEIGHBOURS, 0.67, 1.0),
+    deviation("P5", NEIGHBOURS, 0.62, 1.0),
+    deviation("P7", NEIGHBOURS, 0.55, 0.9),
 ];
 
 /// Planes in 64 x 64 cells of what a camera sees that looks away from the axes.

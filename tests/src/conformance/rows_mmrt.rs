@@ -78,6 +78,18 @@ pub(super) const ROWS: &[Row] = &[
         robust_law(64),
         deviations::CAMERA_64,
     ),
+    // Planes that fragments carry themselves, which do not end where their triangles do.
+    Row {
+        tier: Tier::Full,
+        ..mmrt(
+            "mmrt-planes-64",
+            Preset::Robust,
+            &[("resolution", "64"), ("payload", "plane")],
+            Cases::Shallow,
+            robust_law(64),
+            deviations::PLANES_64,
+        )
+    },
     // What reaches into a cell is kept there: hits are those of triangles.
     Row::exact(
         "mmrt-conservative-16",

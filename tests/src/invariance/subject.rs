@@ -32,6 +32,8 @@ const MORE: &[Row] = &[
 const LARGE: &[Row] = &[
     ("mmrt", "robust", &[("coverage", "conservative"), ("resolution", "24"), ("capacity", "40000")]),
     ("hu", "robust", &[("coverage", "conservative"), ("resolution", "16")]),
+    ("mmrt", "robust", &[("single-layer", "on"), ("resolution", "24"), ("capacity", "40000")]),
+    ("mmrt", "robust", &[("payload", "plane"), ("resolution", "24"), ("capacity", "40000")]),
 ];
 
 /// Rows beside the presets of the registry.
@@ -98,7 +100,7 @@ impl Subject {
         let more = more().filter(|row| row.0 == system && row.1 == preset).find(given);
         more.map_or_else(
             || format!("{system} {preset}"),
-            |(_, _, options)| format!("{system} {preset} with {}", options[0].1),
+            |(_, _, options)| format!("{system} {preset} with {}={}", options[0].0, options[0].1),
         )
     }
 

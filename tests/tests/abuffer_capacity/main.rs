@@ -4,8 +4,8 @@
 mod faults;
 
 use rasray_abuffer::{
-    ABuffer, Accept, Addressing, Config, Contents, Coverage, Demand, March, Storage, formula_bytes, plan,
-    well_formed,
+    ABuffer, Accept, Addressing, Config, Contents, Coverage, Demand, March, Payload, Storage, formula_bytes,
+    plan, well_formed,
 };
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
@@ -133,6 +133,14 @@ fn every_edge_capacity_of_every_storage() {
 fn every_edge_capacity_of_inline_payload() {
     for storage in [Storage::Ll, Storage::Dllb, Storage::Sb, Storage::Paged] {
         every_edge_capacity(Config { inline: true, ..config(storage) });
+    }
+}
+
+#[test]
+fn every_edge_capacity_of_a_single_layer_and_of_planes() {
+    for storage in [Storage::Ll, Storage::Dllb, Storage::Sb, Storage::Paged] {
+        every_edge_capacity(Config { single_layer: true, ..config(storage) });
+        every_edge_capacity(Config { payload: Payload::Plane, ..config(storage) });
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) fn render(
 ) -> Result<(), AppError> {
     let frame = given.frame.frame()?;
     let aovs = given.aovs();
-    let system = systems::single(given.system, given.preset, &given.structure)?;
+    let system = systems::single(given.system, given.preset, &given.structure)?.serving(frame.workload());
     let image = image_target(given, aovs)?;
     let report_target = destination(given.report.as_deref())?;
     if let (Some((place, _)), Some(report)) = (&image, &report_target)

@@ -1,0 +1,217 @@
+//! What options choose between, and their numbers in shaders.
+
+use rasray_shaders_glsl::constants::abuffer as numbers;
+
+/// How a ray steps through cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum March {
+    /// Steps of equal length on the screen, at most [`Config::samples`] a face. Cells between are not
+    /// visited.
+    Samples,
+    /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
+    Dda,
+    /// Every cell the ray crosses.
+    Exact,
+    /// The same hits with leaps over blocks of cells that hold nothing at the ray's depths.
+    Pyramid,
+}
+
+impl March {
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Samples => numbers::ABUFFER_MARCH_SAMPLES,
+            Self::Dda => numbers::ABUFFER_MARCH_DDA,
+            Self::Exact => numbers::ABUFFER_MARCH_EXACT,
+            Self::Pyramid => numbers::ABUFFER_MARCH_PYRAMID,
+        }
+    }
+}
+
+/// When a fragment counts as hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accept {
+    /// Its depth lies in the ray's half-open depth interval within the cell.
+    Interval,
+    /// The same, with each fragment extended away from the eye by [`Config::thickness`].
+    Thickness,
+    /// The depths that its triangle takes within the cell meet those of the ray. Needs [`Payload::Index`].
+    Slope,
+    /// The ray meets the plane of its triangle within the cell. Needs [`Payload::Index`] or [`Payload::Plane`].
+    Plane,
+}
+
+impl Accept {
+    /// Whether it looks at more of the fragment's triangle than its depth; then cells store how far triangles reach in depth.
+    pub fn needs_triangles(self) -> bool {
+        matches!(self, Self::Slope | Self::Plane)
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Interval => numbers::ABUFFER_ACCEPT_INTERVAL,
+            Self::Thickness => numbers::ABUFFER_ACCEPT_THICKNESS,
+            Self::Slope => numbers::ABUFFER_ACCEPT_SLOPE,
+            Self::Plane => numbers::ABUFFER_ACCEPT_PLANE,
+        }
+    }
+}
+
+/// What a fragment carries beside its node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Payload {
+    /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
+    Index,
+    /// The paper's quantised attributes for path tracing, 16 bytes. Needs a scene.
+    Attributes,
+    /// The paper's payload for ambient occlusion: the quantised shading normal alone, 4 bytes. Needs a scene.
+    Normal,
+    /// The triangle's plane in full, 16 bytes: rays meet it without asking for the triangle, and know nothing else of it.
+    Plane,
+}
+
+impl Payload {
+    /// Every payload.
+    pub const ALL: [Self; 4] = [Self::Index, Self::Attributes, Self::Normal, Self::Plane];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Index => "index",
+            Self::Attributes => "attributes",
+            Self::Normal => "normal",
+            Self::Plane => "plane",
+        }
+    }
+
+    /// Whether it is read from a scene while fragments are stored.
+    pub fn needs_scene(self) -> bool {
+        matches!(self, Self::Attributes | Self::Normal)
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Index => numbers::ABUFFER_PAYLOAD_INDEX,
+            Self::Attributes => numbers::ABUFFER_PAYLOAD_ATTRIBUTES,
+            Self::Normal => numbers::ABUFFER_PAYLOAD_NORMAL,
+            Self::Plane => numbers::ABUFFER_PAYLOAD_PLANE,
+        }
+    }
+}
+
+/// Who decides which cells a triangle covers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coverage {
+    /// The rasterizer, with its sub-pixel grid.
+    Hardware,
+    /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
+    Exact,
+    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe: edge-on ones,
+    /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
+    /// finds ([`Config::is_exact`]). Needs [`Accept::Plane`].
+    Conservative,
+}
+
+impl Coverage {
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
+            Self::Exact => numbers::ABUFFER_COVERAGE_EXACT,
+            Self::Conservative => numbers::ABUFFER_COVERAGE_CONSERVATIVE,
+        }
+    }
+}
+
+/// Which views are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Views {
+    /// Six faces of a cube around the eye: all that is around it.
+    Cube,
+    /// The same, and what the camera sees, with [`Config::camera_resolution`] cells a side.
+    CubeCamera,
+    /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
+    Camera,
+}
+
+impl Views {
+    /// Every choice.
+    pub const ALL: [Self; 3] = [Self::Cube, Self::CubeCamera, Self::Camera];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cube => "cube",
+            Self::CubeCamera => "cube+camera",
+            Self::Camera => "camera",
+        }
+    }
+
+    /// Whether the faces of the cube are among them.
+    pub fn has_cube(self) -> bool {
+        self != Self::Camera
+    }
+
+    /// Whether the camera's view is among them.
+    pub fn has_camera(self) -> bool {
+        self != Self::Cube
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        let cube = if self.has_cube() { numbers::ABUFFER_VIEWS_CUBE } else { 0 };
+        cube | if self.has_camera() { numbers::ABUFFER_VIEWS_CAMERA } else { 0 }
+    }
+}
+
+/// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    /// One linked list a cell, read from its near end.
+    Ll,
+    /// One doubly linked list a cell, read from either end.
+    Dll,
+    /// A linked list a depth bucket.
+    Llb,
+    /// A doubly linked list a depth bucket: the paper's own.
+    Dllb,
+    /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
+    Sb,
+    /// A linked list of pages a depth bucket; a page holds [`Config::page`] fragments.
+    Paged,
+}
+
+impl Storage {
+    /// Every storage.
+    pub const ALL: [Self; 6] = [Self::Ll, Self::Dll, Self::Llb, Self::Dllb, Self::Sb, Self::Paged];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ll => "ll",
+            Self::Dll => "dll",
+            Self::Llb => "llb",
+            Self::Dllb => "dllb",
+            Self::Sb => "sb",
+            Self::Paged => "paged",
+        }
+    }
+
+    /// Whether a cell has depth bounds and a list a bucket.
+    pub fn is_bucketed(self) -> bool {
+        matches!(self, Self::Llb | Self::Dllb | Self::Paged)
+    }
+
+    /// Whether nodes link both ways.
+    pub fn is_doubly_linked(self) -> bool {
+        matches!(self, Self::Dll | Self::Dllb)
+    }
+
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Ll => numbers::ABUFFER_STORAGE_LL,
+            Self::Dll => numbers::ABUFFER_STORAGE_DLL,
+            Self::Llb => numbers::ABUFFER_STORAGE_LLB,
+            Self::Dllb => numbers::ABUFFER_STORAGE_DLLB,
+            Self::Sb => numbers::ABUFFER_STORAGE_SB,
+            Self::Paged => numbers::ABUFFER_STORAGE_PAGED,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! A single layer: of each cell the nearest fragments of all, whatever the storage, the builder and the coverage.
+
+use std::collections::HashSet;
+
+use rasray_abuffer::{
+    ABuffer, Accept, Addressing, Builder, Config, Contents, Coverage, March, Storage, Views, well_formed,
+};
+use rasray_ads::{CameraView, Geometry, Hit, Ray, SceneBinding, Structure, Viewpoint};
+use rasray_gpu::Timing;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::pictures::stage;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, all_sizes};
+use rasray_tracer::build_until_complete;
+
+const EYE: [f32; 3] = [0.3, -0.7, 0.2];
+
+/// A right angle of view along z: the rays through its cells' centres are easily named.
+const ALONG_Z: CameraView = CameraView {
+    right: [1.0, 0.0, 0.0],
+    up: [0.0, 1.0, 0.0],
+    forward: [0.0, 0.0, 1.0],
+    half_width: 1.0,
+    half_height: 1.0,
+};
+
+fn viewpoint(config: &Config) -> Viewpoint {
+    Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(ALONG_Z) }
+}
+
+/// A structure, with what is stored checked.
+fn built(
+    bench: &Bench,
+    config: Config,
+    geometry: &Geometry,
+    scene: Option<&SceneBinding>,
+) -> (ABuffer, Contents) {
+    let mut structure = ABuffer::new(bench.device(), config, geometry, scene).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, viewpoint(&config), Timing::None)
+        .expect("the build completes");
+    let report = structure.report().expect("the header is readable");
+    assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{config:?}");
+    let contents = structure.download(bench.device()).expect("the device works");
+    well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
+    (structure, contents)
+}
+
+/// Depth and triangle of the fragments of each cell, in order.
+fn cells(contents: &Contents) -> Vec<Vec<(u32, u32)>> {
+    let cells = contents.fragments().expect("lists are well formed");
+    let ordered = cells.into_iter().map(|cell| {
+        let mut cell: Vec<_> =
+            cell.into_iter().map(|fragment| (fragment.z.to_bits(), fragment.payload[0])).collect();
+        cell.sort_unstable();
+        cell
+    });
+    ordered.collect()
+}
+
+/// The nearest of a cell's fragments: within half a millionth of the first.
+fn nearest(cell: &[(u32, u32)]) -> Vec<(u32, u32)> {
+    let z = |fragment: &(u32, u32)| f32::from_bits(fragment.0);
+    let farthest = cell.first().map_or(0.0, |first| z(first) * (1.0 + 4.8e-7_f32));
+    cell.iter().copied().filter(|fragment| z(fragment) <= farthest).collect()
+}
+
+/// Compares a single layer with all layers, and says how many fragments each stores.
+fn compare(bench: &Bench, all: Config, geometry: &Geometry, scene: Option<&SceneBinding>) -> [usize; 2] {
+    let single = Config { single_layer: true, ..all };
+    let (_, of_all) = built(bench, all, geometry, scene);
+    let (structure, of_single) = built(bench, single, geometry, scene);
+    let (of_all, kept) = (cells(&of_all), cells(&of_single));
+    for (cell, (all, kept)) in of_all.iter().zip(&kept).enumerate() {
+        assert_eq!(&nearest(all), kept, "cell {cell} of {single:?}");
+    }
+    // Triangles that are nowhere the nearest are named as lost.
+    let triangles = |cells: &[Vec<(u32, u32)>]| {
+        cells.iter().flatten().map(|(_, primitive)| *primitive).collect::<HashSet<_>>().len() as u64
+    };
+    let lost = structure.report().expect("the header is readable").lost.expect("they are counted");
+    if scene.is_none() {
+        assert_eq!(lost + triangles(&kept), u64::from(geometry.triangle_count()), "{single:?}");
+    }
+    assert!(triangles(&kept) < triangles(&of_all), "{single:?}");
+    [of_all, kept].map(|cells| cells.iter().map(Vec::len).sum())
+}
+
+#[test]
+fn a_single_layer_is_the_nearest_of_all() {
+    let bench = Bench::new();
+    let geometry = bench.geometry(&all_sizes());
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
+        for (coverage, accept, views, march, builder) in [
+            (Coverage::Exact, Accept::Plane, Views::Cube, March::Exact, Builder::Raster),
+            (Coverage::Exact, Accept::Interval, Views::CubeCamera, March::Pyramid, Builder::Binning),
+            (Coverage::Hardware, Accept::Interval, Views::Camera, March::Samples, Builder::Raster),
+        ] {
+            let addressing = if index % 2 == 0 { Addressing::Descriptor } else { Addressing::Address };
+            let config = Config {
+                storage,
+                coverage,
+                accept,
+                views,
+                march,
+                builder,
+                addressing,
+                inline: index % 3 == 0,
+                camera_resolution: 41,
+                ..Config::robust(32)
+            };
+            let [all, kept] = compare(&bench, config, &geometry, None);
+            assert!(kept > 1000 && kept < all * 9 / 10, "{kept} of {all} fragments, {config:?}");
+        }
+    }
+}
+
+/// What a mask cuts out is not the nearest.
+#[test]
+fn holes_of_masks_show_the_layer_behind() {
+    let bench = Bench::new();
+    let scene = stage(&bench, "atrium:detail=0.25", 16);
+    assert!(scene.binding().alpha_masked);
+    for builder in Builder::ALL {
+        let config = Config { builder, ..Config::robust(48) };
+        let opaque = Config { single_layer: true, ..config };
+        let (_, without_masks) = built(&bench, opaque, scene.geometry(), None);
+        let (_, with_masks) = built(&bench, opaque, scene.geometry(), Some(scene.binding()));
+        assert!(cells(&without_masks) != cells(&with_masks), "{builder:?}: no hole is seen");
+        compare(&bench, config, scene.geometry(), Some(scene.binding()));
+    }
+}
+
+/// Hits do not depend on how a single layer is stored, and from the eye they are those of all layers.
+#[test]
+fn from_the_eye_a_single_layer_is_enough() {
+    const SIDE: u32 = 40;
+    let bench = Bench::new();
+    let triangles: Vec<Triangle> = all_sizes();
+    let geometry = bench.geometry(&triangles);
+    let center = |cell: u32| (2 * cell + 1) as f32 / SIDE as f32 - 1.0;
+    let centers = (0..SIDE * SIDE).map(|cell| [center(cell % SIDE), center(cell / SIDE), 1.0]);
+    let from_eye: Vec<Ray> = centers.map(|direction| Ray::new(EYE, direction)).collect();
+    let mut random = Random::new(0x6c61);
+    let anywhere: Vec<Ray> =
+        (0..2000).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
+    let mut expected: Option<Vec<[u32; 4]>> = None;
+    for (storage, march) in Storage::ALL.into_iter().zip([March::Exact, March::Pyramid].into_iter().cycle()) {
+        let all =
+            Config { storage, march, views: Views::Camera, camera_resolution: SIDE, ..Config::robust(SIDE) };
+        let [of_all, of_single] = [false, true]
+            .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None).0);
+        let hits = |structure: &ABuffer, rays: &[Ray]| bench.trace(structure, rays).hits;
+        let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
+        let (seen, kept) = (hits(&of_all, &from_eye), hits(&of_single, &from_eye));
+        let met = kept.iter().filter(|hit| hit.is_hit()).count();
+        let same = seen.iter().zip(&kept).filter(|(all, single)| key(all) == key(single)).count();
+        println!("{storage:?}: {met} of {} met, {same} the same", from_eye.len());
+        assert!(met > from_eye.len() * 9 / 10, "{storage:?}: {met} met");
+        assert_eq!(same, from_eye.len(), "{storage:?}");
+        // Elsewhere what is behind is not met.
+        let (seen, kept) = (hits(&of_all, &anywhere), hits(&of_single, &anywhere));
+        let count = |hits: &[Hit]| hits.iter().filter(|hit| hit.is_hit()).count();
+        assert!(count(&kept) < count(&seen) * 9 / 10, "{} of {}", count(&kept), count(&seen));
+        let kept: Vec<_> = kept.iter().map(bits).collect();
+        assert_eq!(expected.get_or_insert_with(|| kept.clone()), &kept, "{storage:?}");
+    }
+}
+
+#[test]
+fn a_single_layer_excludes_conservative_coverage() {
+    let config = Config { single_layer: true, coverage: Coverage::Conservative, ..Config::robust(16) };
+    let message = config.validate().expect_err("refused").to_string();
+    assert!(message.contains("single-layer"), "{message}");
+}
