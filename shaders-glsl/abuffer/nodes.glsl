@@ -85,16 +85,18 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
     return words;
 }
 
-// Whether a fragment's payload has the lower words, the first that differ.
+// Whether a fragment's payload has the lower words, the first that differ: nearly always the first of all, so that a loop that ends
+// there costs less than one that is unrolled.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
-    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+    bool lower = false;
+    bool equal = true;
+    [[dont_unroll]] for (uint word = 0u; equal && word < abuffer_data_stride(); word++) {
         uint left_word = abuffer_data(s, left, word);
         uint right_word = abuffer_data(s, right, word);
-        if (left_word != right_word) {
-            return left_word < right_word;
-        }
+        equal = left_word == right_word;
+        lower = left_word < right_word;
     }
-    return false;
+    return lower;
 }
 
 // The order of sorted lists: by depth, ties by payload.

@@ -1,6 +1,7 @@
 // What: the language extensions every module is compiled with.
 // Reads, writes: nothing.
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 #ifdef ADDRESSING_ADDRESS
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_buffer_reference_uvec2 : require
