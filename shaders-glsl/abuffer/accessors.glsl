@@ -40,6 +40,11 @@ bool abuffer_bucketed() {
         || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 }
 
+// Whether a cell has several lists: where the nearest fragments alone are kept it has one, whatever the storage.
+bool abuffer_has_buckets() {
+    return abuffer_bucketed() && ABUFFER_SINGLE_LAYER == 0u;
+}
+
 // Whether cells know the smallest and largest depth of their fragments.
 bool abuffer_has_ends() {
     return abuffer_bucketed() || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID || ABUFFER_SINGLE_LAYER != 0u;
@@ -68,7 +73,7 @@ bool abuffer_has_extent() {
 // Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the head of its fringe.
 uint abuffer_bounds_stride() {
     uint ends = abuffer_has_ends() ? 2u : 0u;
-    uint extent = abuffer_has_extent() ? (abuffer_bucketed() ? 2u : 1u) : 0u;
+    uint extent = abuffer_has_extent() ? (abuffer_has_buckets() ? 2u : 1u) : 0u;
     return ends + extent + (abuffer_conservative() ? 1u : 0u);
 }
 
@@ -122,9 +127,11 @@ void abuffer_widen_far(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride() + 1u], floatBitsToUint(z));
 }
 
-// The smallest depth of a cell that has been seen to hold something.
-float abuffer_z_min(AbufferRef s, uint cell) {
-    return uintBitsToFloat(~ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()]);
+// The smallest depth of a cell. False where nothing has been met.
+bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
+    uint word = ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()];
+    z_min = uintBitsToFloat(~word);
+    return word != 0u;
 }
 
 // Widens the extent of a cell, where it has one.
@@ -185,7 +192,7 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     bounds.empty = false;
     bounds.z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
-    if (!abuffer_bucketed()) {
+    if (!abuffer_has_buckets()) {
         return bounds;
     }
     if (abuffer_has_extent()) {

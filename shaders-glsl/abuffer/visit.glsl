@@ -12,16 +12,21 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-// How much farther than the nearest a fragment may be that counts as of the same layer, as a share of its depth: triangles
-// that meet in a centre differ by rounding there, and so may the hardware's depths of two draws.
+// How much farther than the nearest a fragment may be that counts as of the same layer, as a share of its depth: a few roundings,
+// by which triangles that meet in a centre differ there. All passes find the same depths, but for the hardware's, which may
+// differ as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
-// Whether a fragment is of the layers that are kept.
+// Whether a triangle is not behind the layer that is kept of a cell, whether or not a mask cuts it out there.
 bool abuffer_in_layer(uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER == 0u) {
         return true;
     }
-    precise float farthest = abuffer_z_min(abuffer_built, cell) * (1.0 + ABUFFER_LAYER_SHARE);
+    float z_min;
+    if (!abuffer_z_min(abuffer_built, cell, z_min)) {
+        return true;
+    }
+    precise float farthest = z_min * (1.0 + ABUFFER_LAYER_SHARE);
     return coverage.z <= farthest;
 }
 
@@ -56,25 +61,30 @@ void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
 }
 
 void abuffer_visit_count(uint primitive, uint cell, CellCoverage coverage) {
-    if (abuffer_keeps(primitive, coverage) && abuffer_in_layer(cell, coverage)) {
+    if (abuffer_in_layer(cell, coverage) && abuffer_keeps(primitive, coverage)) {
         abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
     }
 }
 
 void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
-    bool keeps = abuffer_keeps(primitive, coverage);
-    if (keeps && !abuffer_in_layer(cell, coverage)) {
+    if (!abuffer_in_layer(cell, coverage)) {
         // Not marked: a triangle that is behind others everywhere is lost.
         return;
     }
     abuffer_mark(abuffer_built, primitive);
-    if (!keeps) {
+    if (!abuffer_keeps(primitive, coverage)) {
         return;
     }
     float z = coverage.z;
     uint bucket = 0u;
     if (ABUFFER_SINGLE_LAYER != 0u) {
-        z = max(z, abuffer_z_min(abuffer_built, cell));
+        float z_min;
+        if (!abuffer_z_min(abuffer_built, cell, z_min)) {
+            // The bounds pass met nothing here, so passes disagree.
+            atomicAdd(ABUFFER_HEADER(abuffer_built).corrupted, 1u);
+            return;
+        }
+        z = max(z, z_min);
         abuffer_widen_far(abuffer_built, cell, z);
         abuffer_widen_extent(abuffer_built, cell, coverage.extent);
     } else if (abuffer_bucketed()) {

@@ -110,7 +110,7 @@ fn stored_planes_are_met_where_those_of_triangles_are() {
     };
     let same = named.iter().zip(&stored).filter(|(named, stored)| agrees(named, stored)).count();
     println!("{same} of {} rays meet the same point", rays.len());
-    assert!(same >= rays.len() * 98 / 100, "{same} of {} rays meet the same point", rays.len());
+    assert!(same >= rays.len() * 995 / 1000, "{same} of {} rays meet the same point", rays.len());
     assert!(stored.iter().all(|hit| !hit.is_hit() || hit.primitive == PRIMITIVE_UNKNOWN));
 }
 
@@ -134,13 +134,66 @@ fn storages_and_builders_change_no_hit() {
             skip: index != 2,
             march: if index == 3 { March::Pyramid } else { March::Exact },
             addressing: if index == 1 { Addressing::Address } else { Addressing::Descriptor },
-            work_budget: (index == 5).then_some(16),
+            work_budget: (index >= 3).then_some(16),
             ..first
         };
         let structure = built(&bench, config, &triangles);
         let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 400);
         assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
         assert!(keys(&hits) == expected, "{config:?}");
+    }
+}
+
+/// Planes that meet in a line through the centres of cells: one depth, one t, and the same first words.
+fn crossing(reversed: bool) -> Vec<Triangle> {
+    let mut triangles = Vec::new();
+    for layer in 0..6 {
+        let (z, slope) = (4.0 + layer as f32, 0.25);
+        let corner = |x: f32, y: f32, slope: f32| [EYE[0] + x, EYE[1] + y, EYE[2] + z + slope * y];
+        // Wound so that the normals of both begin with the same zero.
+        triangles.push([corner(-8.0, -2.0, slope), corner(8.0, -2.0, slope), corner(0.0, 4.0, slope)]);
+        triangles.push([corner(-8.0, -2.0, -slope), corner(0.0, 4.0, -slope), corner(8.0, -2.0, -slope)]);
+    }
+    if reversed {
+        triangles.reverse();
+    }
+    triangles
+}
+
+/// Of planes at one t the same one is hit, however lists are kept and in whatever order triangles come.
+#[test]
+fn ties_are_broken_by_all_words() {
+    const SIDE: u32 = 33;
+    let bench = Bench::new();
+    let center = |cell: u32| (2 * cell + 1) as f32 / SIDE as f32 - 1.0;
+    // Through the centres of the middle row.
+    let rays: Vec<Ray> = (8..25).map(|x| Ray::new(EYE, [center(x), 0.0, 1.0])).collect();
+    let mut expected: Option<Vec<Vec<u32>>> = None;
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
+        for reversed in [false, true] {
+            let config = Config { storage, sort: index != 1, inline: index == 3, ..planes(SIDE) };
+            let structure = built(&bench, config, &crossing(reversed));
+            let contents = structure.download(bench.device()).expect("the device works");
+            well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
+            let cells = contents.fragments().expect("well formed");
+            let is_tie = |fragments: &[Fragment<'_>]| {
+                let tied = |left: &Fragment<'_>, right: &Fragment<'_>| {
+                    left.z == right.z
+                        && left.payload[..2] == right.payload[..2]
+                        && left.payload != right.payload
+                };
+                fragments.iter().any(|left| fragments.iter().any(|right| tied(left, right)))
+            };
+            let ties = cells.iter().filter(|fragments| is_tie(fragments)).count();
+            assert!(ties >= rays.len(), "{storage:?}: {ties} cells with ties");
+            let hits = bench.trace(&structure, &rays).hits;
+            let met = hits.iter().map(|hit| {
+                assert_eq!(hit.primitive, PRIMITIVE_UNKNOWN);
+                contents.fragment(hit.a.to_bits()).expect("it is stored").payload.to_vec()
+            });
+            let met: Vec<_> = met.collect();
+            assert_eq!(expected.get_or_insert_with(|| met.clone()), &met, "{storage:?}, {reversed}");
+        }
     }
 }
 

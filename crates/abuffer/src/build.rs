@@ -58,8 +58,7 @@ impl Build {
         let stored = if attributes { ".attributes" } else { masked };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let covered = |name, variant| visits.visit("build_raster", name, variant);
-        let bucketed = config.storage.is_bucketed();
-        let scaled = bucketed && config.accept.needs_triangles();
+        let scaled = config.has_buckets() && config.accept.needs_triangles();
         let lengths = || -> Result<Lengths, AdsError> {
             Ok(Lengths {
                 count: covered("build_4_count", masked)?,

@@ -63,7 +63,8 @@ pub enum Payload {
     Index,
     /// The paper's quantised attributes for path tracing, 16 bytes. Needs a scene.
     Attributes,
-    /// The paper's payload for ambient occlusion: the quantised shading normal alone, 4 bytes. Needs a scene.
+    /// The paper's payload for ambient occlusion: the quantised normal that is shaded by, alone, 4 bytes.
+    /// Needs a scene.
     Normal,
     /// The triangle's plane in full, 16 bytes: rays meet it without asking for the triangle, and know nothing else of it.
     Plane,

@@ -181,8 +181,8 @@ impl Config {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// Whether the fragments of a cell are kept by depth in several lists.
-    fn has_buckets(&self) -> bool {
+    /// Whether the fragments of a cell are kept by depth in several lists: of a single layer there is one, whatever the storage.
+    pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer
     }
 

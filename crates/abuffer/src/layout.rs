@@ -95,7 +95,7 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
 /// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at the extent, and
 /// beside buckets their scale; with conservative coverage the head of the fringe.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
-    let extent = match (config.accept.needs_triangles(), config.storage.is_bucketed()) {
+    let extent = match (config.accept.needs_triangles(), config.has_buckets()) {
         (true, true) => 2,
         (true, false) => 1,
         (false, _) => 0,
@@ -255,6 +255,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let camera_blocks = if config.views == Views::Cube { 0 } else { blocks(1, camera_side) };
     let bounded = if unbounded && !config.single_layer { cells } else { 0 };
     let single = if unbounded && config.single_layer { 8 * cells } else { 0 };
+    let scale = if config.single_layer { 0 } else { scale };
     FormulaBytes {
         cells: cells * per_cell + single,
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },

@@ -112,6 +112,12 @@ impl Contents {
         Ok(found)
     }
 
+    /// The fragment that a hit without an id names by the bits of its `a`; absent if none is stored there.
+    pub fn fragment(&self, link: u32) -> Option<Fragment<'_>> {
+        let is_stored = link != 0 && link as usize <= self.stored();
+        is_stored.then(|| Fragment { z: self.z(link), payload: self.payload(link) })
+    }
+
     /// The fragments of each cell, over all its buckets.
     ///
     /// # Errors

@@ -27,8 +27,8 @@ impl SystemConfig {
         entry(self.name)
     }
 
-    /// The same for images of a workload: published fragments carry what their paper keeps for occlusion where nothing else is
-    /// asked for, unless a payload was given.
+    /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion where nothing else is
+    /// asked for, unless a payload was given. Comparisons keep the preset's, since rays are compared beside the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         let occlusion = workload.integrator == Integrator::AmbientOcclusion;
@@ -38,6 +38,16 @@ impl SystemConfig {
                 word.map(|word| Payload::from_str(word, false).expect("a test looks it up"));
         }
         self
+    }
+
+    /// What images of a workload lack: a warning where they shade and fragments carry nothing to shade by.
+    pub fn shortcoming(&self, workload: Workload) -> Option<String> {
+        let unshaded =
+            self.options.payload.filter(|payload| matches!(payload, Payload::Normal | Payload::Plane))?;
+        (workload.integrator != Integrator::AmbientOcclusion).then(|| {
+            let (system, payload) = (word(&self.name), word(&unshaded));
+            format!("{system}: fragments with --payload {payload} carry nothing to shade by, so that surfaces are white")
+        })
     }
 
     /// What the registry makes the structure from.
@@ -286,6 +296,12 @@ mod tests {
             assert_eq!(config.clone().serving(occlusion), config);
         }
         assert_eq!(entry(SystemName::Mmrt).occlusion_payload, Some("normal"));
+        let plane = StructureOptions { payload: Some(Payload::Plane), ..plain };
+        let plane = single(SystemName::Mmrt, Preset::Robust, &plane).expect("valid");
+        assert!(plane.shortcoming(path).expect("white surfaces").contains("--payload plane"));
+        assert_eq!(plane.shortcoming(occlusion), None);
+        let attributes = single(SystemName::Mmrt, Preset::Published, &given).expect("valid");
+        assert_eq!(attributes.shortcoming(path), None);
     }
 
     #[test]

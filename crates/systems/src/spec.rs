@@ -35,8 +35,7 @@ pub struct System {
     pub presets: &'static [Preset],
     /// Options it has, by their names on the command line.
     pub options: &'static [&'static str],
-    /// What `payload` is with the published preset where an image asks for occlusion alone; absent where the paper has no payload
-    /// of its own for it.
+    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has none of its own for it.
     pub occlusion_payload: Option<&'static str>,
     /// The structure that a spec traces, as crates and shaders name it.
     pub(crate) structure: fn(&Spec) -> &'static str,

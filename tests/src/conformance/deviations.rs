@@ -84,8 +84,8 @@ pub(super) const PLANES_64: &[Deviation] = &[
     deviation("V2-6", EDGE_ON, 0.99, 1.0),
     deviation("V16", THIN, 0.99, 1.0),
     deviation("T2", NEEDLE, 0.26, 0.42),
-    deviation("P1", NEIGHBOURS, 0.67, 1.0),
-    deviation("P5", NEIGHBOURS, 0.62, 1.0),
+    deviation("P1", NEIGHBOURS, 0.67, 0.93),
+    deviation("P5", NEIGHBOURS, 0.62, 0.93),
     deviation("P7", NEIGHBOURS, 0.55, 0.9),
 ];
 

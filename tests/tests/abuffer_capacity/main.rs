@@ -7,10 +7,10 @@ use rasray_abuffer::{
     ABuffer, Accept, Addressing, Config, Contents, Coverage, Demand, March, Payload, Storage, formula_bytes,
     plan, well_formed,
 };
-use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
+use rasray_ads::{BuildStatus, Check, Hit, PRIMITIVE_UNKNOWN, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
-use rasray_tests::harness::Bench;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
 
@@ -47,10 +47,15 @@ fn room(fragments: u64, near_triangles: u64) -> Demand {
     Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
 }
 
-fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<Hit> {
+/// What rays meet, bit for bit. Of fragments without an id a and b name a node, whose number follows the order of threads.
+fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<[u32; 4]> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
-    hits
+    let key = |hit: &Hit| {
+        let [t, primitive, a, b] = bits(hit);
+        if primitive == PRIMITIVE_UNKNOWN { [t, primitive, 0, 0] } else { [t, primitive, a, b] }
+    };
+    hits.iter().map(key).collect()
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {

@@ -50,6 +50,8 @@ pub(crate) fn compare(
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
+    shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
 
     let mut backend = open(&given.device.choice())?;
     stop_if_requested(interrupt)?;

@@ -37,6 +37,7 @@ pub(crate) fn render(
     let loaded = scene_source::prepare(&given.scene, &given.reading)?;
     let camera = camera::choose(&loaded.scene, &given.view)?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let mut backend = open(&given.device.choice())?;
     stop_if_requested(interrupt)?;
