@@ -74,7 +74,7 @@ bool abuffer_has_extent() {
 uint abuffer_bounds_stride() {
     uint ends = abuffer_has_ends() ? 2u : 0u;
     uint extent = abuffer_has_extent() ? (abuffer_has_buckets() ? 2u : 1u) : 0u;
-    return ends + extent + (abuffer_conservative() ? 1u : 0u);
+    return ends + extent + (abuffer_has_fringe() ? 1u : 0u);
 }
 
 // Word of the extent among a cell's bounds; the scale is the next one.
@@ -151,7 +151,12 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
-// Words of the marks of triangles, a bit each, behind the bounds of all cells.
+// Sets of marks of triangles: those that have a fragment, and where that decides what the fringe keeps, those that it does.
+uint abuffer_mark_sets() {
+    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;
+}
+
+// Words of a set of marks, a bit each, behind the bounds of all cells.
 uint abuffer_mark_words(AbufferRef s) {
     return (ABUFFER_HEADER(s).triangles + 31u) / 32u;
 }
@@ -161,13 +166,19 @@ uint abuffer_marks(AbufferRef s) {
     return abuffer_cell_count(s) * abuffer_bounds_stride();
 }
 
-// Marks a triangle that a cell keeps.
-void abuffer_mark(AbufferRef s, uint primitive) {
-    uint word = abuffer_marks(s) + primitive / 32u;
+// Marks a triangle that a cell keeps in a set.
+void abuffer_mark(AbufferRef s, uint primitive, uint set) {
+    uint word = abuffer_marks(s) + set * abuffer_mark_words(s) + primitive / 32u;
     uint bit = 1u << (primitive % 32u);
     if (primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_BOUNDS(s)[word] & bit) == 0u) {
         atomicOr(ABUFFER_BOUNDS(s)[word], bit);
     }
+}
+
+// Whether a triangle has a fragment.
+bool abuffer_is_marked(AbufferRef s, uint primitive) {
+    uint word = abuffer_marks(s) + primitive / 32u;
+    return primitive < ABUFFER_HEADER(s).triangles && (ABUFFER_BOUNDS(s)[word] & 1u << (primitive % 32u)) != 0u;
 }
 
 // The bounds of a cell. Without ends they hold everything, and lists say whether there is anything.

@@ -48,7 +48,7 @@ bool bin_begin(uint primitive, uint place, out Bin bin) {
     bin.resolution = abuffer_resolution(abuffer_built, bin.view);
     abuffer_view_vertices(abuffer_built, primitive, bin.view, bin.a, bin.b, bin.c);
     float margin = 0.0;
-    if (abuffer_conservative()) {
+    if (abuffer_has_fringe()) {
         margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
     }
     bool any_cell = coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper);

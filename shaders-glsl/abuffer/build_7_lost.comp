@@ -19,7 +19,10 @@ void main() {
     if (32u * word >= triangles) {
         return;
     }
-    uint marks = ABUFFER_BOUNDS(abuffer_built)[abuffer_marks(abuffer_built) + word];
+    uint marks = 0u;
+    for (uint set = 0u; set < abuffer_mark_sets(); set++) {
+        marks |= ABUFFER_BOUNDS(abuffer_built)[abuffer_marks(abuffer_built) + set * abuffer_mark_words(abuffer_built) + word];
+    }
     uint lost = 0u;
     for (uint bit = 0u; bit < min(32u, triangles - 32u * word); bit++) {
         if ((marks & 1u << bit) == 0u) {

@@ -13,7 +13,7 @@ uint abuffer_fringe_word(uint cell) {
 
 // The first link of a cell's fringe.
 uint abuffer_fringe_head(AbufferRef s, uint cell) {
-    return abuffer_conservative() && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_fringe_word(cell)] : 0u;
+    return abuffer_has_fringe() && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_fringe_word(cell)] : 0u;
 }
 
 #define FringeRef AbufferRef

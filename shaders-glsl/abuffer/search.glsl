@@ -82,7 +82,11 @@ void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, fl
 // Tests a triangle itself. A hit counts wherever it lies. The caller counts the test.
 void abuffer_test(Ray ray, uint primitive, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
-    test_triangle(ray, primitive, -infinity, infinity, state.best);
+    if (abuffer_conservative()) {
+        test_triangle(ray, primitive, -infinity, infinity, state.best);
+    } else {
+        test_beside_planes(ray, primitive, -infinity, infinity, state.best);
+    }
 }
 
 // Tests the triangles of the cell's fringe that the ray's depths meet. Returns true if the work budget ended before.
@@ -104,7 +108,8 @@ bool abuffer_search_fringe(AbufferRef s, Ray ray, float low, float high, inout A
         if (node.primitive == PRIMITIVE_NONE) {
             continue;
         }
-        if (ABUFFER_SKIP == 0u || fringe_meets(node, low, high)) {
+        // Beside planes it is the stay in the cell that counts, with or without skipping.
+        if ((ABUFFER_SKIP == 0u && abuffer_conservative()) || fringe_meets(node, low, high)) {
             state.tests++;
             abuffer_test(ray, node.primitive, state);
         } else {
@@ -123,7 +128,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         + ABUFFER_HEADER(s).rounding;
     float near_z = min(z_in, z_out);
     float far_z = max(z_in, z_out);
-    if (abuffer_conservative() && !search.in_bucket
+    if (abuffer_has_fringe() && !search.in_bucket
         && abuffer_search_fringe(s, ray, near_z - rounding, far_z + rounding, search, state, work)) {
         return true;
     }

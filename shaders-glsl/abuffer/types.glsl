@@ -26,6 +26,11 @@ bool abuffer_conservative() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
 }
 
+// Whether cells keep triangles beside their centres.
+bool abuffer_has_fringe() {
+    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE || ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
+}
+
 // State and sizes of one A-buffer. 232 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
@@ -51,10 +56,10 @@ struct AbufferHeader {
     vec3 camera_z;
     uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // of the geometry that there are marks for
-    uint fringe_demand;   // triangles kept beside centres, ABUFFER_COVERAGE_CONSERVATIVE only
+    uint fringe_demand;   // triangles kept beside centres
     uint fringe_capacity;
     float reach;          // metres: largest coordinate of the geometry relative to the eye
-    float rounding;       // metres: how far rounding moves a triangle against a ray, ABUFFER_COVERAGE_CONSERVATIVE only
+    float rounding;       // metres: how far rounding moves a triangle against a ray; of coverages with a fringe
     uint pairs;           // triangles with many cells of a view, binning only
     uint pair_capacity;
     uint groups[3];       // workgroups for them

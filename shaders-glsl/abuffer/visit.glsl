@@ -71,7 +71,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
         // Not marked: a triangle that is behind others everywhere is lost.
         return;
     }
-    abuffer_mark(abuffer_built, primitive);
+    abuffer_mark(abuffer_built, primitive, 0u);
     if (!abuffer_keeps(primitive, coverage)) {
         return;
     }

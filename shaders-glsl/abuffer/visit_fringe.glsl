@@ -7,6 +7,19 @@
 #include "abuffer/covered.glsl"
 #include "abuffer/fringe.glsl"
 
+// Whether the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
+bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
+    vec3 normal = cross(b - a, c - a);
+    float facing = abs(dot(normal, coverage_center(place, resolution)));
+    return !(abs(normal.x) + abs(normal.y) <= ABUFFER_EDGE_ON_SLOPE * facing);
+}
+
+// Whether the fringe keeps a triangle that reaches into a cell beside its centre.
+bool abuffer_fringe_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
+    return abuffer_conservative() || !abuffer_is_marked(abuffer_built, primitive)
+        || abuffer_is_edge_on(a, b, c, place, resolution);
+}
+
 void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
     uint resolution = abuffer_resolution(abuffer_built, view);
     vec3 a;
@@ -20,8 +33,10 @@ void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
     vec2 depths;
     CellCoverage coverage;
     if (abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths)
-        && !coverage_at_center(a, b, c, place, resolution, coverage)) {
-        abuffer_mark(abuffer_built, primitive);
+        && !coverage_at_center(a, b, c, place, resolution, coverage)
+        && abuffer_fringe_keeps(primitive, a, b, c, place, resolution)) {
+        // In a set of its own where the first one is being read.
+        abuffer_mark(abuffer_built, primitive, abuffer_mark_sets() - 1u);
         fringe_add(abuffer_built, abuffer_cell(abuffer_built, view, place), primitive, depths);
     }
 }

@@ -66,6 +66,7 @@ fn both_builders_store_the_same_fragments() {
             (Coverage::Exact, Accept::Interval, Views::CubeCamera, 64, [0.3, -0.7, 0.2]),
             (Coverage::Conservative, Accept::Plane, Views::Cube, 48, [12.0, 1.0, -3.0]),
             (Coverage::Conservative, Accept::Plane, Views::CubeCamera, 5, [0.1, 0.0, 0.0]),
+            (Coverage::EdgeOn, Accept::Plane, Views::CubeCamera, 29, [0.3, -0.7, 0.2]),
             (Coverage::Exact, Accept::Plane, Views::Cube, 1, [0.0; 3]),
         ] {
             let addressing = if index % 2 == 0 { Addressing::Descriptor } else { Addressing::Address };
@@ -95,7 +96,7 @@ fn both_builders_store_the_same_fragments() {
             }
         }
     }
-    assert_eq!(compared, 5);
+    assert_eq!(compared, 6);
 }
 
 /// What has no room among the triangles with many cells is counted and grown, and nothing is answered until it has.

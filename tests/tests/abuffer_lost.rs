@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use rasray_abuffer::{ABuffer, Config, Coverage, March, Storage, Views};
+use rasray_abuffer::{ABuffer, Builder, Config, Coverage, March, Storage, Views, cell_count, well_formed};
 use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
@@ -135,6 +135,75 @@ fn conservative_coverage_finds_what_brute_force_finds() {
         let shares = right_shares(&named, &bench.trace(&exact, &rays).hits, &expected);
         println!("{resolution} cells, right of lost and of named without what is beside centres: {shares:?}");
         assert!(shares[0] < 0.3, "{shares:?}");
+    }
+}
+
+/// What is lost, and what is seen edge-on, is sent to where rays can hit it: nothing is lost then, what no fragment names is found
+/// like other triangles, and fringes hold far less than with conservative coverage.
+#[test]
+fn edge_on_triangles_are_found() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
+    let brute = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    let expected = bench.trace(&brute, &rays).hits;
+    for resolution in [1, 32, 128] {
+        let exact = Config::robust(resolution);
+        let made = |coverage| built(&bench, Config { coverage, ..exact }, &triangles);
+        let [without, with, all] = [Coverage::Exact, Coverage::EdgeOn, Coverage::Conservative].map(made);
+        assert_eq!(with.kind(), StructureKind::Fragment);
+        let reports = [&without, &with, &all].map(|structure| {
+            let report = structure.report().expect("the header is readable");
+            assert_eq!(report.formula_bytes, report.bytes() - report.slack(), "{resolution} cells");
+            report
+        });
+        assert_eq!([reports[1].lost, reports[2].lost], [Some(0), Some(0)], "{resolution} cells");
+        let contents = with.download(bench.device()).expect("the device works");
+        well_formed(&contents).expect("lists are well formed");
+        let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
+        let beside: HashSet<u32> = (0..cell_count(&contents.config) as usize)
+            .flat_map(|cell| contents.fringe_of(cell).expect("links are sound"))
+            .collect();
+        let unnamed: HashSet<u32> = (0..WITH_AREA).filter(|primitive| !named.contains(primitive)).collect();
+        assert!(
+            unnamed.is_subset(&beside),
+            "{resolution} cells: {:?}",
+            unnamed.difference(&beside).take(5).map(|p| triangles[*p as usize]).collect::<Vec<_>>()
+        );
+        let fringes =
+            [&with, &all].map(|structure| structure.header().expect("it is readable").fringe_demand);
+        let shares = [&without, &with]
+            .map(|structure| right_shares(&named, &bench.trace(structure, &rays).hits, &expected));
+        println!("{resolution} cells: {fringes:?} in fringes, right of lost and of named {shares:?}");
+        if resolution == 1 {
+            // Every plane stands for a whole face.
+            continue;
+        }
+        assert!(10 * fringes[0] < 9 * fringes[1], "{resolution} cells: {fringes:?}");
+        assert!(shares[0][0] < 0.3 && shares[1][0] > 0.8, "{resolution} cells: {shares:?}");
+        assert!(shares[1][1] >= shares[0][1], "{resolution} cells: {shares:?}");
+    }
+}
+
+/// Nor do they change one where the fringe holds what is lost alone, whoever builds.
+#[test]
+fn fringes_of_what_is_lost_are_searched_to_their_end() {
+    let bench = Bench::new();
+    let mut triangles = scene();
+    triangles.extend(closed_box([-90.0; 3], [90.0; 3]));
+    let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
+    let edge_on = Config { coverage: Coverage::EdgeOn, ..Config::robust(32) };
+    let mut configs: Vec<Config> = Storage::ALL.map(|storage| Config { storage, ..edge_on }).into();
+    configs.push(Config { builder: Builder::Binning, march: March::Pyramid, ..edge_on });
+    configs.push(Config { builder: Builder::Binning, storage: Storage::Sb, ..edge_on });
+    configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..edge_on });
+    configs.push(Config { sort: false, skip: false, ..edge_on });
+    configs.push(Config { work_budget: Some(3), ..edge_on });
+    let mut expected: Option<Vec<_>> = None;
+    for config in configs {
+        let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
+        let found: Vec<_> = bench.build_and_trace(&mut structure, EYE, &rays).iter().map(bits).collect();
+        assert!(expected.get_or_insert_with(|| found.clone()) == &found, "{config:?}");
     }
 }
 

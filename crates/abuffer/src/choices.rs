@@ -110,14 +110,32 @@ pub enum Coverage {
     /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
     /// finds ([`Config::is_exact`]). Needs [`Accept::Plane`].
     Conservative,
+    /// As [`Coverage::Exact`], and of the triangles that reach into a cell beside its centre those are kept that have no
+    /// fragment in any view, or whose planes are seen edge-on there: what the paper names as its open limit. Fragments are
+    /// met by their planes, triangles of the fringe by themselves. Needs [`Accept::Plane`].
+    EdgeOn,
 }
 
 impl Coverage {
+    /// Every coverage.
+    pub const ALL: [Self; 4] = [Self::Hardware, Self::Exact, Self::Conservative, Self::EdgeOn];
+
+    /// The word of options and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hardware => "hardware",
+            Self::Exact => "exact",
+            Self::Conservative => "conservative",
+            Self::EdgeOn => "edge-on",
+        }
+    }
+
     pub(crate) fn number(self) -> u32 {
         match self {
             Self::Hardware => numbers::ABUFFER_COVERAGE_HARDWARE,
             Self::Exact => numbers::ABUFFER_COVERAGE_EXACT,
             Self::Conservative => numbers::ABUFFER_COVERAGE_CONSERVATIVE,
+            Self::EdgeOn => numbers::ABUFFER_COVERAGE_EDGE_ON,
         }
     }
 }

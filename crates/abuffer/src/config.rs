@@ -22,7 +22,7 @@ pub struct Config {
     /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all layers. Changes no hit.
     pub buckets: u32,
     /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
-    /// [`Coverage::Conservative`]. Rays then meet nothing that is behind something else as seen from the eye.
+    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then meet nothing that is behind something else as seen from the eye.
     pub single_layer: bool,
     /// How rays step.
     pub march: March,
@@ -145,16 +145,16 @@ impl Config {
         if self.has_fringe() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
             return Err(AdsError::Option {
                 option: "coverage",
-                value: "conservative".to_owned(),
-                expected: "conservative coverage tests triangles, which fragments name with `accept=plane` and \
-                           `payload=index` only",
+                value: self.coverage.name().to_owned(),
+                expected: "the coverages conservative and edge-on test triangles, which fragments name with `accept=plane` \
+                           and `payload=index` only",
             });
         }
         if self.has_fringe() && self.single_layer {
             return Err(AdsError::Option {
                 option: "single-layer",
                 value: "on".to_owned(),
-                expected: "conservative coverage keeps every triangle that reaches into a cell: leave it off",
+                expected: "the coverages conservative and edge-on keep triangles behind others: leave it off",
             });
         }
         Ok(())
@@ -163,12 +163,22 @@ impl Config {
     /// Whether every hit is that of brute force: cells keep every triangle that reaches into them, and rays visit every cell
     /// that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
-        self.has_fringe() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
+        self.tests_triangles() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
     }
 
     /// Whether cells keep triangles beside their centres.
     pub(crate) fn has_fringe(&self) -> bool {
+        matches!(self.coverage, Coverage::Conservative | Coverage::EdgeOn)
+    }
+
+    /// Whether fragments are met by their triangles, not by the planes of these.
+    pub(crate) fn tests_triangles(&self) -> bool {
         self.coverage == Coverage::Conservative
+    }
+
+    /// Sets of marks of triangles: those with a fragment, and where these decide what the fringe keeps, those that it does.
+    pub(crate) fn mark_sets(&self) -> u64 {
+        if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
     }
 
     /// Whether cells know the smallest and largest depth of their fragments.
@@ -245,10 +255,9 @@ impl Config {
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
-        let lower = |value: &dyn std::fmt::Debug| format!("{value:?}").to_lowercase();
         vec![
             ("builder", self.builder.name().to_owned()),
-            ("coverage", lower(&self.coverage)),
+            ("coverage", self.coverage.name().to_owned()),
             ("addressing", self.addressing.name().to_owned()),
         ]
     }

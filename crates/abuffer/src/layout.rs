@@ -149,7 +149,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let lists = cells * u64::from(config.lists());
     let sizes = [
         (1, size_of::<Header>() as u64),
-        (bounds_and_blocks(config) + demand.triangles.div_ceil(32), 4),
+        (bounds_and_blocks(config) + config.mark_sets() * demand.triangles.div_ceil(32), 4),
         (lists, 4 * list_words(config.storage)),
         (demand.nodes, 4 * node_words(config)),
         (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
@@ -203,7 +203,7 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative coverage: per cell 4, per triangle beside its centre 12.
+    /// With conservative and edge-on coverage: per cell 4, per triangle beside its centre 12; with the latter 4 per 32 triangles.
     pub fringe: u64,
     /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with many cells of a view
     /// where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles for their marks.
@@ -261,7 +261,11 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        fringe: if config.coverage == Coverage::Conservative { 4 * cells + 12 * demand.fringe } else { 0 },
+        fringe: match config.coverage {
+            Coverage::Hardware | Coverage::Exact => 0,
+            Coverage::Conservative => 4 * cells + 12 * demand.fringe,
+            Coverage::EdgeOn => 4 * cells + 12 * demand.fringe + 4 * demand.triangles.div_ceil(32),
+        },
         rest: 232
             + 4 * demand.near_triangles
             + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
@@ -299,7 +303,11 @@ mod tests {
                 let page = if inline { 8 } else { 2 };
                 let views = Views::ALL[buckets as usize % 3];
                 let kept = accept == Accept::Plane && march == March::Pyramid && !single_layer;
-                let coverage = if kept { Coverage::Conservative } else { Coverage::Exact };
+                let coverage = match (kept, buckets) {
+                    (false, _) => Coverage::Exact,
+                    (true, 3) => Coverage::EdgeOn,
+                    (true, _) => Coverage::Conservative,
+                };
                 let builder = Builder::ALL[buckets as usize % 2];
                 let config = Config {
                     storage,

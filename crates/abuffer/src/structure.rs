@@ -111,18 +111,18 @@ impl ABuffer {
             });
         let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
         let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
-        let conservative = config.has_fringe();
-        let triangle_rounding = if conservative { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
+        let triangle_rounding =
+            if config.has_fringe() { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
         // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
         let margin = match config.accept {
-            _ if conservative => triangle_rounding,
+            _ if config.tests_triangles() => triangle_rounding,
             Accept::Slope | Accept::Plane => rounding + widest * farthest,
             Accept::Interval | Accept::Thickness => rounding,
         };
         let cells = (faces as f32).max(camera_cells);
         // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be lost the march
         // needs more, and what a ray meets outside of the near box is not behind the eye.
-        let near_size = if conservative {
+        let near_size = if config.has_fringe() {
             (NEAR_BOX * cells * farthest).max(2.0 * triangle_rounding).max(1.0e-30)
         } else {
             4.8e-7 * cells * farthest
@@ -160,9 +160,9 @@ impl ABuffer {
         })
     }
 
-    /// Words for the marks of triangles.
+    /// Words of a set of marks of triangles.
     fn mark_words(&self) -> u64 {
-        self.pools.sizes().elements("bounds") - bounds_and_blocks(&self.config)
+        (self.pools.sizes().elements("bounds") - bounds_and_blocks(&self.config)) / self.config.mark_sets()
     }
 
     /// The header as the last build left it. The caller has waited for the submission.
@@ -349,7 +349,9 @@ impl Structure for ABuffer {
             "near" => demand.near_triangles,
             "scratch" => scratch_words(&self.config, demand),
             "fringe" => demand.fringe,
-            "bounds" => bounds_and_blocks(&self.config) + demand.triangles.div_ceil(32),
+            "bounds" => {
+                bounds_and_blocks(&self.config) + self.config.mark_sets() * demand.triangles.div_ceil(32)
+            }
             _ => pool.elements,
         });
         Ok(StructureReport {

@@ -103,6 +103,8 @@ pub enum Coverage {
     Exact,
     /// Every cell it reaches into; of fragments, where nothing else stands for it
     Conservative,
+    /// The same of triangles that no cell keeps or that are seen edge-on
+    EdgeOn,
     /// Whatever the rasterizer covers
     Hardware,
 }

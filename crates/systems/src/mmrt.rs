@@ -93,11 +93,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                 ])?;
             }
             "coverage" => {
-                config.coverage = given.choice(&[
-                    ("exact", Coverage::Exact),
-                    ("hardware", Coverage::Hardware),
-                    ("conservative", Coverage::Conservative),
-                ])?;
+                config.coverage = given.choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))?;
             }
             "addressing" => {
                 config.addressing = given

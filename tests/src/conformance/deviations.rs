@@ -69,6 +69,9 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
+/// The same with what is lost and what is seen edge-on kept beside centres.
+pub(super) const EDGE_ON_64: &[Deviation] = &[deviation("V16", THIN, 0.39, 0.63)];
+
 /// The same where fragments carry the planes themselves.
 pub(super) const PLANES_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),

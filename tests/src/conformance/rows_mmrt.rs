@@ -78,6 +78,18 @@ pub(super) const ROWS: &[Row] = &[
         robust_law(64),
         deviations::CAMERA_64,
     ),
+    // Planes, and beside them the triangles that are lost or seen edge-on.
+    Row {
+        tier: Tier::Full,
+        ..mmrt(
+            "mmrt-edge-on-64",
+            Preset::Robust,
+            &[("resolution", "64"), ("coverage", "edge-on")],
+            Cases::Shallow,
+            robust_law(64),
+            deviations::EDGE_ON_64,
+        )
+    },
     // Planes that fragments carry themselves, which do not end where their triangles do.
     Row {
         tier: Tier::Full,

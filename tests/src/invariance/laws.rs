@@ -72,7 +72,7 @@ pub const LAWS: &[Law] = &[
     same_for_primitives("views", &["cube", "axes"]),
     // What decides whether something is a hit, or what a fragment stands for.
     may_change("accept", &["interval", "slope", "plane", "parity", "t", "tile"]),
-    may_change("coverage", &["exact", "hardware", "conservative"]),
+    may_change("coverage", &["exact", "hardware", "conservative", "edge-on"]),
     may_change("depth", &["16", "32"]),
     may_change("depths", &["clipped", "corners"]),
     may_change("march", &["samples", "dda", "exact", "pyramid", "jump"]),

@@ -159,9 +159,10 @@ fn every_edge_capacity_with_addresses() {
 /// What has no room in the fringe is counted, whether or not the lists have room.
 #[test]
 fn every_edge_capacity_of_the_fringe() {
-    for storage in Storage::ALL {
+    let edge_on = Config { coverage: Coverage::EdgeOn, ..config(Storage::Dllb) };
+    for config in Storage::ALL.map(beside).into_iter().chain([edge_on]) {
         let bench = Bench::new();
-        let (triangles, rays, config) = (scene(), rays(), beside(storage));
+        let (triangles, rays, storage) = (scene(), rays(), config.storage);
         let geometry = bench.geometry(&triangles);
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
