@@ -86,7 +86,7 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
 }
 
 // Whether a fragment's payload has the lower words, the first that differ: nearly always the first of all, so that a loop that ends
-// there costs less than one that is unrolled.
+// there costs less than one that is unrolled. Not for sorts, whose steps leave no room for iterations beside their own.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;
@@ -99,11 +99,11 @@ bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     return lower;
 }
 
-// The order of sorted lists: by depth, ties by payload.
+// The order of sorted lists: by depth, ties by the first word of payload. Hits do not depend on how ties are ordered.
 bool abuffer_comes_first(AbufferRef s, uint left, uint right) {
     float left_z = abuffer_z(s, left);
     float right_z = abuffer_z(s, right);
-    return left_z < right_z || (left_z == right_z && !abuffer_payload_is_lower(s, right, left));
+    return left_z < right_z || (left_z == right_z && abuffer_data(s, left, 0u) <= abuffer_data(s, right, 0u));
 }
 
 #endif

@@ -74,7 +74,7 @@ impl Contents {
         if self.config.storage == Storage::Sb { self.node(link)[1] } else { link - 1 }
     }
 
-    /// The words of a fragment's payload: what orders fragments of one depth.
+    /// The words of a fragment's payload; the first one orders fragments of one depth.
     fn payload(&self, link: u32) -> &[u32] {
         let words = data_words(self.config.payload) as usize;
         if self.config.inline {
@@ -173,7 +173,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
                     }
                 }
             }
-            let key = |link| (contents.z(link), contents.payload(link));
+            let key = |link| (contents.z(link), contents.payload(link)[0]);
             // Of paged lists each page is in order.
             let together = |pair: &[u32]| {
                 config.storage != Storage::Paged || (pair[0] - 1) / config.page == (pair[1] - 1) / config.page
