@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::abuffer as numbers;
 /// How a ray steps through cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// Steps of equal length on the screen, at most [`Config::samples`] a face. Cells between are not
+    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) a face. Cells between are not
     /// visited.
     Samples,
     /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
@@ -32,7 +32,7 @@ impl March {
 pub enum Accept {
     /// Its depth lies in the ray's half-open depth interval within the cell.
     Interval,
-    /// The same, with each fragment extended away from the eye by [`Config::thickness`].
+    /// The same, with each fragment extended away from the eye by [`Config::thickness`](crate::Config::thickness).
     Thickness,
     /// The depths that its triangle takes within the cell meet those of the ray. Needs [`Payload::Index`].
     Slope,
@@ -108,7 +108,7 @@ pub enum Coverage {
     Exact,
     /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe: edge-on ones,
     /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
-    /// finds ([`Config::is_exact`]). Needs [`Accept::Plane`].
+    /// finds ([`Config::is_exact`](crate::Config::is_exact)). Needs [`Accept::Plane`].
     Conservative,
     /// As [`Coverage::Exact`], and of the triangles that reach into a cell beside its centre those are kept that have no
     /// fragment in any view, or whose planes are seen edge-on there: what the paper names as its open limit. Fragments are
@@ -145,7 +145,7 @@ impl Coverage {
 pub enum Views {
     /// Six faces of a cube around the eye: all that is around it.
     Cube,
-    /// The same, and what the camera sees, with [`Config::camera_resolution`] cells a side.
+    /// The same, and what the camera sees, with [`Config::camera_resolution`](crate::Config::camera_resolution) cells a side.
     CubeCamera,
     /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
     Camera,
@@ -193,7 +193,7 @@ pub enum Storage {
     Dllb,
     /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
     Sb,
-    /// A linked list of pages a depth bucket; a page holds [`Config::page`] fragments.
+    /// A linked list of pages a depth bucket; a page holds [`Config::page`](crate::Config::page) fragments.
     Paged,
 }
 

@@ -265,9 +265,9 @@ mod tests {
                         .map(|(name, word)| (name.to_owned(), word.to_owned()));
                     Spec::new(system.name, preset, options).is_ok()
                 };
-                // Planes exclude attributes and samples, bricks of triangles the rules of a paper.
+                // Planes exclude attributes and samples, bricks of triangles the rules of a paper; fringes need planes.
                 let accepted = SYSTEMS.iter().any(|system| {
-                    let accepts = ["interval", "parity", "tolerance", "t"];
+                    let accepts = ["interval", "plane", "parity", "tolerance", "t"];
                     let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));
                     system.presets.iter().any(|preset| takes(preset.name()))
                 });
