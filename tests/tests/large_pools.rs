@@ -5,7 +5,7 @@ use rasray_ads::{AdsError, Hit, Ray, Structure, StructureKind};
 use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
-use rasray_systems::{SYSTEMS, Spec};
+use rasray_systems::{SYSTEMS, Spec, SystemsError};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -53,6 +53,61 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     let config = rasray_bvh::Config::new(Builder::Sah);
     let mut tree = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
     assert_eq!(all_bits(&found), all_bits(&bench.build_and_trace(&mut tree, [0.0; 3], &rays)));
+}
+
+/// Options with which a pool of the system is larger than what one binding of a software driver holds.
+const LARGE: [(&str, &[(&str, &str)]); 5] = [
+    ("mmrt", &[("resolution", "2400")]),
+    ("dirt", &[("storage", "sb"), ("tile", "1"), ("resolution", "1024"), ("buckets", "8")]),
+    ("hu", &[("resolution", "3500")]),
+    ("selective", &[("resolution", "3500")]),
+    ("ldc", &[("resolution", "2400")]),
+];
+
+#[test]
+fn every_system_reaches_large_pools_by_address() {
+    let bench = Bench::new();
+    if !bench.device().has(Feature::BufferDeviceAddress) {
+        println!("skipped: the device has no buffer device addresses");
+        return;
+    }
+    let mut triangles: Vec<Triangle> = sphere([0.5, 0.25, 0.75], 1.0, 24);
+    triangles.extend(closed_box([-4.0; 3], [4.0; 3]));
+    let geometry = bench.geometry(&triangles);
+    let rays = rays(2000);
+    let eye = [0.1, 0.2, 0.3];
+    let mut tree = Bvh::new(bench.device(), rasray_bvh::Config::new(Builder::Sah), &geometry, None)
+        .expect("the options are valid");
+    let truth = bench.build_and_trace(&mut tree, eye, &rays);
+    let quick = LARGE.iter().filter(|(system, _)| *system == "hu").copied();
+    let tried: Vec<_> = if rasray_tests::tier::is_full() { LARGE.to_vec() } else { quick.collect() };
+    if tried.len() < LARGE.len() {
+        println!("skipped: set RASRAY_FULL to 1 for systems other than hu");
+    }
+    for (system, options) in tried {
+        let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        let spec = Spec::new(system, "robust", options).expect("the options are valid");
+        match spec.create(bench.device(), &geometry, None) {
+            Err(SystemsError::Ads(AdsError::Gpu(GpuError::TooLarge { .. }))) => {}
+            Err(error) => panic!("{system}: {error}"),
+            Ok(_) => {
+                let limit = bench.device().limits().max_storage_buffer_range;
+                println!("skipped: {system}: one binding of this device holds {limit} bytes");
+                continue;
+            }
+        }
+        let spec = spec.with_option("addressing", "address").expect("every system takes it");
+        let mut structure = spec.create(bench.device(), &geometry, None).expect("addresses reach it");
+        build_until_complete(bench.device(), structure.as_mut(), eye, Timing::None).expect("it is built");
+        let hits = bench.trace(structure.as_ref(), &rays).hits;
+        if structure.kind() == StructureKind::Primitive {
+            assert_eq!(all_bits(&hits), all_bits(&truth), "{system}");
+        }
+        let is_other = |(hit, truth): &(&Hit, &Hit)| hit.primitive != truth.primitive;
+        let off = hits.iter().zip(&truth).filter(is_other).count();
+        println!("{system}: {off} of {} rays name another triangle", rays.len());
+        assert!(off <= rays.len() / 100, "{system}: {off}");
+    }
 }
 
 #[test]

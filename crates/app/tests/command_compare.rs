@@ -134,3 +134,25 @@ fn what_does_not_fit_on_the_disk_leaves_what_was_there() {
         assert_eq!(std::fs::read(folder.path().join(name)).expect("the file"), b"old", "{option}");
     }
 }
+
+/// Where nothing was said of addressing, a pool beyond one binding is reached by address; where descriptors were asked
+/// for, it is refused with the pool and the fix.
+#[test]
+fn a_pool_beyond_a_binding_is_reached_by_address_unless_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let large = "compare cornell --systems dirt --ray-set incoherent --rays 300 dirt.storage=sb dirt.tile=1 \
+                 dirt.resolution=1024 dirt.buckets=8";
+    let refused = rasray(folder.path(), &format!("{large} dirt.addressing=descriptor --repetitions 1"));
+    if refused.status.code() == Some(0) {
+        return println!("skipped: one binding of this device holds 200 million bytes");
+    }
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(refused.status.code() == Some(2) || refused.status.code() == Some(3), "{said}");
+    assert!(said.contains("lists") && said.contains("address"), "{said}");
+    let report = compared(folder.path(), large);
+    let memory = report.runs[0].memory.as_ref().expect("bytes are counted");
+    assert!(memory.by_part["lists"] > 128 << 20, "{:?}", memory.by_part);
+    assert_eq!(report.runs[0].paths["addressing"], "address");
+    let judged = accuracy(&report, 0);
+    assert_eq!((judged.missed, judged.false_hits, judged.wrong_primitive), (0, 0, Some(0)));
+}

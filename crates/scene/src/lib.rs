@@ -9,6 +9,7 @@ pub mod check;
 mod decode;
 pub mod default_view;
 mod error;
+pub mod facing;
 pub mod gltf;
 mod limits;
 mod load;

@@ -7,6 +7,7 @@ use crate::error::AppError;
 use crate::report::{Device, bytes, columns, grouped};
 use crate::scene_source::LoadedScene;
 use crate::{scene_source, terminal};
+use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Environment, Projection, default_view};
 use std::fmt::Write;
@@ -56,6 +57,9 @@ fn scene_text(loaded: &LoadedScene) -> String {
         let size = high - low;
         rows.push(pair("bounds", format!("{low:.3} to {high:.3} m")));
         rows.push(pair("size", format!("{:.3} x {:.3} x {:.3} m", size.x, size.y, size.z)));
+    }
+    if let Some(saved) = Facing::of(scene).saved_by_one_view() {
+        rows.push(pair("one view of three", format!("saves {:.2} % of fragments at most", 100.0 * saved)));
     }
     if let Some(sha256) = &loaded.sha256 {
         rows.push(pair("sha256", sha256));

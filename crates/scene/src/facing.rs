@@ -1,0 +1,49 @@
+//! How the surfaces of a scene face the axes, and what follows for fragments along them.
+
+use glam::DVec3;
+
+use crate::Scene;
+
+/// Areas of a scene's triangles as the axes see them, in square metres. Seen along an axis, a triangle of area A and unit
+/// normal n leaves fragments in proportion to A times the magnitude of n's component along it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facing {
+    /// Sum over triangles of the area seen along the axis each faces most: max|n| A.
+    pub most: f64,
+    /// Sum over triangles and axes: |n|_1 A.
+    pub all: f64,
+}
+
+impl Facing {
+    /// Of the triangles as placed by the instances, at rest. Triangles whose corners are not finite do not count. Linear in
+    /// triangles.
+    pub fn of(scene: &Scene) -> Self {
+        let mut facing = Self::default();
+        for instance in &scene.instances {
+            let Some(mesh) = scene.meshes.get(instance.mesh) else { continue };
+            let corner = |index: u32| {
+                let position = mesh.positions.get(index as usize)?;
+                Some(instance.world_from_mesh.transform_point3(DVec3::from_array(position.map(f64::from))))
+            };
+            for triangle in mesh.indices.chunks_exact(3) {
+                let (Some(a), Some(b), Some(c)) =
+                    (corner(triangle[0]), corner(triangle[1]), corner(triangle[2]))
+                else {
+                    continue;
+                };
+                let areas = 0.5 * (b - a).cross(c - a).abs();
+                if areas.is_finite() {
+                    facing.most += areas.max_element();
+                    facing.all += areas.element_sum();
+                }
+            }
+        }
+        facing
+    }
+
+    /// The share of the fragments of three views along the axes that keeping each triangle in the view it faces most saves,
+    /// were cells infinitely small: 1 - `most` / `all`, between 0 (walls along the axes) and 2/3. `None` without area.
+    pub fn saved_by_one_view(self) -> Option<f64> {
+        (self.all > 0.0).then(|| 1.0 - self.most / self.all)
+    }
+}
