@@ -82,8 +82,14 @@ uint abuffer_extent_word() {
     return abuffer_has_ends() ? 2u : 0u;
 }
 
-uint abuffer_data_stride() {
+// Words of a fragment's payload.
+uint abuffer_payload_words() {
     return ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX || ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL ? 1u : 4u;
+}
+
+// Those and the triangle that is kept for diagnostics.
+uint abuffer_data_stride() {
+    return abuffer_payload_words() + ABUFFER_IDS;
 }
 
 // Word of a node's first link: behind the depth, and behind the payload where that is inline.

@@ -79,7 +79,7 @@ void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
 // The words of a fragment's payload; zeros behind its last.
 uvec4 abuffer_payload(AbufferRef s, uint link) {
     uvec4 words = uvec4(0u);
-    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+    for (uint word = 0u; word < abuffer_payload_words(); word++) {
         words[word] = abuffer_data(s, link, word);
     }
     return words;
@@ -90,7 +90,7 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;
-    [[dont_unroll]] for (uint word = 0u; equal && word < abuffer_data_stride(); word++) {
+    [[dont_unroll]] for (uint word = 0u; equal && word < abuffer_payload_words(); word++) {
         uint left_word = abuffer_data(s, left, word);
         uint right_word = abuffer_data(s, right, word);
         equal = left_word == right_word;

@@ -19,7 +19,8 @@ float abuffer_footprint(AbufferRef s, vec3 position) {
 
 Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
     // Triangles of the near box are known whatever fragments carry.
-    if (hit.primitive != PRIMITIVE_UNKNOWN) {
+    bool named = ABUFFER_IDS != 0u && floatBitsToUint(hit.b) == HIT_STORED;
+    if (hit.primitive != PRIMITIVE_UNKNOWN && !named) {
         return plane_surface(ray, hit);
     }
     uint link = floatBitsToUint(hit.a);

@@ -125,6 +125,11 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
 uint abuffer_trace_closest(AbufferRef s, Ray ray, inout TraceState state, out Hit hit) {
     uint result = abuffer_trace(s, ray, state, false);
     hit = state.best;
+    if (ABUFFER_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
+        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
+        hit.primitive = abuffer_data(s, floatBitsToUint(hit.a), abuffer_payload_words());
+        hit.b = uintBitsToFloat(HIT_STORED);
+    }
     return result;
 }
 

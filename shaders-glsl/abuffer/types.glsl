@@ -20,6 +20,8 @@ layout(constant_id = 18) const uint ABUFFER_INLINE = 0u;
 layout(constant_id = 19) const uint ABUFFER_PAGE = 4u;
 layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
+// Whether fragments keep their triangle behind a payload without it.
+layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
 
 // Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
 bool abuffer_conservative() {

@@ -43,8 +43,11 @@ void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
         words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
     }
 #endif
-    for (uint word = 0u; word < abuffer_data_stride(); word++) {
+    for (uint word = 0u; word < abuffer_payload_words(); word++) {
         abuffer_set_data(abuffer_built, link, word, words[word]);
+    }
+    if (ABUFFER_IDS != 0u) {
+        abuffer_set_data(abuffer_built, link, abuffer_payload_words(), primitive);
     }
 }
 

@@ -17,6 +17,10 @@
 // In Hit.primitive: a fragment without a known triangle; a and b are the structure's.
 #define PRIMITIVE_UNKNOWN 0xFFFFFFFEu
 
+// In Hit.b, as bits: a and the surface are a stored fragment's, although the hit names its triangle for diagnostics. No
+// barycentric is as large.
+#define HIT_STORED 0x7F7FFFFFu
+
 // Draw flags.
 #define DRAW_ALPHA_MASKED 1u
 #define DRAW_STATIC 2u

@@ -77,9 +77,10 @@ uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     return uvec2(begin, end);
 }
 
-// Words of a fragment's payload. With attributes its first word holds the triangle until all that goes by triangles is done.
+// Words of a fragment's payload, and of the triangle kept for diagnostics. With attributes its first word holds the triangle until
+// all that goes by triangles is done.
 uint ldc_payload_stride() {
-    return LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u;
+    return (LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u) + LDC_IDS;
 }
 
 // The triangle of a fragment; of attributes during the build only.
@@ -102,13 +103,27 @@ uvec2 ldc_attributes(LdcRef s, uint place) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
         return uvec2(0u);
     }
-    return uvec2(LDC_PAYLOAD_WORDS(s)[2u * place], LDC_PAYLOAD_WORDS(s)[2u * place + 1u]);
+    uint first = ldc_payload_stride() * place;
+    return uvec2(LDC_PAYLOAD_WORDS(s)[first], LDC_PAYLOAD_WORDS(s)[first + 1u]);
 }
 
-// Puts colour and normal of a fragment in place of its triangle.
+// Puts colour and normal of a fragment in place of its triangle, which goes behind them where it is kept.
 void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
-    LDC_PAYLOAD_WORDS(s)[2u * place] = words.x;
-    LDC_PAYLOAD_WORDS(s)[2u * place + 1u] = words.y;
+    uint first = ldc_payload_stride() * place;
+    if (LDC_IDS != 0u) {
+        LDC_PAYLOAD_WORDS(s)[first + 2u] = LDC_PAYLOAD_WORDS(s)[first];
+    }
+    LDC_PAYLOAD_WORDS(s)[first] = words.x;
+    LDC_PAYLOAD_WORDS(s)[first + 1u] = words.y;
+}
+
+// The triangle of a fragment with attributes, where it is kept. A place that holds none is counted.
+uint ldc_kept_id(LdcRef s, uint place) {
+    if (place >= ldc_places(s)) {
+        atomicAdd(LDC_HEADER(s).corrupted, 1u);
+        return PRIMITIVE_UNKNOWN;
+    }
+    return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place + 2u];
 }
 
 // Depth of a fragment as stored, metres: with 16 bits a share of the cube's side.

@@ -10,7 +10,8 @@
 
 Surface ldc_surface_at(LdcRef s, Ray ray, Hit hit) {
     // Triangles of the fringe are known whatever fragments carry.
-    if (hit.primitive != PRIMITIVE_UNKNOWN) {
+    bool named = LDC_IDS != 0u && floatBitsToUint(hit.b) == HIT_STORED;
+    if (hit.primitive != PRIMITIVE_UNKNOWN && !named) {
         return plane_surface(ray, hit);
     }
     // A surface rises by no more than a cell from the centre to where the ray meets it.

@@ -183,6 +183,11 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
 uint ldc_trace_closest(LdcRef s, Ray ray, inout TraceState state, out Hit hit) {
     uint result = ldc_trace(s, ray, state, false);
     hit = state.best;
+    if (LDC_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
+        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
+        hit.primitive = ldc_kept_id(s, floatBitsToUint(hit.a));
+        hit.b = uintBitsToFloat(HIT_STORED);
+    }
     return result;
 }
 

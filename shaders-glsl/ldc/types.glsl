@@ -18,6 +18,8 @@ layout(constant_id = 55) const uint LDC_OCCUPANCY = LDC_OCCUPANCY_SLICES;
 layout(constant_id = 56) const uint LDC_LEVELS = 2u;
 layout(constant_id = 57) const uint LDC_BUILD = LDC_BUILD_SINGLE;
 layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
+// Whether fragments keep their triangle behind a payload without it.
+layout(constant_id = 59) const uint LDC_IDS = 0u;
 
 // State and sizes of one value. 184 bytes.
 struct LdcHeader {

@@ -119,9 +119,9 @@ uint voxel_stored(VoxelRef s) {
     return min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand) * (voxel_paged() ? VOXEL_PAGE : 1u);
 }
 
-// Words of a fragment: its depth, a word of payload, and with attributes colour and normal.
+// Words of a fragment: its depth, a word of payload, with attributes colour and normal, and the triangle kept for diagnostics.
 uint voxel_stride() {
-    return VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u;
+    return (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u) + VOXEL_IDS;
 }
 
 // Words of a page: the word that leads to the next one, and fragments.
@@ -179,6 +179,9 @@ void voxel_swap(VoxelRef s, uint left, uint right) {
     if (VOXEL_PAYLOAD != VOXEL_PAYLOAD_INDEX) {
         voxel_swap_word(s, left, right, 2u);
         voxel_swap_word(s, left, right, 3u);
+    }
+    if (VOXEL_IDS != 0u) {
+        voxel_swap_word(s, left, right, 4u);
     }
 }
 

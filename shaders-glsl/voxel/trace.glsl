@@ -66,6 +66,11 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
 uint voxel_trace_closest(VoxelRef s, Ray ray, inout TraceState state, out Hit hit) {
     uint result = voxel_trace(s, ray, state, false);
     hit = state.best;
+    if (VOXEL_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
+        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
+        hit.primitive = voxel_word(s, floatBitsToUint(hit.a), 4u);
+        hit.b = uintBitsToFloat(HIT_STORED);
+    }
     return result;
 }
 

@@ -44,6 +44,9 @@ void voxel_visit_store(uint primitive, uint axis, ivec2 cell) {
     for (uint word = 0u; word < 3u; word++) {
         voxel_set_word(voxel_built, place, word + 1u, words[word]);
     }
+    if (VOXEL_IDS != 0u) {
+        voxel_set_word(voxel_built, place, 4u, primitive);
+    }
 #else
     voxel_set_word(voxel_built, place, 1u, primitive);
 #endif

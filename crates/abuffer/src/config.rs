@@ -34,6 +34,9 @@ pub struct Config {
     pub thickness: f32,
     /// What a fragment carries.
     pub payload: Payload,
+    /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it, and nothing else
+    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    pub ids: bool,
     /// Who decides coverage.
     pub coverage: Coverage,
     /// Who puts triangles into cells. Changes no hit.
@@ -70,6 +73,7 @@ impl Config {
             accept: Accept::Plane,
             thickness: 0.0,
             payload: Payload::Index,
+            ids: false,
             coverage: Coverage::Exact,
             builder: Builder::Raster,
             sort: true,
@@ -133,6 +137,13 @@ impl Config {
                 value: format!("{:?}", self.accept).to_lowercase(),
                 expected: "the acceptances plane and slope need the payload `index`, which names the triangle; plane also \
                            goes with the payload `plane`",
+            });
+        }
+        if self.ids && self.payload == Payload::Index {
+            return Err(AdsError::Option {
+                option: "ids",
+                value: "on".to_owned(),
+                expected: "the payload `index` names triangles already: leave it off",
             });
         }
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
@@ -216,6 +227,7 @@ impl Config {
             (19, self.page),
             (20, self.views.number()),
             (21, u32::from(self.single_layer)),
+            (22, u32::from(self.ids)),
         ]
     }
 
@@ -235,6 +247,9 @@ impl Config {
             ("sort", switch(self.sort)),
             ("skip", switch(self.skip)),
         ];
+        if self.payload != Payload::Index {
+            options.push(("ids", switch(self.ids)));
+        }
         if self.views.has_camera() {
             options.push(("camera-resolution", self.camera_resolution.to_string()));
         }

@@ -51,12 +51,13 @@ pub struct Demand {
     pub pairs: u64,
 }
 
-/// Words of a fragment's payload.
-pub(crate) fn data_words(payload: Payload) -> u64 {
-    match payload {
+/// Words of a fragment's payload, and of the triangle that is kept for diagnostics.
+pub(crate) fn data_words(config: &Config) -> u64 {
+    let payload = match config.payload {
         Payload::Index | Payload::Normal => 1,
         Payload::Attributes | Payload::Plane => 4,
-    }
+    };
+    payload + u64::from(config.ids)
 }
 
 /// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node names it where it
@@ -68,7 +69,7 @@ pub(crate) fn fragment_words(config: &Config) -> u64 {
         Storage::Dll | Storage::Dllb => 2,
         Storage::Sb => u64::from(!config.inline),
     };
-    1 + links + if config.inline { data_words(config.payload) } else { 0 }
+    1 + links + if config.inline { data_words(config) } else { 0 }
 }
 
 /// Words of a node: that of a fragment, or a page of several with a word that leads to the next page.
@@ -152,7 +153,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (bounds_and_blocks(config) + config.mark_sets() * demand.triangles.div_ceil(32), 4),
         (lists, 4 * list_words(config.storage)),
         (demand.nodes, 4 * node_words(config)),
-        (demand.nodes, if config.inline { 0 } else { 4 * data_words(config.payload) * node_slots(config) }),
+        (demand.nodes, if config.inline { 0 } else { 4 * data_words(config) * node_slots(config) }),
         (demand.near_triangles, 4),
         (scratch_words(config, demand), 4),
         (if config.has_fringe() { demand.fringe } else { 0 }, 12),
@@ -205,6 +206,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// With conservative and edge-on coverage: per cell 4, per triangle beside its centre 12; with the latter 4 per 32 triangles.
     pub fringe: u64,
+    /// With ids: 4 per fragment, or slot of a page.
+    pub ids: u64,
     /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with many cells of a view
     /// where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles for their marks.
     pub rest: u64,
@@ -213,7 +216,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.plane + self.pyramid + self.fragments + self.fringe + self.rest
+        self.cells + self.plane + self.pyramid + self.fragments + self.fringe + self.ids + self.rest
     }
 }
 
@@ -266,6 +269,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             Coverage::Conservative => 4 * cells + 12 * demand.fringe,
             Coverage::EdgeOn => 4 * cells + 12 * demand.fringe + 4 * demand.triangles.div_ceil(32),
         },
+        ids: if config.ids { 4 * demand.nodes * node_slots(config) } else { 0 },
         rest: 232
             + 4 * demand.near_triangles
             + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
@@ -316,6 +320,7 @@ mod tests {
                     buckets,
                     accept,
                     payload,
+                    ids: payload != Payload::Index && buckets > 4,
                     march,
                     single_layer,
                     views,

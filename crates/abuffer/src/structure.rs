@@ -354,11 +354,13 @@ impl Structure for ABuffer {
             }
             _ => pool.elements,
         });
+        let formula = formula_bytes(&self.config, demand);
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, demand).total(),
+            formula_bytes: formula.total(),
+            diagnostic_bytes: formula.ids,
             stored: Some(
                 demand.fringe
                     + match self.config.storage {

@@ -76,7 +76,7 @@ impl Contents {
 
     /// The words of a fragment's payload; the first one orders fragments of one depth.
     fn payload(&self, link: u32) -> &[u32] {
-        let words = data_words(self.config.payload) as usize;
+        let words = data_words(&self.config) as usize;
         if self.config.inline {
             &self.node(link)[1..][..words]
         } else {
@@ -86,7 +86,7 @@ impl Contents {
 
     /// The links of a node: next, and previous where it has both.
     fn links(&self, link: u32) -> &[u32] {
-        let inline = if self.config.inline { data_words(self.config.payload) as usize } else { 0 };
+        let inline = if self.config.inline { data_words(&self.config) as usize } else { 0 };
         &self.node(link)[1 + inline..]
     }
 

@@ -355,6 +355,7 @@ impl Structure for PrimitiveLists {
             paths: self.config.paths(),
             bytes_by_part,
             formula_bytes: formula_bytes(&self.config, &demand).total(),
+            diagnostic_bytes: 0,
             stored: Some(demand.entries),
             lost: None,
         })

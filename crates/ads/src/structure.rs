@@ -112,6 +112,8 @@ pub struct StructureReport {
     pub bytes_by_part: Vec<(&'static str, u64)>,
     /// Bytes the page's formula gives for what was counted.
     pub formula_bytes: u64,
+    /// Of these, what nothing but diagnostics reads.
+    pub diagnostic_bytes: u64,
     /// Fragments or entries stored; absent where the structure stores none.
     pub stored: Option<u64>,
     /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them; absent where that is not counted.

@@ -85,6 +85,10 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(rename = "single-layer", skip_serializing_if = "Option::is_none")]
     pub single_layer: Option<Switch>,
+    /// For diagnostics: keep triangles beside payloads without them, so that hits name them
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ids: Option<Switch>,
     /// With --storage bricks: depth slices, the same for all tiles
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     #[serde(skip_serializing_if = "Option::is_none")]

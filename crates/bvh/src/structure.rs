@@ -316,6 +316,7 @@ impl Structure for Bvh {
             paths: self.config.paths(),
             bytes_by_part,
             formula_bytes: formula_bytes(self.config.builder, self.nodes, triangles).total(),
+            diagnostic_bytes: 0,
             stored: Some(triangles),
             lost: None,
         })

@@ -90,6 +90,9 @@ pub struct Config {
     pub depth: Depth,
     /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
     pub payload: Payload,
+    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it, and nothing else
+    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    pub ids: bool,
     /// Skip blocks and parts of lists that the ray's depths cannot meet. Changes no hit.
     pub skip: bool,
     /// How pools are reached. Changes no hit.
@@ -118,6 +121,7 @@ impl Config {
             builder: Builder::Raster,
             depth: Depth::Bits32,
             payload: Payload::Index,
+            ids: false,
             skip: true,
             addressing: Addressing::Descriptor,
             fragments: None,
@@ -168,6 +172,10 @@ impl Config {
                 "the acceptances plane and slope need the payload `index`, which names the triangle",
             );
         }
+        if self.ids && self.payload == Payload::Index {
+            let expected = "the payload `index` names triangles already: leave it off";
+            return refused("ids", "on".to_owned(), expected);
+        }
         if self.builder == Builder::Binning
             && (self.coverage == Coverage::Hardware || self.making == Making::Peel)
         {
@@ -183,6 +191,15 @@ impl Config {
             ),
             _ => Ok(()),
         }
+    }
+
+    /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.
+    pub(crate) fn payload_bytes(&self) -> u64 {
+        let payload = match self.payload {
+            Payload::Index => 4,
+            Payload::Attributes => 8,
+        };
+        payload + if self.ids { 4 } else { 0 }
     }
 
     /// Specialisation constants: id and bits.
@@ -219,6 +236,7 @@ impl Config {
             (56, self.levels),
             (57, making),
             (58, payload),
+            (59, u32::from(self.ids)),
         ]
     }
 
@@ -238,6 +256,9 @@ impl Config {
             ("views", "axes".to_owned()),
             ("skip", if self.skip { "on" } else { "off" }.to_owned()),
         ];
+        if self.payload == Payload::Attributes {
+            options.push(("ids", if self.ids { "on" } else { "off" }.to_owned()));
+        }
         if self.accept == Accept::Tolerance {
             options.push(("tolerance", self.tolerance.to_string()));
         }
@@ -254,16 +275,6 @@ impl Config {
             ("coverage", format!("{:?}", self.coverage).to_lowercase()),
             ("addressing", self.addressing.name().to_owned()),
         ]
-    }
-}
-
-impl Payload {
-    /// Bytes of a fragment's payload.
-    pub fn bytes(self) -> u64 {
-        match self {
-            Self::Index => 4,
-            Self::Attributes => 8,
-        }
     }
 }
 

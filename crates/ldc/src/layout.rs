@@ -60,7 +60,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (1, size_of::<Header>() as u64),
         (cells, 4),
         (depth_words, 4),
-        (demand.fragments, config.payload.bytes()),
+        (demand.fragments, config.payload_bytes()),
         (block_count(config), block_bytes),
         (heads, 4),
         (fringe, 12),
@@ -131,6 +131,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// Per triangle beside a centre: triangle and link 8.
     pub fringe: u64,
+    /// With ids: 4 per fragment, or slot of a page.
+    pub ids: u64,
     /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where that is more 4 per
     /// triangle with many cells where they are binned.
     pub rest: u64,
@@ -139,7 +141,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.blocks + self.fragments + self.fringe + self.rest
+        self.cells + self.blocks + self.fragments + self.fringe + self.ids + self.rest
     }
 }
 
@@ -159,6 +161,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         cells: cells * if kept { 8 } else { 4 },
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: payload * fragments + depths,
+        ids: if config.ids { 4 * fragments } else { 0 },
         fringe: if kept { 12 * fringe } else { 0 },
         rest: 184
             + 4 * cells.div_ceil(1024)
@@ -191,7 +194,8 @@ mod tests {
                 let builder = if binned { Builder::Binning } else { Builder::Raster };
                 let config = Config { block, depth, coverage, builder, occupancy, levels, making, ..robust };
                 let stored = Config { payload: Payload::Attributes, accept: Accept::Tolerance, ..config };
-                for (config, fragments) in [config, stored]
+                let named = Config { ids: true, ..stored };
+                for (config, fragments) in [config, stored, named]
                     .into_iter()
                     .flat_map(|config| [0, 12_344, 12_345].map(|fragments| (config, fragments)))
                 {

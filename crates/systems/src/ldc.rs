@@ -21,7 +21,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 17] = [
+const OPTIONS: [&str; 18] = [
     "build",
     "layers",
     "resolution",
@@ -30,6 +30,7 @@ const OPTIONS: [&str; 17] = [
     "occupancy",
     "storage",
     "payload",
+    "ids",
     "accept",
     "tolerance",
     "depth",
@@ -71,6 +72,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             // One word each so far: a value is checked, and nothing else is chosen.
             "storage" => given.choice(&[("sb", ())])?,
             "views" => given.choice(&[("axes", ())])?,
+            "ids" => config.ids = given.switch()?,
             "payload" => {
                 config.payload =
                     given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;

@@ -21,7 +21,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 19] = [
+const OPTIONS: [&str; 20] = [
     "resolution",
     "buckets",
     "single-layer",
@@ -29,6 +29,7 @@ const OPTIONS: [&str; 19] = [
     "inline",
     "page",
     "payload",
+    "ids",
     "march",
     "samples",
     "accept",
@@ -73,6 +74,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "page" => config.page = given.number()?,
             "views" => config.views = given.choice(&Views::ALL.map(|views| (views.name(), views)))?,
             "camera-resolution" => config.camera_resolution = given.number()?,
+            "ids" => config.ids = given.switch()?,
             "payload" => {
                 config.payload = given.choice(&Payload::ALL.map(|payload| (payload.name(), payload)))?;
             }

@@ -6,7 +6,7 @@ use crate::option::Given;
 use crate::{Spec, SystemsError};
 
 /// Options by their names on the command line.
-pub(crate) const OPTIONS: [&str; 14] = [
+pub(crate) const OPTIONS: [&str; 15] = [
     "resolution",
     "grid",
     "axes",
@@ -17,6 +17,7 @@ pub(crate) const OPTIONS: [&str; 14] = [
     "builder",
     "storage",
     "payload",
+    "ids",
     "page",
     "sort",
     "addressing",
@@ -53,6 +54,7 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
             "accept" => {
                 config.accept = given.choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])?;
             }
+            "ids" => config.ids = given.switch()?,
             "payload" => {
                 config.payload = given.choice(&[("index", Payload::Index), ("attributes", attributes)])?;
             }

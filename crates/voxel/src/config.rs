@@ -110,6 +110,9 @@ pub struct Config {
     pub builder: Builder,
     /// What a fragment carries.
     pub payload: Payload,
+    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Material`]. Hits then name it, and nothing else
+    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    pub ids: bool,
     /// How lists are kept.
     pub storage: Storage,
     /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
@@ -139,6 +142,7 @@ impl Config {
             coverage: Coverage::Exact,
             builder: Builder::Raster,
             payload: Payload::Index,
+            ids: false,
             storage: Storage::Contiguous,
             page: 4,
             sort: true,
@@ -224,6 +228,13 @@ impl Config {
                 expected: "cells that keep all that reaches into them need the axes `triangle` and the acceptance `plane`",
             });
         }
+        if self.ids && self.payload != Payload::Material {
+            return Err(AdsError::Option {
+                option: "ids",
+                value: "on".to_owned(),
+                expected: "only the attributes of hu lack the triangle: with others leave it off",
+            });
+        }
         if self.accept == Accept::Plane && self.payload != Payload::Index {
             return Err(AdsError::Option {
                 option: "accept",
@@ -232,6 +243,15 @@ impl Config {
             });
         }
         Ok(())
+    }
+
+    /// Words of a fragment: its depth, its payload, and the triangle that is kept for diagnostics; without links.
+    pub fn fragment_words(&self) -> u64 {
+        let payload = match self.payload {
+            Payload::Index => 1,
+            Payload::Material | Payload::Mirror => 3,
+        };
+        1 + payload + u64::from(self.ids)
     }
 
     /// Specialisation constants: id and bits.
@@ -268,6 +288,7 @@ impl Config {
             (75, u32::from(self.sorts())),
             (76, payload),
             (77, self.storage.number()),
+            (78, u32::from(self.ids)),
         ]
     }
 
@@ -284,6 +305,9 @@ impl Config {
             ("accept", lower(&self.accept)),
             ("payload", payload.to_owned()),
         ];
+        if self.payload == Payload::Material {
+            options.push(("ids", if self.ids { "on" } else { "off" }.to_owned()));
+        }
         if self.storage == Storage::Contiguous {
             options.push(("sort", if self.sort { "on" } else { "off" }.to_owned()));
         }
@@ -304,16 +328,6 @@ impl Config {
             ("coverage", lower(&self.coverage)),
             ("addressing", self.addressing.name().to_owned()),
         ]
-    }
-}
-
-impl Payload {
-    /// Bytes of a fragment with its depth, without links.
-    pub fn fragment_bytes(self) -> u64 {
-        match self {
-            Self::Index => 8,
-            Self::Material | Self::Mirror => 16,
-        }
     }
 }
 

@@ -64,7 +64,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 
 /// Words of a fragment, with its link where it has one; or of a page of them, with that to the next page.
 pub(crate) fn entry_words(config: &Config) -> u64 {
-    let words = config.payload.fragment_bytes() / 4;
+    let words = config.fragment_words();
     match config.storage {
         Storage::Contiguous => words,
         Storage::Linked => words + 1,
@@ -141,6 +141,8 @@ pub struct FormulaBytes {
     pub lists: u64,
     /// Per fragment: 8, or 16 with attributes; and 4 where it is linked. Per page: 4, and that of its fragments.
     pub fragments: u64,
+    /// With ids: 4 per fragment, or slot of a page.
+    pub ids: u64,
     /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where that is more 4 per
     /// triangle with many cells where they are binned.
     pub rest: u64,
@@ -149,7 +151,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.voxels + self.lists + self.fragments + self.rest
+        self.voxels + self.lists + self.fragments + self.ids + self.rest
     }
 }
 
@@ -170,6 +172,11 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
         fragments: demand.entries * per_entry,
+        ids: match (config.ids, config.storage) {
+            (false, _) => 0,
+            (true, Storage::Paged) => 4 * demand.entries * u64::from(config.page),
+            (true, _) => 4 * demand.entries,
+        },
         rest: 136 + sums + long.max(pairs),
     }
 }
@@ -187,6 +194,14 @@ mod tests {
                 Config { grid, builder: Builder::Binning, ..Config::robust(resolution) },
                 Config { grid, ..Config::published_hu(resolution) },
                 Config { grid, payload: Payload::Index, ..Config::published_hu(resolution) },
+                Config { grid, ids: true, ..Config::published_hu(resolution) },
+                Config {
+                    grid,
+                    ids: true,
+                    storage: Storage::Paged,
+                    page: 3,
+                    ..Config::published_hu(resolution)
+                },
                 Config { grid, ..Config::published_selective(resolution) },
                 Config { grid, storage: Storage::Contiguous, ..Config::published_selective(resolution) },
                 Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },

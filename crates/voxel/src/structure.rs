@@ -290,11 +290,13 @@ impl Structure for Voxels {
             "scratch" => scratch_words(&self.config, demand),
             _ => pool.elements,
         });
+        let formula = formula_bytes(&self.config, demand);
         Ok(StructureReport {
             options: self.config.options(),
             paths: self.config.paths(),
             bytes_by_part,
-            formula_bytes: formula_bytes(&self.config, demand).total(),
+            formula_bytes: formula.total(),
+            diagnostic_bytes: formula.ids,
             stored: Some(header.fragments.into()),
             lost: None,
         })

@@ -119,7 +119,7 @@ impl Contents {
         let entry = entry_words(&self.config) as usize;
         if self.config.storage == Storage::Paged {
             let (page, slot) = ((place / self.config.page) as usize, (place % self.config.page) as usize);
-            return page * entry + 1 + slot * (self.config.payload.fragment_bytes() / 4) as usize;
+            return page * entry + 1 + slot * self.config.fragment_words() as usize;
         }
         place as usize * entry
     }
@@ -144,7 +144,7 @@ impl Contents {
     }
 
     fn follow(&self, list: usize) -> Result<Vec<u32>, Fault> {
-        let (stored, link) = (self.stored(), (self.config.payload.fragment_bytes() / 4) as usize);
+        let (stored, link) = (self.stored(), self.config.fragment_words() as usize);
         let mut places = Vec::new();
         let mut next = self.lists[list];
         while let Some(place) = next.checked_sub(1) {

@@ -247,10 +247,10 @@ impl Built {
     pub(super) fn memory(&self, device: &Device) -> Result<Memory, AppError> {
         let report = self.structure.report().map_err(device_error)?;
         Ok(Memory {
-            structure_bytes: Some(report.bytes() - report.slack()),
-            formula_bytes: Some(report.formula_bytes),
+            structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
+            formula_bytes: Some(report.formula_bytes - report.diagnostic_bytes),
             capacity_bytes: Some(report.bytes()),
-            diagnostic_bytes: None,
+            diagnostic_bytes: (report.diagnostic_bytes > 0).then_some(report.diagnostic_bytes),
             device_peak_bytes: Some(device.peak_bytes()),
             by_part: report.bytes_by_part.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
         })

@@ -11,7 +11,7 @@ damageable!(Voxels, Contents, well_formed);
 
 /// Words of a fragment or a page, and that of its link among them.
 fn link_word(config: &Config) -> (usize, usize) {
-    let words = (config.payload.fragment_bytes() / 4) as usize;
+    let words = config.fragment_words() as usize;
     if config.storage == Storage::Paged { (1 + config.page as usize * words, 0) } else { (words + 1, words) }
 }
 
