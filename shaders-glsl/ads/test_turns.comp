@@ -1,0 +1,21 @@
+// What: counts the turns that invocations of one workgroup make of a loop, each of as many as it is told; with BARRIER a memory
+// barrier ends each turn. For tests.
+// Reads: turns wanted. Writes: turns made.
+#version 460
+#include "contract/extensions.glsl"
+
+layout(local_size_x = 64) in;
+
+layout(set = 0, binding = 0, scalar) readonly buffer WantedBuffer { uint wanted[]; };
+layout(set = 0, binding = 1, scalar) buffer MadeBuffer { uint made[]; };
+
+void main() {
+    uint thread = gl_GlobalInvocationID.x;
+    made[thread] = 0u;
+    for (uint turn = 0u; turn < wanted[thread]; turn++) {
+        made[thread]++;
+#ifdef BARRIER
+        memoryBarrierBuffer();
+#endif
+    }
+}
