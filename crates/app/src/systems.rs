@@ -3,10 +3,14 @@
 
 use crate::error::AppError;
 use crate::structure::{Payload, Preset, StructureOptions, SystemName};
-use clap::{Parser, ValueEnum};
+use clap::ValueEnum;
 use rasray_scene::needs::{Integrator, Workload};
 use rasray_systems::{SYSTEMS, Spec, System};
 use serde_json::Value;
+
+mod assigned;
+
+use assigned::Assigned;
 
 /// A system with what was asked of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,8 +117,8 @@ pub fn single(
 }
 
 /// Every named system with every named preset that it has. An option goes to the systems that have
-/// it; `assignments` (`mmrt.samples=50`) address one system, which takes part once with each of several
-/// values (`mmrt.samples=50,100`) and with every combination of them.
+/// it; `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`), which takes part once with
+/// each of several values (`mmrt.samples=50,100`) and with every combination of them.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
@@ -140,11 +144,19 @@ pub fn several(
             ));
         }
     }
-    let assigned = assignments.iter().map(|text| assignment(text)).collect::<Result<Vec<_>, _>>()?;
-    if let Some((name, _)) = assigned.iter().find(|(name, _)| !names.contains(name)) {
+    let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(Assigned { name, .. }) = assigned.iter().find(|assigned| !names.contains(&assigned.name)) {
         return Err(AppError::usage(
             format!("an option addresses {}, which is not compared", word(name)),
             format!("add {} to --systems or leave the option out", word(name)),
+        ));
+    }
+    let left_out =
+        assigned.iter().filter_map(|assigned| assigned.preset.filter(|preset| !presets.contains(preset)));
+    if let Some(preset) = left_out.into_iter().next() {
+        return Err(AppError::usage(
+            format!("an option addresses the preset {}, which is not compared", word(&preset)),
+            format!("add {} to --presets or leave the option out", word(&preset)),
         ));
     }
     let mut configs = Vec::new();
@@ -153,65 +165,33 @@ pub fn several(
             continue;
         }
         let entry = entry(*name);
-        let mut variants = vec![(options.filtered(|option| entry.options.contains(&option)), String::new())];
-        for (_, values) in assigned.iter().filter(|(target, _)| target == name) {
-            let combined = variants.iter().flat_map(|(own, variant)| {
-                values.iter().map(move |(over, word)| {
-                    let words = [variant.as_str(), word.as_str()];
-                    let several = words.into_iter().filter(|word| values.len() > 1 || *word != words[1]);
-                    let variant = several.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
-                    (own.overlaid(over), variant)
-                })
-            });
-            variants = combined.collect();
-        }
         for (position, preset) in presets.iter().enumerate() {
-            if has_preset(entry, *preset) && !presets[..position].contains(preset) {
-                for (own, variant) in &variants {
-                    let variant = (!variant.is_empty()).then(|| variant.clone());
-                    configs.push(SystemConfig { variant, ..single(*name, *preset, own)? });
-                }
+            if !has_preset(entry, *preset) || presets[..position].contains(preset) {
+                continue;
+            }
+            let addressed = |assigned: &&Assigned| {
+                assigned.name == *name && assigned.preset.is_none_or(|addressed| addressed == *preset)
+            };
+            let mut variants =
+                vec![(options.filtered(|option| entry.options.contains(&option)), String::new())];
+            for Assigned { values, .. } in assigned.iter().filter(addressed) {
+                let combined = variants.iter().flat_map(|(own, variant)| {
+                    values.iter().map(move |(over, word)| {
+                        let words = [variant.as_str(), word.as_str()];
+                        let several = words.into_iter().filter(|word| values.len() > 1 || *word != words[1]);
+                        let variant = several.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+                        (own.overlaid(over), variant)
+                    })
+                });
+                variants = combined.collect();
+            }
+            for (own, variant) in variants {
+                let variant = (!variant.is_empty()).then_some(variant);
+                configs.push(SystemConfig { variant, ..single(*name, *preset, &own)? });
             }
         }
     }
     Ok(configs)
-}
-
-/// Reads `mmrt.samples=50` or `mmrt.samples=50,100` with the parser of the command line, so that both know the
-/// same values.
-fn assignment(text: &str) -> Result<(SystemName, Vec<(StructureOptions, String)>), AppError> {
-    #[derive(Parser)]
-    #[command(no_binary_name = true, disable_help_flag = true)]
-    struct One {
-        #[command(flatten)]
-        options: StructureOptions,
-    }
-    let shape = || {
-        AppError::usage(
-            format!("'{text}' is not of the form SYSTEM.OPTION=VALUE"),
-            "write for example mmrt.samples=50",
-        )
-    };
-    let (target, values) = text.split_once('=').ok_or_else(shape)?;
-    let (system, option) = target.split_once('.').ok_or_else(shape)?;
-    let name = SystemName::from_str(system, false).map_err(|_| {
-        AppError::usage(
-            format!("'{text}': there is no system {system}"),
-            format!("the systems: {}", words(SystemName::value_variants())),
-        )
-    })?;
-    if !entry(name).options.contains(&option) {
-        return Err(AppError::usage(
-            format!("'{text}': system {system} has no option {option}"),
-            who_has(option),
-        ));
-    }
-    let parse = |value: &str| {
-        One::try_parse_from([format!("--{option}={value}")])
-            .map(|parsed| (parsed.options, format!("{option}={value}")))
-            .map_err(|error| crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare")))
-    };
-    Ok((name, values.split(',').map(parse).collect::<Result<_, _>>()?))
 }
 
 fn words<T: ValueEnum>(values: &[T]) -> String {
@@ -374,6 +354,37 @@ mod tests {
             assert_eq!((shape[index].0, shape[index].1), (SystemName::Mmrt, Some(samples)));
         }
         assert!(shape[0].2.is_some() && shape[0].2 != shape[1].2 && shape[0].2 == shape[2].2);
+    }
+
+    #[test]
+    fn an_option_may_address_one_preset() {
+        let assigned = |text: &str| {
+            let presets = [Preset::Robust, Preset::Published];
+            let names = [SystemName::Dirt, SystemName::BruteForce];
+            several(&names, &presets, &StructureOptions::default(), &[text.to_owned()])
+        };
+        let configs =
+            assigned("dirt-robust.views=cube,axes").expect("published has no bricks and is left alone");
+        let shape: Vec<_> = configs.iter().map(|c| (c.name, c.preset, c.variant.as_deref())).collect();
+        assert_eq!(
+            shape,
+            [
+                (SystemName::Dirt, Preset::Robust, Some("views=cube")),
+                (SystemName::Dirt, Preset::Robust, Some("views=axes")),
+                (SystemName::Dirt, Preset::Published, None),
+                (SystemName::BruteForce, Preset::Robust, None),
+            ]
+        );
+        assert!(assigned("dirt.views=cube,axes").is_err(), "published has no bricks");
+        assert_eq!(assigned("brute-force-robust.buckets=4").expect_err("not its option").exit_code(), 2);
+        assert_eq!(assigned("dirt-other.tile=4").expect_err("no preset").exit_code(), 2);
+        let one = several(
+            &[SystemName::Dirt],
+            &[Preset::Robust],
+            &StructureOptions::default(),
+            &["dirt-published.tile=4".to_owned()],
+        );
+        assert!(one.expect_err("not compared").to_string().contains("published"));
     }
 
     #[test]

@@ -22,8 +22,9 @@ Examples:
 
 Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
-them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one. Times of software
-devices are for ratios on that device. mmrt.buckets=1,4,8 takes part once with each value.";
+them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one, and
+SYSTEM-PRESET.OPTION=VALUE one preset of it; mmrt.buckets=1,4,8 takes part once with each value.
+Times of software devices are for ratios on that device.";
 
 /// Options of `rasray compare`.
 #[derive(Debug, Args)]
