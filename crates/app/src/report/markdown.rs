@@ -6,6 +6,9 @@ use rasray_report::{Accuracy, Report, Run};
 /// The system whose rate others are put in relation to, where a report has it.
 const YARDSTICK: (&str, &str) = ("bvh", "robust");
 
+/// That of several of them which it is.
+const YARDSTICK_VARIANT: &str = "builder=sah";
+
 /// Heads of the columns; those after the second are aligned to the right.
 const HEADS: [&str; 15] = [
     "structure",
@@ -97,15 +100,17 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
 }
 
 /// Rays per second over those of the yardstick on the same rays; absent where the yardstick was not traced, or
-/// stands there more than once.
+/// stands there more than once and not once with its own builder.
 fn relation(report: &Report, run: &Run) -> Option<f64> {
-    let mut yardsticks = report.runs.iter().filter(|other| {
+    let yardsticks = report.runs.iter().filter(|other| {
         (other.system.as_str(), other.preset.as_str()) == YARDSTICK && other.ray_set == run.ray_set
     });
-    let yardstick = yardsticks.next()?;
-    if yardsticks.next().is_some() {
-        return None;
-    }
+    let own_builder = |run: &&Run| run.variant.as_deref().is_some_and(|variant| variant == YARDSTICK_VARIANT);
+    let yardstick = match yardsticks.clone().count() {
+        1 => yardsticks.clone().next(),
+        _ if yardsticks.clone().filter(own_builder).count() == 1 => yardsticks.clone().find(own_builder),
+        _ => None,
+    }?;
     Some(run.times.mrays_per_s? / yardstick.times.mrays_per_s?)
 }
 
@@ -162,5 +167,11 @@ mod tests {
         assert_eq!((rows[2][0], rows[3][0]), ("bvh robust storage=sb", "bvh robust storage=ll"));
         let x = rows[0].iter().position(|&h| h == "x bvh").expect("the column");
         assert_eq!(rows[2][x], "", "nothing to be put in relation to");
+
+        let built =
+            |builder: &str, rate| Run { variant: Some(format!("builder={builder}")), ..run("bvh", "", rate) };
+        let text = markdown(&report(vec![built("lbvh", 1.5), built("sah", 3.0)]));
+        let rows = lines(&text);
+        assert_eq!((rows[2][x], rows[3][x]), ("0.50", "1.00"), "the tree by surface area is the yardstick");
     }
 }
