@@ -47,11 +47,12 @@ impl Ray {
 pub struct Hit {
     /// In units of the ray direction's length.
     pub t: f32,
-    /// Global triangle id.
+    /// Global triangle id; `PRIMITIVE_UNKNOWN` of a fragment that does not keep it.
     pub primitive: u32,
     /// The structure's; weight of vertex 1 where hits are primitives.
     pub a: f32,
-    /// The structure's; weight of vertex 2 where hits are primitives.
+    /// The structure's; weight of vertex 2 where hits are primitives, and the bits `HIT_STORED` where a fragment without them names its
+    /// triangle for diagnostics.
     pub b: f32,
 }
 

@@ -60,3 +60,40 @@ impl Assigned {
         Ok(Self { name, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::several;
+    use super::*;
+
+    #[test]
+    fn an_option_may_address_one_preset() {
+        let assigned = |text: &str| {
+            let presets = [Preset::Robust, Preset::Published];
+            let names = [SystemName::Dirt, SystemName::BruteForce];
+            several(&names, &presets, &StructureOptions::default(), &[text.to_owned()])
+        };
+        let configs =
+            assigned("dirt-robust.views=cube,axes").expect("published has no bricks and is left alone");
+        let shape: Vec<_> = configs.iter().map(|c| (c.name, c.preset, c.variant.as_deref())).collect();
+        assert_eq!(
+            shape,
+            [
+                (SystemName::Dirt, Preset::Robust, Some("views=cube")),
+                (SystemName::Dirt, Preset::Robust, Some("views=axes")),
+                (SystemName::Dirt, Preset::Published, None),
+                (SystemName::BruteForce, Preset::Robust, None),
+            ]
+        );
+        assert!(assigned("dirt.views=cube,axes").is_err(), "published has no bricks");
+        assert_eq!(assigned("brute-force-robust.buckets=4").expect_err("not its option").exit_code(), 2);
+        assert_eq!(assigned("dirt-other.tile=4").expect_err("no preset").exit_code(), 2);
+        let one = several(
+            &[SystemName::Dirt],
+            &[Preset::Robust],
+            &StructureOptions::default(),
+            &["dirt-published.tile=4".to_owned()],
+        );
+        assert!(one.expect_err("not compared").to_string().contains("published"));
+    }
+}
