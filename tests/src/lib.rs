@@ -1,5 +1,6 @@
 //! What the tests of rasray share: a device, triangles, random numbers, hard cases.
 
+pub mod capacity;
 pub mod conformance;
 pub mod harness;
 pub mod image_truth;

@@ -3,8 +3,9 @@
 use rasray_abuffer::{
     ABuffer, Accept, Addressing, Builder, Config, Contents, Coverage, Demand, Storage, Views, plan,
 };
-use rasray_ads::{CameraView, Check, Hit, Ray, Structure, Viewpoint};
+use rasray_ads::{CameraView, Ray, Structure, Viewpoint};
 use rasray_gpu::Timing;
+use rasray_tests::capacity::check_capacities_of_pairs;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, all_sizes};
@@ -107,31 +108,13 @@ fn every_edge_capacity_of_pairs() {
     let geometry = bench.geometry(&triangles);
     let config = Config { builder: Builder::Binning, ..Config::robust(48) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    let mut build = |pairs| {
-        let demand = Demand {
-            nodes: 1 << 20,
-            near_triangles: 1 << 10,
-            triangles: triangles.len() as u64,
-            pairs,
-            ..Demand::default()
-        };
-        let sizes = plan(&config, demand).expect("in range");
-        structure.resize(bench.device(), &sizes).expect("it fits");
-        let status = bench.build_once(&mut structure, [0.0; 3]);
-        let grown = match structure.check(&status) {
-            Check::Complete => None,
-            Check::Grow(sizes) => Some(sizes.elements("scratch")),
-        };
-        let hits: Vec<Hit> = if status.complete { bench.trace(&structure, &rays).hits } else { Vec::new() };
-        (status, grown, hits)
+    let demand = Demand {
+        nodes: 1 << 20,
+        near_triangles: 1 << 10,
+        triangles: triangles.len() as u64,
+        ..Demand::default()
     };
-    let (ample, grown, expected) = build(1 << 16);
-    let pairs = ample.demand("pairs").expect("the pool has a status");
-    assert!(ample.complete && grown.is_none() && pairs > 10, "{ample:?}");
-    for room in [0, 1, pairs / 2, pairs - 1] {
-        let (status, grown, _) = build(room);
-        assert_eq!((status.complete, status.demand("pairs"), grown), (false, Some(pairs), Some(pairs)));
-    }
-    let (status, _, hits) = build(pairs);
-    assert!(status.complete && hits == expected);
+    let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
+    let pairs = check_capacities_of_pairs(&bench, &mut structure, sizes, &rays);
+    assert_eq!(sizes(pairs).elements("scratch"), pairs);
 }

@@ -1,8 +1,9 @@
 //! Both builders of structures along axes store the same fragments: what is drawn and what is computed.
 
-use rasray_ads::{Builder, Check, Ray, Sizes, Structure};
+use rasray_ads::{Builder, Ray, Structure};
 use rasray_gpu::Timing;
 use rasray_ldc::LayeredDepthCube;
+use rasray_tests::capacity::check_capacities_of_pairs;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::all_sizes;
@@ -121,31 +122,6 @@ fn both_builders_of_voxels_store_the_same_fragments() {
     }
 }
 
-/// What has no room among the triangles with many cells is counted and grown, and nothing is answered until it has.
-fn every_edge_capacity_of_pairs(bench: &Bench, structure: &mut dyn Structure, sizes: impl Fn(u64) -> Sizes) {
-    let rays = rays();
-    let mut build = |room| {
-        structure.resize(bench.device(), &sizes(room)).expect("it fits");
-        let status = bench.build_once(structure, [0.0; 3]);
-        let hits = if status.complete { bench.trace(structure, &rays).hits } else { Vec::new() };
-        let grown = match structure.check(&status) {
-            Check::Complete => None,
-            Check::Grow(sizes) => Some(sizes.elements("scratch")),
-        };
-        (status, grown, hits)
-    };
-    let (ample, grown, expected) = build(1 << 16);
-    let pairs = ample.demand("pairs").expect("the pool has a status");
-    assert!(ample.complete && grown.is_none() && pairs > 10, "{ample:?}");
-    for room in [0, 1, pairs / 2, pairs - 1] {
-        let (status, grown, _) = build(room);
-        assert_eq!((status.complete, status.demand("pairs")), (false, Some(pairs)), "room for {room}");
-        assert_eq!(grown, Some(sizes(pairs).elements("scratch")), "room for {room}");
-    }
-    let (status, _, hits) = build(pairs);
-    assert!(status.complete && hits == expected);
-}
-
 #[test]
 fn every_edge_capacity_of_pairs_of_layered_depth_cubes() {
     use rasray_ldc::{Config, Demand, plan};
@@ -156,7 +132,7 @@ fn every_edge_capacity_of_pairs_of_layered_depth_cubes() {
         .expect("the options are valid");
     let demand = Demand { fragments: 1 << 16, fringe: 1 << 16, layers: 1 << 8, ..Demand::default() };
     let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    every_edge_capacity_of_pairs(&bench, &mut structure, sizes);
+    check_capacities_of_pairs(&bench, &mut structure, sizes, &rays());
 }
 
 #[test]
@@ -169,5 +145,5 @@ fn every_edge_capacity_of_pairs_of_voxels() {
         .expect("the options are valid");
     let demand = Demand { entries: 1 << 16, ..Demand::default() };
     let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    every_edge_capacity_of_pairs(&bench, &mut structure, sizes);
+    check_capacities_of_pairs(&bench, &mut structure, sizes, &rays());
 }

@@ -3,6 +3,7 @@
 
 use rasray_ads::{Hit, Ray, Structure};
 use rasray_gpu::Timing;
+use rasray_scene::facing::Facing;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -51,13 +52,11 @@ fn dominant(triangle: &Triangle) -> u32 {
 
 /// The share of fragments that keeping each triangle in one view can save: 1 - sum(max |n| A) / sum(|n|_1 A).
 fn geometric_bound(triangles: &[Triangle]) -> f64 {
-    let (mut largest, mut all) = (0.0, 0.0);
+    let mut facing = Facing::default();
     for triangle in triangles {
-        let size = area_vector(triangle).map(f64::abs);
-        largest += size.iter().fold(0.0_f64, |largest, x| largest.max(*x));
-        all += size.iter().sum::<f64>();
+        facing.add(triangle.map(|p| p.map(f64::from).into()));
     }
-    1.0 - largest / all
+    facing.saved_by_one_view().expect("they have an area")
 }
 
 fn tilted(triangles: &[Triangle]) -> Vec<Triangle> {

@@ -151,9 +151,8 @@ pub fn several(
             format!("add {} to --systems or leave the option out", word(name)),
         ));
     }
-    let left_out =
-        assigned.iter().filter_map(|assigned| assigned.preset.filter(|preset| !presets.contains(preset)));
-    if let Some(preset) = left_out.into_iter().next() {
+    let mut addressed = assigned.iter().filter_map(|assigned| assigned.preset);
+    if let Some(preset) = addressed.find(|preset| !presets.contains(preset)) {
         return Err(AppError::usage(
             format!("an option addresses the preset {}, which is not compared", word(&preset)),
             format!("add {} to --presets or leave the option out", word(&preset)),

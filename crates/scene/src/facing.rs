@@ -15,8 +15,7 @@ pub struct Facing {
 }
 
 impl Facing {
-    /// Of the triangles as placed by the instances, at rest. Triangles whose corners are not finite do not count. Linear in
-    /// triangles.
+    /// Of the triangles as placed by the instances, at rest. Linear in triangles.
     pub fn of(scene: &Scene) -> Self {
         let mut facing = Self::default();
         for instance in &scene.instances {
@@ -31,14 +30,19 @@ impl Facing {
                 else {
                     continue;
                 };
-                let areas = 0.5 * (b - a).cross(c - a).abs();
-                if areas.is_finite() {
-                    facing.most += areas.max_element();
-                    facing.all += areas.element_sum();
-                }
+                facing.add([a, b, c]);
             }
         }
         facing
+    }
+
+    /// Adds a triangle by its corners, metres. One whose corners are not finite does not count.
+    pub fn add(&mut self, [a, b, c]: [DVec3; 3]) {
+        let areas = 0.5 * (b - a).cross(c - a).abs();
+        if areas.is_finite() {
+            self.most += areas.max_element();
+            self.all += areas.element_sum();
+        }
     }
 
     /// The share of the fragments of three views along the axes that keeping each triangle in the view it faces most saves,

@@ -102,15 +102,17 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
 /// Rays per second over those of the yardstick on the same rays; absent where the yardstick was not traced, or
 /// stands there more than once and not once with its own builder.
 fn relation(report: &Report, run: &Run) -> Option<f64> {
-    let yardsticks = report.runs.iter().filter(|other| {
-        (other.system.as_str(), other.preset.as_str()) == YARDSTICK && other.ray_set == run.ray_set
-    });
-    let own_builder = |run: &&Run| run.variant.as_deref().is_some_and(|variant| variant == YARDSTICK_VARIANT);
-    let yardstick = match yardsticks.clone().count() {
-        1 => yardsticks.clone().next(),
-        _ if yardsticks.clone().filter(own_builder).count() == 1 => yardsticks.clone().find(own_builder),
-        _ => None,
-    }?;
+    let mut yardsticks: Vec<&Run> = report
+        .runs
+        .iter()
+        .filter(|other| {
+            (other.system.as_str(), other.preset.as_str()) == YARDSTICK && other.ray_set == run.ray_set
+        })
+        .collect();
+    if yardsticks.len() > 1 {
+        yardsticks.retain(|other| other.variant.as_deref() == Some(YARDSTICK_VARIANT));
+    }
+    let [yardstick] = yardsticks[..] else { return None };
     Some(run.times.mrays_per_s? / yardstick.times.mrays_per_s?)
 }
 
