@@ -4,6 +4,7 @@
 #ifndef ABUFFER_SURFACE_GLSL
 #define ABUFFER_SURFACE_GLSL
 
+#include "contract/stored_hit.glsl"
 #include "scene/plane_surface.glsl"
 #include "abuffer/nodes.glsl"
 #include "abuffer/attributes.glsl"
@@ -18,9 +19,7 @@ float abuffer_footprint(AbufferRef s, vec3 position) {
 }
 
 Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
-    // Triangles of the near box are known whatever fragments carry.
-    bool named = ABUFFER_IDS != 0u && floatBitsToUint(hit.b) == HIT_STORED;
-    if (hit.primitive != PRIMITIVE_UNKNOWN && !named) {
+    if (!stored_hit_is(hit)) {
         return plane_surface(ray, hit);
     }
     uint link = floatBitsToUint(hit.a);

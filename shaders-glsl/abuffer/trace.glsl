@@ -4,6 +4,7 @@
 #ifndef ABUFFER_TRACE_GLSL
 #define ABUFFER_TRACE_GLSL
 
+#include "contract/stored_hit.glsl"
 #include "contract/trace_state.glsl"
 #include "contract/trace_log.glsl"
 #include "ads/bounds_interval.glsl"
@@ -126,9 +127,7 @@ uint abuffer_trace_closest(AbufferRef s, Ray ray, inout TraceState state, out Hi
     uint result = abuffer_trace(s, ray, state, false);
     hit = state.best;
     if (ABUFFER_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
-        hit.primitive = abuffer_data(s, floatBitsToUint(hit.a), abuffer_payload_words());
-        hit.b = uintBitsToFloat(HIT_STORED);
+        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), abuffer_payload_words()));
     }
     return result;
 }

@@ -4,14 +4,13 @@
 #ifndef LDC_SURFACE_GLSL
 #define LDC_SURFACE_GLSL
 
+#include "contract/stored_hit.glsl"
 #include "scene/plane_surface.glsl"
 #include "scene/stored_surface.glsl"
 #include "ldc/accessors.glsl"
 
 Surface ldc_surface_at(LdcRef s, Ray ray, Hit hit) {
-    // Triangles of the fringe are known whatever fragments carry.
-    bool named = LDC_IDS != 0u && floatBitsToUint(hit.b) == HIT_STORED;
-    if (hit.primitive != PRIMITIVE_UNKNOWN && !named) {
+    if (!stored_hit_is(hit)) {
         return plane_surface(ray, hit);
     }
     // A surface rises by no more than a cell from the centre to where the ray meets it.

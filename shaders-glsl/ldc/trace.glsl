@@ -4,6 +4,7 @@
 #ifndef LDC_TRACE_GLSL
 #define LDC_TRACE_GLSL
 
+#include "contract/stored_hit.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ldc/pause.glsl"
@@ -184,9 +185,7 @@ uint ldc_trace_closest(LdcRef s, Ray ray, inout TraceState state, out Hit hit) {
     uint result = ldc_trace(s, ray, state, false);
     hit = state.best;
     if (LDC_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
-        hit.primitive = ldc_kept_id(s, floatBitsToUint(hit.a));
-        hit.b = uintBitsToFloat(HIT_STORED);
+        stored_hit_name(hit, ldc_kept_id(s, floatBitsToUint(hit.a)));
     }
     return result;
 }

@@ -48,7 +48,7 @@ bool bin_begin(uint primitive, uint view, out Bin bin) {
     float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
     bin.many = kept && bin_is_many(bin.lower, bin.upper);
-    bool marked = VOXEL_AXES != VOXEL_AXES_ALL && bin.axis == faced && triangle_has_area(a, b, c);
+    bool marked = VOXEL_MARKED == VOXEL_MARKED_BY_TRIANGLES && bin.axis == faced && triangle_has_area(a, b, c);
     ivec2 lower;
     ivec2 upper;
     AxisView columns = voxel_column_view(voxel_built, bin.axis);

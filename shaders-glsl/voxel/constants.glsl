@@ -10,6 +10,11 @@
 // A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
 #define VOXEL_AXES_TRIANGLE 2u
 
+// What makes a voxel one in which something lies: the fragments in it alone, all axes only; or the triangles that reach into
+// it, in a pass before.
+#define VOXEL_MARKED_BY_FRAGMENTS 0u
+#define VOXEL_MARKED_BY_TRIANGLES 1u
+
 // How a ray steps within a voxel.
 #define VOXEL_MARCH_SAMPLES 0u
 #define VOXEL_MARCH_EXACT 1u

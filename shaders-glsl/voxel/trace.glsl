@@ -4,6 +4,7 @@
 #ifndef VOXEL_TRACE_GLSL
 #define VOXEL_TRACE_GLSL
 
+#include "contract/stored_hit.glsl"
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
@@ -67,9 +68,7 @@ uint voxel_trace_closest(VoxelRef s, Ray ray, inout TraceState state, out Hit hi
     uint result = voxel_trace(s, ray, state, false);
     hit = state.best;
     if (VOXEL_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        // The search goes by PRIMITIVE_UNKNOWN, so that it finds what it finds without ids.
-        hit.primitive = voxel_word(s, floatBitsToUint(hit.a), 4u);
-        hit.b = uintBitsToFloat(HIT_STORED);
+        stored_hit_name(hit, voxel_word(s, floatBitsToUint(hit.a), 4u));
     }
     return result;
 }

@@ -18,6 +18,7 @@ layout(constant_id = 76) const uint VOXEL_PAYLOAD = VOXEL_PAYLOAD_INDEX;
 layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 78) const uint VOXEL_IDS = 0u;
+layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 
 // State and sizes of one value. 136 bytes.
 struct VoxelHeader {

@@ -27,8 +27,9 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
         if (VOXEL_AXES == VOXEL_AXES_TRIANGLE) {
             voxel_mark(voxel_built, index, VOXEL_OCCUPIED | 1u << axis);
         } else {
+            // Fragments have the say on the axis where there are any: beside theirs a triangle's normal weighs next to nothing.
             voxel_mark(voxel_built, index, VOXEL_OCCUPIED);
-            voxel_add_normal(voxel_built, index, normal);
+            voxel_add_normal(voxel_built, index, VOXEL_AXES == VOXEL_AXES_ALL ? normal / VOXEL_NORMAL_STEPS : normal);
         }
     }
 }

@@ -74,7 +74,7 @@ fn both_builders_of_layered_depth_cubes_store_the_same_fragments() {
 
 #[test]
 fn both_builders_of_voxels_store_the_same_fragments() {
-    use rasray_voxel::{Accept, Axes, Config, Coverage, March, Payload, Storage};
+    use rasray_voxel::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
     let bench = Bench::new();
     let geometry = bench.geometry(&all_sizes());
     let robust = Config::robust;
@@ -97,6 +97,7 @@ fn both_builders_of_voxels_store_the_same_fragments() {
         (Config { storage: Storage::Paged, ..robust(40) }, true),
         (Config { addressing: rasray_voxel::Addressing::Address, ..robust(40) }, true),
         (published(Axes::All), true),
+        (Config { voxels: Some(Marking::Triangles), ..published(Axes::All) }, true),
         (published(Axes::Voxel), true),
         (Config { storage: Storage::Linked, ..published(Axes::All) }, true),
     ] {

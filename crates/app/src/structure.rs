@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use crate::structure_values::{
-    Accept, Addressing, Axes, Builder, Centre, Coverage, Depth, Depths, LayerBuild, March, Occupancy,
-    Payload, Stop, Storage, Switch, Views,
+    Accept, Addressing, Axes, Builder, Centre, Coverage, Depth, Depths, LayerBuild, March, Marking,
+    Occupancy, Payload, Stop, Storage, Switch, Views,
 };
 
 /// A system the command can run.
@@ -122,6 +122,10 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<Axes>,
+    /// What makes a voxel occupied; triangles but with --axes all, where fragments do if not given
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub voxels: Option<Marking>,
     /// What a fragment carries
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -249,6 +253,7 @@ mod tests {
         same_words::<Depths>();
         same_words::<Coverage>();
         same_words::<Axes>();
+        same_words::<Marking>();
         same_words::<Views>();
         same_words::<Depth>();
         same_words::<Occupancy>();

@@ -121,6 +121,16 @@ pub enum Axes {
     Triangle,
 }
 
+/// What makes a voxel one in which something lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Marking {
+    /// The fragments in it
+    Fragments,
+    /// The triangles that reach into it
+    Triangles,
+}
+
 /// Which projections are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

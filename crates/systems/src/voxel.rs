@@ -1,15 +1,16 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Addressing, Axes, Builder, Config, Coverage, March, Payload, Storage};
+use rasray_voxel::{Accept, Addressing, Axes, Builder, Config, Coverage, March, Marking, Payload, Storage};
 
 use crate::option::Given;
 use crate::{Spec, SystemsError};
 
 /// Options by their names on the command line.
-pub(crate) const OPTIONS: [&str; 15] = [
+pub(crate) const OPTIONS: [&str; 16] = [
     "resolution",
     "grid",
     "axes",
+    "voxels",
     "march",
     "samples",
     "accept",
@@ -47,6 +48,11 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
                     ("voxel", Axes::Voxel),
                     ("triangle", Axes::Triangle),
                 ])?;
+            }
+            "voxels" => {
+                config.voxels = Some(
+                    given.choice(&[("fragments", Marking::Fragments), ("triangles", Marking::Triangles)])?,
+                );
             }
             "march" => {
                 config.march = given.choice(&[("samples", March::Samples), ("exact", March::Exact)])?;

@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Config, Header, Payload, Storage};
+use crate::{Axes, Config, Header, Marking, Payload, Storage};
 
 /// What counts the lengths of contiguous lists and turns them into places.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ impl Build {
         };
         Ok(Self {
             pairs: visits.pairs("build_0_pairs")?,
-            voxels: (config.axes != Axes::All).then(voxels).transpose()?,
+            voxels: (config.marking() == Marking::Triangles).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
             store: visits.visit("build_raster", "build_5_store", variant)?,

@@ -14,6 +14,16 @@ pub enum Axes {
     Triangle,
 }
 
+/// What makes a voxel one in which something lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marking {
+    /// The fragments in it alone, in the pass that stores them. What a triangle reaches into between the centres of cells is taken for
+    /// empty. Needs [`Axes::All`].
+    Fragments,
+    /// The triangles that reach into it, in a pass before: no voxel with a part of one is taken for empty.
+    Triangles,
+}
+
 /// How a ray steps within a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
@@ -98,6 +108,8 @@ pub struct Config {
     pub grid: Option<u32>,
     /// Which views keep a fragment.
     pub axes: Axes,
+    /// What makes a voxel occupied; fragments where absent and all views keep all, else triangles.
+    pub voxels: Option<Marking>,
     /// How rays step within a voxel.
     pub march: March,
     /// Steps in a voxel, 1 to 64; only for [`March::Samples`].
@@ -136,6 +148,7 @@ impl Config {
             resolution,
             grid: None,
             axes: Axes::Triangle,
+            voxels: None,
             march: March::Exact,
             samples: 3,
             accept: Accept::Plane,
@@ -183,6 +196,12 @@ impl Config {
         self.grid.unwrap_or(balanced as u32).clamp(1, numbers::VOXEL_GRID_LIMIT)
     }
 
+    /// What makes a voxel occupied.
+    pub fn marking(&self) -> Marking {
+        let one_pass = self.axes == Axes::All;
+        self.voxels.unwrap_or(if one_pass { Marking::Fragments } else { Marking::Triangles })
+    }
+
     /// Whether lists are sorted: only those that lie one behind the other.
     pub fn sorts(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
@@ -218,6 +237,13 @@ impl Config {
                 option: "builder",
                 value: self.builder.name().to_owned(),
                 expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
+            });
+        }
+        if self.marking() == Marking::Fragments && self.axes != Axes::All {
+            return Err(AdsError::Option {
+                option: "voxels",
+                value: "fragments".to_owned(),
+                expected: "where views keep a part of the fragments voxels come first: with other axes than `all` take triangles",
             });
         }
         let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;
@@ -261,6 +287,10 @@ impl Config {
             Axes::Voxel => numbers::VOXEL_AXES_VOXEL,
             Axes::Triangle => numbers::VOXEL_AXES_TRIANGLE,
         };
+        let marking = match self.marking() {
+            Marking::Fragments => numbers::VOXEL_MARKED_BY_FRAGMENTS,
+            Marking::Triangles => numbers::VOXEL_MARKED_BY_TRIANGLES,
+        };
         let march = match self.march {
             March::Samples => numbers::VOXEL_MARCH_SAMPLES,
             March::Exact => numbers::VOXEL_MARCH_EXACT,
@@ -289,6 +319,7 @@ impl Config {
             (76, payload),
             (77, self.storage.number()),
             (78, u32::from(self.ids)),
+            (79, marking),
         ]
     }
 
@@ -301,6 +332,7 @@ impl Config {
             ("resolution", self.resolution.to_string()),
             ("grid", self.grid().to_string()),
             ("axes", lower(&self.axes)),
+            ("voxels", lower(&self.marking())),
             ("march", lower(&self.march)),
             ("accept", lower(&self.accept)),
             ("payload", payload.to_owned()),

@@ -14,7 +14,7 @@ mod layout;
 mod structure;
 mod validate;
 
-pub use config::{Accept, Axes, Config, Coverage, March, Payload, Storage};
+pub use config::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use rasray_ads::{Addressing, Builder};

@@ -48,7 +48,7 @@ pub const LAWS: &[Law] = &[
     same("addressing", &["descriptor", "address"]),
     same("builder", &["raster", "binning", "sah", "lbvh"]),
     same("block", &["1", "4", "64"]),
-    same_without_loss("buckets", &["1", "2", "8", "32"]),
+    same_without_loss("buckets", &["1", "2", "8", "12", "32", "64"]),
     same("corners", &["on", "off"]),
     same("inline", &["on", "off"]),
     same("leaf", &["1", "16"]),
@@ -68,10 +68,11 @@ pub const LAWS: &[Law] = &[
     same_for_primitives("slices", &["8", "64"]),
     same_for_primitives("tile", &["1", "2", "4", "8"]),
     same_for_primitives("axes", &["all", "voxel", "triangle"]),
+    same_for_primitives("voxels", &["fragments", "triangles"]),
     // A camera's view needs a camera, which these scenes lack.
     same_for_primitives("views", &["cube", "axes"]),
     // What decides whether something is a hit, or what a fragment stands for.
-    may_change("accept", &["interval", "slope", "plane", "parity", "t", "tile"]),
+    may_change("accept", &["interval", "thickness", "tolerance", "slope", "plane", "parity", "t", "tile"]),
     may_change("coverage", &["exact", "hardware", "conservative", "edge-on"]),
     may_change("depth", &["16", "32"]),
     may_change("depths", &["clipped", "corners"]),

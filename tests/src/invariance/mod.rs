@@ -7,9 +7,11 @@
 mod choices;
 mod laws;
 mod pairs;
+mod scene;
 mod subject;
 
 pub use choices::{choices, speed_options, takes};
 pub use laws::{LAWS, Law, Value, law};
 pub use pairs::{Pair, Pairs, pairwise};
+pub use scene::{EYE, assert_same, general_rays, ray_count, rays, scene};
 pub use subject::{Answers, SUBJECTS, Subject, first_difference};
