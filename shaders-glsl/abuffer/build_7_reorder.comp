@@ -14,34 +14,50 @@ layout(push_constant, scalar) uniform AbufferBuildConstants {
     AbufferRef abuffer_built;
 };
 
-void main() {
-    uint list = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (ABUFFER_HEADER(abuffer_built).demand > ABUFFER_HEADER(abuffer_built).capacity) {
-        return;
-    }
-    if (abuffer_paged()) {
-        if (list < ABUFFER_HEADER(abuffer_built).demand) {
-            abuffer_sort_page(abuffer_built, list);
-        }
-        return;
-    }
-    if (list >= abuffer_list_count(abuffer_built)) {
-        return;
-    }
-    uint result = SORT_DONE;
-    if (abuffer_contiguous()) {
-        uint progress = 0u;
-        result = abuffer_sort_contiguous(abuffer_built, list, ABUFFER_SORT_LIMIT, ABUFFER_SORT_STEPS, progress);
-    } else {
-        result = abuffer_sort_linked(abuffer_built, list, ABUFFER_SORT_LIMIT, ABUFFER_SORT_STEPS);
-    }
-    if (result == SORT_DONE) {
-        return;
-    }
+// Names a list for the dispatches that sort long ones.
+void name_long(uint list) {
     uint place = atomicAdd(ABUFFER_HEADER(abuffer_built).long_demand, 1u);
     if (place < ABUFFER_HEADER(abuffer_built).long_capacity) {
         uint word = abuffer_long_word(abuffer_built, place);
         ABUFFER_SCRATCH(abuffer_built)[word] = list;
         ABUFFER_SCRATCH(abuffer_built)[word + 1u] = 0u;
+    }
+}
+
+// Threads side by side have lists side by side.
+void sort_linked(uint group, uint count) {
+    uint first = group * ABUFFER_GROUP_SIZE * ABUFFER_SORT_LISTS + gl_LocalInvocationID.x;
+    uint waiting = 0u;
+    for (uint k = 0u; k < ABUFFER_SORT_LISTS; k++) {
+        uint list = first + k * ABUFFER_GROUP_SIZE;
+        if (list < count && abuffer_sort_has_two(abuffer_built, list)) {
+            waiting |= 1u << k;
+        }
+    }
+    uint left_over = abuffer_sort_several(abuffer_built, first, ABUFFER_GROUP_SIZE, waiting);
+    while (left_over != 0u) {
+        name_long(first + uint(findLSB(left_over)) * ABUFFER_GROUP_SIZE);
+        left_over &= left_over - 1u;
+    }
+}
+
+void main() {
+    uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+    uint thread = group * ABUFFER_GROUP_SIZE + gl_LocalInvocationID.x;
+    if (ABUFFER_HEADER(abuffer_built).demand > ABUFFER_HEADER(abuffer_built).capacity) {
+        return;
+    }
+    if (abuffer_paged()) {
+        if (thread < ABUFFER_HEADER(abuffer_built).demand) {
+            abuffer_sort_page(abuffer_built, thread);
+        }
+    } else if (abuffer_contiguous()) {
+        uint progress = 0u;
+        if (thread < abuffer_list_count(abuffer_built)
+            && abuffer_sort_contiguous(abuffer_built, thread, ABUFFER_SORT_LIMIT, ABUFFER_SORT_STEPS, progress) != SORT_DONE) {
+            name_long(thread);
+        }
+    } else {
+        sort_linked(group, abuffer_list_count(abuffer_built));
     }
 }

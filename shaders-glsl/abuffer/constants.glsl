@@ -51,6 +51,9 @@
 #define ABUFFER_SORT_LIMIT 1024u
 #define ABUFFER_SORT_STEPS 24000u
 
+// Linked lists that one thread of the pass sorts, within the same steps; most have a node or none. 32 at most.
+#define ABUFFER_SORT_LISTS 16u
+
 // Longest list that the dispatches for long lists sort; longer ones stay unordered and are counted.
 #define ABUFFER_LONG_LIMIT 19000u
 

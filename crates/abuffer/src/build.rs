@@ -6,7 +6,7 @@ use rasray_ads::{
     AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS};
+use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS, ABUFFER_SORT_LISTS};
 
 use crate::layout::{cell_count, draws, long_capacity};
 use crate::{Config, Header, March, Storage};
@@ -135,7 +135,12 @@ impl Build {
         }
         if let Some(reorder) = &self.reorder {
             let readers = Access::COMPUTE;
-            let sorted = if paged { target.pools.sizes().elements("nodes") } else { lists };
+            // A thread for each page, contiguous list, or several linked lists.
+            let sorted = match config.storage {
+                Storage::Paged => target.pools.sizes().elements("nodes"),
+                Storage::Sb => lists,
+                _ => lists.div_ceil(u64::from(ABUFFER_SORT_LISTS)),
+            };
             target.compute_pass(
                 recorder,
                 "abuffer/build_7_reorder",
