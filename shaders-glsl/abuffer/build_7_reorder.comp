@@ -27,14 +27,7 @@ void name_long(uint list) {
 // Threads side by side have lists side by side.
 void sort_linked(uint group, uint count) {
     uint first = group * ABUFFER_GROUP_SIZE * ABUFFER_SORT_LISTS + gl_LocalInvocationID.x;
-    uint waiting = 0u;
-    for (uint k = 0u; k < ABUFFER_SORT_LISTS; k++) {
-        uint list = first + k * ABUFFER_GROUP_SIZE;
-        if (list < count && abuffer_sort_has_two(abuffer_built, list)) {
-            waiting |= 1u << k;
-        }
-    }
-    uint left_over = abuffer_sort_several(abuffer_built, first, ABUFFER_GROUP_SIZE, waiting);
+    uint left_over = abuffer_sort_several(abuffer_built, first, ABUFFER_GROUP_SIZE, count);
     while (left_over != 0u) {
         name_long(first + uint(findLSB(left_over)) * ABUFFER_GROUP_SIZE);
         left_over &= left_over - 1u;

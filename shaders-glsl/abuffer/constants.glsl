@@ -46,8 +46,8 @@
 #define ABUFFER_STORAGE_SB 4u
 #define ABUFFER_STORAGE_PAGED 5u
 
-// Longest list that the reorder pass sorts at once, and steps that suffice for it: it is counted and merged ten
-// times. Longer lists are sorted a share a dispatch.
+// Longest list that the reorder pass sorts at once, and steps that suffice for it, which is merged ten times. Longer lists
+// are sorted a share a dispatch.
 #define ABUFFER_SORT_LIMIT 1024u
 #define ABUFFER_SORT_STEPS 24000u
 

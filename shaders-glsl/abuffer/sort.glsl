@@ -6,9 +6,7 @@
 #define SORT_DONE 0u
 #define SORT_MORE 1u
 #define SORT_TOO_LONG 2u
-// Of a single step: it is done; with it the list is counted; with it a pass over the list ends, and another is needed.
-#define SORT_STEPPED 3u
-#define SORT_COUNTED 4u
-#define SORT_PASSED 5u
+// Of a single step: a pass over the list has ended, and another is needed.
+#define SORT_PASSED 3u
 
 #endif

@@ -62,134 +62,116 @@ void abuffer_merge_take(AbufferRef s, inout AbufferMerge merge) {
     merge.tail = taken;
 }
 
-// A list that is being sorted, step by step.
-struct AbufferSort {
-    uint list;
-    uint count;           // its nodes, as far as they have been counted
-    uint counted;         // the next one to be counted
-    bool counting;
-    AbufferMerge merge;
-};
-
-AbufferSort abuffer_sort_begin(AbufferRef s, uint list) {
-    AbufferSort sort;
-    uint head = ABUFFER_LISTS(s)[abuffer_head_word(list)];
-    sort.list = list;
-    sort.count = 0u;
-    sort.counted = head;
-    sort.counting = true;
-    abuffer_merge_begin(head, sort.merge);
-    return sort;
+// Nodes of a list; of a longer one than `limit` one more than that.
+uint abuffer_sort_count(AbufferRef s, uint list, uint limit) {
+    uint count = 0u;
+    uint link = ABUFFER_LISTS(s)[abuffer_head_word(list)];
+    while (link != 0u && count <= limit) {
+        link = abuffer_next(s, link);
+        count++;
+    }
+    return count;
 }
 
-// Steps that suffice for a list: it is counted, and each pass finds the ends of runs and moves nodes, halving the runs.
+void abuffer_sort_begin(AbufferRef s, uint list, inout AbufferMerge merge) {
+    abuffer_merge_begin(ABUFFER_LISTS(s)[abuffer_head_word(list)], merge);
+}
+
+// Steps that suffice for a list: each pass finds the ends of runs and moves nodes, and halves the runs.
 uint abuffer_sort_cost(uint count) {
-    uint passes = count < 2u ? 0u : max(1u, uint(findMSB(count - 1u)) + 1u);
-    return count + 1u + passes * (2u * count + 2u);
+    return count < 2u ? 0u : (uint(findMSB(count - 1u)) + 1u) * (2u * count + 2u);
 }
 
-// One step. Between passes the list is whole.
-uint abuffer_sort_step(AbufferRef s, inout AbufferSort sort) {
-    if (sort.counting) {
-        if (sort.counted == 0u) {
-            sort.counting = false;
-            return SORT_COUNTED;
+// One step of the sorting of a list of two nodes and more. Between passes the list is whole.
+uint abuffer_sort_step(AbufferRef s, uint list, inout AbufferMerge merge) {
+    if (merge.finding) {
+        uint next = abuffer_next(s, merge.at);
+        if (next != 0u && abuffer_comes_first(s, merge.at, next)) {
+            merge.at = next;
+            return SORT_MORE;
         }
-        sort.counted = abuffer_next(s, sort.counted);
-        sort.count++;
-        return SORT_STEPPED;
-    }
-    if (sort.merge.finding) {
-        uint next = abuffer_next(s, sort.merge.at);
-        if (next != 0u && abuffer_comes_first(s, sort.merge.at, next)) {
-            sort.merge.at = next;
-            return SORT_STEPPED;
-        }
-        sort.merge.finding = false;
-        sort.merge.right = next;
-        sort.merge.right_ended = next == 0u;
+        merge.finding = false;
+        merge.right = next;
+        merge.right_ended = next == 0u;
         // A single run: the list is sorted, and its backward links are taken along.
-        return sort.merge.right_ended && sort.merge.runs == 1u && !abuffer_doubly() ? SORT_DONE : SORT_STEPPED;
+        return merge.right_ended && merge.runs == 1u && !abuffer_doubly() ? SORT_DONE : SORT_MORE;
     }
-    abuffer_merge_take(s, sort.merge);
-    if (!sort.merge.left_ended || !sort.merge.right_ended) {
-        return SORT_STEPPED;
+    abuffer_merge_take(s, merge);
+    if (!merge.left_ended || !merge.right_ended) {
+        return SORT_MORE;
     }
     // What follows both runs stands behind the right one, or nothing where there was none.
-    if (sort.merge.right != 0u) {
-        abuffer_merge_pair(sort.merge.right, sort.merge);
-        return SORT_STEPPED;
+    if (merge.right != 0u) {
+        abuffer_merge_pair(merge.right, merge);
+        return SORT_MORE;
     }
-    abuffer_set_next(s, sort.merge.tail, 0u);
-    uint word = abuffer_head_word(sort.list);
-    ABUFFER_LISTS(s)[word] = sort.merge.head;
+    abuffer_set_next(s, merge.tail, 0u);
+    uint word = abuffer_head_word(list);
+    ABUFFER_LISTS(s)[word] = merge.head;
     if (abuffer_doubly()) {
-        ABUFFER_LISTS(s)[word + 1u] = sort.merge.tail;
+        ABUFFER_LISTS(s)[word + 1u] = merge.tail;
     }
-    if (sort.merge.runs == 1u) {
+    if (merge.runs == 1u) {
         return SORT_DONE;
     }
-    abuffer_merge_begin(sort.merge.head, sort.merge);
+    abuffer_merge_begin(merge.head, merge);
     return SORT_PASSED;
 }
 
-// Sorts as far as `steps` go, whole passes at a time. Lists of more than `limit` nodes stay as they are.
+// Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than `limit` nodes stay as
+// they are.
 uint abuffer_sort_linked(AbufferRef s, uint list, uint limit, uint steps) {
-    AbufferSort sort = abuffer_sort_begin(s, list);
-    for (uint i = 0u; i < steps; i++) {
-        uint result = abuffer_sort_step(s, sort);
-        if (sort.count > limit) {
-            return SORT_TOO_LONG;
-        }
-        if (result == SORT_DONE || (result == SORT_COUNTED && sort.count < 2u)) {
+    uint count = abuffer_sort_count(s, list, limit);
+    if (count > limit) {
+        return SORT_TOO_LONG;
+    }
+    if (count < 2u) {
+        return SORT_DONE;
+    }
+    AbufferMerge merge;
+    abuffer_sort_begin(s, list, merge);
+    for (uint i = count; i < steps; i++) {
+        uint result = abuffer_sort_step(s, list, merge);
+        if (result == SORT_DONE) {
             return SORT_DONE;
         }
         // A pass finds the end of every other run and moves every node.
-        if (result == SORT_PASSED && i + 1u + 2u * sort.count + 2u > steps) {
+        if (result == SORT_PASSED && i + 1u + 2u * count + 2u > steps) {
             return SORT_MORE;
         }
     }
     return SORT_MORE;
 }
 
-// Whether there is anything to sort.
-bool abuffer_sort_has_two(AbufferRef s, uint list) {
-    uint head = ABUFFER_LISTS(s)[abuffer_head_word(list)];
-    return head != 0u && abuffer_next(s, head) != 0u;
-}
-
-// Sorts the lists first, first + stride, ... that a set names by bits, one after the other. The set of those that stay as they
-// are, for they are longer than ABUFFER_SORT_LIMIT, or ABUFFER_SORT_STEPS do not suffice for them beside those before: that
-// follows from the numbers of nodes alone, in whatever order they stand.
-uint abuffer_sort_several(AbufferRef s, uint first, uint stride, uint waiting) {
+// Sorts the lists first, first + stride, ... that come before `end`, ABUFFER_SORT_LISTS at most. The set of those that stay as
+// they are, by bits: they are longer than ABUFFER_SORT_LIMIT, or ABUFFER_SORT_STEPS do not suffice for them beside those before.
+// That follows from the numbers of nodes alone, in whatever order they stand.
+uint abuffer_sort_several(AbufferRef s, uint first, uint stride, uint end) {
+    uint waiting = 0u;
     uint left_over = 0u;
     uint reserved = 0u;
-    uint place = 0u;
-    bool sorting = false;
-    AbufferSort sort;
-    for (uint i = 0u; i < ABUFFER_SORT_STEPS + ABUFFER_SORT_LISTS * (ABUFFER_SORT_LIMIT + 2u); i++) {
-        if (!sorting) {
-            if (waiting == 0u) {
-                break;
-            }
-            place = uint(findLSB(waiting));
-            waiting &= waiting - 1u;
-            sort = abuffer_sort_begin(s, first + place * stride);
-            sorting = true;
-        }
-        uint result = abuffer_sort_step(s, sort);
-        if (sort.count > ABUFFER_SORT_LIMIT) {
-            result = SORT_COUNTED;
-        }
-        if (result == SORT_COUNTED) {
-            uint cost = abuffer_sort_cost(sort.count);
-            bool taken = sort.count <= ABUFFER_SORT_LIMIT && reserved + cost <= ABUFFER_SORT_STEPS;
+    for (uint k = 0u; k < ABUFFER_SORT_LISTS; k++) {
+        uint list = first + k * stride;
+        uint count = list < end ? abuffer_sort_count(s, list, ABUFFER_SORT_LIMIT) : 0u;
+        if (count >= 2u) {
+            uint cost = abuffer_sort_cost(count);
+            bool taken = count <= ABUFFER_SORT_LIMIT && reserved + cost <= ABUFFER_SORT_STEPS;
             reserved += taken ? cost : 0u;
-            left_over |= taken ? 0u : 1u << place;
-            sorting = taken;
-        } else if (result == SORT_DONE) {
-            sorting = false;
+            waiting |= taken ? 1u << k : 0u;
+            left_over |= taken ? 0u : 1u << k;
         }
+    }
+    // One loop for all of them, so that neighbours need not wait for each other's lists.
+    bool sorting = false;
+    uint list = 0u;
+    AbufferMerge merge;
+    for (uint i = 0u; i < ABUFFER_SORT_STEPS && (sorting || waiting != 0u); i++) {
+        if (!sorting) {
+            list = first + uint(findLSB(waiting)) * stride;
+            waiting &= waiting - 1u;
+            abuffer_sort_begin(s, list, merge);
+        }
+        sorting = abuffer_sort_step(s, list, merge) != SORT_DONE;
     }
     return left_over;
 }

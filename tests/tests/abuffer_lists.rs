@@ -96,6 +96,30 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     }
 }
 
+/// Lists that are short enough each, and too many nodes for the thread that sorts several: what is left over is sorted with the long
+/// ones.
+#[test]
+fn lists_that_one_thread_cannot_sort_together_are_sorted() {
+    const LAYERS: u32 = 400;
+    const { assert!(3 * LAYERS < 2 * ABUFFER_SORT_LIMIT) };
+    let bench = Bench::new();
+    let wide = |layer: u32| {
+        let depth = layer_depth((layer * 157 % LAYERS) as usize);
+        quad([-0.9 * depth, 0.9 * depth], [-0.9 * depth, 0.9 * depth], depth)
+    };
+    let triangles: Vec<Triangle> = (0..LAYERS).flat_map(wide).collect();
+    for storage in [Storage::Ll, Storage::Dll] {
+        let config = Config { storage, ..Config::robust(16) };
+        let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
+        let header = structure.header().expect("the header is readable");
+        // A cell has a fragment a layer, two on the diagonal.
+        assert!(header.long_demand > 0 && header.long_demand < 16 * 16, "{}", header.long_demand);
+        assert_eq!(header.unsorted, 0);
+        let contents = structure.download(bench.device()).expect("the device works");
+        well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
+    }
+}
+
 /// More fragments in one linked list than the dispatches sort: it is counted, and hits are the same.
 #[test]
 fn a_list_beyond_the_limit_is_counted_and_searched_in_full() {
