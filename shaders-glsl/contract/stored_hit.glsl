@@ -13,8 +13,8 @@ void stored_hit_name(inout Hit hit, uint primitive) {
     hit.b = uintBitsToFloat(HIT_STORED);
 }
 
-// Whether the surface at a hit is that of a fragment, which hit.a leads to. Others are a triangle's, whatever fragments carry:
-// of the near box, of a fringe, or where fragments name theirs.
+// Whether the surface at a hit is that of a fragment, which hit.a leads to, where some fragments carry surfaces and some hits are
+// of triangles whatever they carry: those of a near box or a fringe.
 bool stored_hit_is(Hit hit) {
     return hit.primitive == PRIMITIVE_UNKNOWN || floatBitsToUint(hit.b) == HIT_STORED;
 }

@@ -1,4 +1,4 @@
-// What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its normal to them. The
+// What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its normal or that axis to them. The
 // same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average
@@ -21,15 +21,17 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
         || !voxel_column_range(view, a, b, c, column, range)) {
         return;
     }
-    vec3 normal = axis_to_world(voxel_unit_normal(a, b, c), axis);
+    // Where all views keep all, fragments have the say on a voxel's axis: beside each of theirs a triangle weighs a step of
+    // VOXEL_NORMAL_STEPS, along the axis it faces most, and decides where there are none.
+    vec3 vote = vec3(0.0, 0.0, 1.0 / VOXEL_NORMAL_STEPS);
+    vec3 normal = axis_to_world(VOXEL_AXES == VOXEL_AXES_ALL ? vote : voxel_unit_normal(a, b, c), axis);
     for (int depth = range.x; depth <= range.y; depth++) {
         uint index = voxel_index(voxel_built, axis_to_world(ivec3(column, depth), axis));
         if (VOXEL_AXES == VOXEL_AXES_TRIANGLE) {
             voxel_mark(voxel_built, index, VOXEL_OCCUPIED | 1u << axis);
         } else {
-            // Fragments have the say on the axis where there are any: beside theirs a triangle's normal weighs next to nothing.
             voxel_mark(voxel_built, index, VOXEL_OCCUPIED);
-            voxel_add_normal(voxel_built, index, VOXEL_AXES == VOXEL_AXES_ALL ? normal / VOXEL_NORMAL_STEPS : normal);
+            voxel_add_normal(voxel_built, index, normal);
         }
     }
 }

@@ -64,8 +64,9 @@ fn secondary_rays_meet_fragments_without_ids() {
     }
 }
 
-/// Parities lose little of a room, so that occlusion is near the truth with ids and without, however rays leave a surface. With ids
-/// they exclude its triangle, without them they start a cell off it, where the next parity may still be that of the surface itself.
+/// Parities lose little of a room, so that occlusion is near the truth with ids and without. All rays start a cell off a surface;
+/// only those that know its triangle exclude it, and the others may meet it again. A-buffers by their paper's rules lose most of
+/// the walls, which shows that the comparison would notice.
 #[test]
 fn secondary_rays_of_parities_come_near_the_truth() {
     let bench = Bench::new();
@@ -76,13 +77,18 @@ fn secondary_rays_of_parities_come_near_the_truth() {
     build_until_complete(bench.device(), every_triangle.as_mut(), scene.eye(), Timing::None)
         .expect("the build completes");
     let truth = mean(&bench, &scene, every_triangle.as_mut());
-    for payload in ["index", "attributes"] {
+    assert!(truth > 0.2 && truth < 0.5, "a room with an open side: {truth}");
+    let error_of = |system, payload| {
         let options = [("resolution", "512"), ("payload", payload)];
-        let found = mean(&bench, &scene, made(&bench, &scene, "hu", &options).as_mut());
-        println!("{payload}: {found} of {truth}");
-        // Four standard deviations of the mean of as many samples.
-        assert!((found - truth).abs() < 0.03, "{payload}: {found} of {truth}");
+        let found = mean(&bench, &scene, made(&bench, &scene, system, &options).as_mut());
+        println!("{system}, {payload}: {found} of {truth}");
+        (found - truth).abs()
+    };
+    // The renders draw the same random numbers; even if they did not, this is four standard deviations of such a mean.
+    for payload in ["index", "attributes"] {
+        assert!(error_of("hu", payload) < 0.03, "{payload}");
     }
+    assert!(error_of("mmrt", "attributes") > 0.3);
 }
 
 /// What rays meet, and what is shaded there.

@@ -112,8 +112,8 @@ fn fragments_saved_are_those_that_geometry_allows() {
     }
 }
 
-/// Every point of every triangle lies in a voxel that is searched along the triangle's axis, and in one that is searched at all
-/// where all views keep all and triangles mark voxels. Fragments do not mark as many.
+/// Every point of every triangle lies in a voxel that is searched along the triangle's axis, or, where all views keep all
+/// and triangles mark voxels, in one that is searched at all. Fragments do not mark as many.
 #[test]
 fn every_voxel_that_a_triangle_reaches_into_is_searched() {
     let bench = Bench::new();
@@ -201,6 +201,50 @@ fn lists(contents: &Contents) -> Vec<Vec<Fragment>> {
         .collect()
 }
 
+/// Specks without a fragment, however many, leave a voxel the axis of the fragments in it, and give one without fragments their
+/// own. Marked by fragments alone that one is empty.
+#[test]
+fn triangles_have_a_say_on_axes_where_there_are_no_fragments() {
+    const GRID: u32 = 16;
+    const SPECKS: usize = 100;
+    let bench = Bench::new();
+    // They face y most, and x nearly as much.
+    let speck = |at: [f32; 3]| -> Triangle {
+        let [x, y, z] = at;
+        [at, [x - 0.8e-4, y + 0.6e-4, z], [x, y, z + 1.0e-4]]
+    };
+    let specks_around = |x: f32, index: usize| speck([x, 0.05 + 4.0e-4 * index as f32, 0.05]);
+    let corner = |x: f32, y: f32, z: f32| [x, y, z];
+    let wall = |x: f32| {
+        let [a, b] = [corner(x, -1.0, -1.0), corner(x, 1.0, 1.0)];
+        [[a, corner(x, 1.0, -1.0), b], [a, b, corner(x, -1.0, 1.0)]]
+    };
+    let (with_wall, alone) = (0.3, -0.3);
+    let walls: Vec<Triangle> = [-1.0, with_wall, 1.0].into_iter().flat_map(wall).collect();
+    let mut triangles = walls.clone();
+    for x in [with_wall, alone] {
+        triangles.extend((0..SPECKS).map(|index| specks_around(x, index)));
+    }
+    for marking in [Marking::Triangles, Marking::Fragments] {
+        let config =
+            Config { axes: Axes::All, voxels: Some(marking), grid: Some(GRID), ..Config::robust(128) };
+        let structure = built(&bench, config, &triangles);
+        let header = structure.header().expect("the header is readable");
+        let of_walls = built(&bench, config, &walls).header().expect("the header is readable").fragments;
+        assert_eq!(header.fragments, of_walls, "specks cover no centre of a cell");
+        let contents = contents(&bench, &structure);
+        let bits_at = |x: f32| {
+            let at = [x, 0.05, 0.05];
+            let [x, y, z] = std::array::from_fn(|k| ((at[k] - header.lower[k]) / header.voxel) as usize);
+            let index = (z * GRID as usize + y) * GRID as usize + x;
+            contents.voxels[index / 8] >> (4 * (index % 8)) & 15
+        };
+        assert_eq!(bits_at(with_wall), VOXEL_OCCUPIED | 1, "{marking:?}");
+        let expected = if marking == Marking::Triangles { VOXEL_OCCUPIED | 2 } else { 0 };
+        assert_eq!(bits_at(alone), expected, "{marking:?}");
+    }
+}
+
 /// Sums of whole numbers do not depend on the order of threads: axes, lists and fragments are the same in every build, and
 /// of every storage.
 #[test]
@@ -209,7 +253,8 @@ fn builds_repeat_to_the_bit() {
     let mut triangles = sphere([0.3, 0.1, -0.2], 1.0, 16);
     triangles.extend(triangles.clone());
     triangles.extend(tilted(&closed_box([-0.5; 3], [0.5; 3])));
-    for config in [Config::robust(64), hu(64), selective(64)] {
+    let marked_before = Config { voxels: Some(Marking::Triangles), ..hu(64) };
+    for config in [Config::robust(64), hu(64), marked_before, selective(64)] {
         let sorted = Config { storage: Storage::Contiguous, ..config };
         let first = contents(&bench, &built(&bench, sorted, &triangles));
         let expected = lists(&first);

@@ -342,8 +342,8 @@ mod tests {
         }
     }
 
-    /// Table 2 of the paper with four buckets: bytes a cell, and bytes a fragment beside the payload, decoupled and inline. The
-    /// table is for decoupled lists; inline only the S-buffer saves a word, the payload's index.
+    /// Bytes a cell with four buckets, and bytes a fragment beside the payload, decoupled as in table 2 of the paper, and inline,
+    /// where only the S-buffer saves a word: the payload's index.
     #[test]
     fn storages_have_the_papers_bytes() {
         let table = [

@@ -122,7 +122,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub axes: Option<Axes>,
-    /// What makes a voxel occupied; triangles but with --axes all, where fragments do if not given
+    /// What makes a voxel occupied; by default fragments with --axes all, else triangles
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub voxels: Option<Marking>,

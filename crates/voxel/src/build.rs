@@ -103,7 +103,7 @@ impl Build {
                 target.compute_pass(recorder, "voxel/build_2_axes", axes, words.div_ceil(group), 0, shaders);
             }
         };
-        // Where all views keep all, the normals come with the fragments, and the axes after both.
+        // Where all views keep all, normals come with the fragments, and the axes after these.
         if config.axes == Axes::Voxel {
             axes(recorder);
         }

@@ -17,7 +17,7 @@ pub enum Axes {
 /// What makes a voxel one in which something lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
-    /// The fragments in it alone, in the pass that stores them. What a triangle reaches into between the centres of cells is taken for
+    /// The fragments in it alone, in the pass that counts or stores them. What a triangle reaches into between the centres of cells is taken for
     /// empty. Needs [`Axes::All`].
     Fragments,
     /// The triangles that reach into it, in a pass before: no voxel with a part of one is taken for empty.
@@ -243,7 +243,7 @@ impl Config {
             return Err(AdsError::Option {
                 option: "voxels",
                 value: "fragments".to_owned(),
-                expected: "where views keep a part of the fragments voxels come first: with other axes than `all` take triangles",
+                expected: "fragments mark voxels where all views keep all of them: take triangles, or the axes `all`",
             });
         }
         let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;

@@ -27,7 +27,7 @@ pub fn scene(twins: bool) -> Vec<Triangle> {
     triangles
 }
 
-/// Rays of every sort: along axes, with limited ranges, from the views' centre, and at random.
+/// Rays of every sort.
 pub fn rays(count: usize) -> Vec<Ray> {
     let mut random = Random::new(11);
     (0..count)
