@@ -1,5 +1,5 @@
-// What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its normal or that axis to them. The
-// same for every builder.
+// What: marks the voxels of a column that a triangle reaches into, with the axis it faces most, or adds its normal or a vote
+// for that axis to them. The same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
 // Source: Frid Kastrati and Goswami section 3.2, voxel generation. Sums of whole numbers replace the moving average
 // under a spin lock.
