@@ -1,18 +1,19 @@
 //! Builds in pools of every edge capacity.
 
-use rasray_ads::{Check, Ray, Sizes, Structure};
+use rasray_ads::{Check, Hit, Ray, Sizes, Structure};
 
 use crate::harness::Bench;
 
-/// Builds a structure with the binning builder in room for none, one, half, all but one and all of the triangles with many
-/// cells, `sizes` being its pools with room for so many. What has no room is counted and grown, and nothing is answered until it
-/// has. Returns how many such triangles there are.
+/// Builds a structure in room for none, one, half, all but one and all of what a pool of its scratch counts, `sizes` being its
+/// pools with room for so many. What has no room is counted and grown, and nothing is answered until it has. Returns how many
+/// there are, which is more than ten.
 ///
 /// # Panics
 /// If the device fails, or any of that does not hold.
-pub fn check_capacities_of_pairs(
+pub fn check_capacities_of(
     bench: &Bench,
     structure: &mut dyn Structure,
+    pool: &str,
     sizes: impl Fn(u64) -> Sizes,
     rays: &[Ray],
 ) -> u64 {
@@ -27,14 +28,15 @@ pub fn check_capacities_of_pairs(
         (status, grown, hits)
     };
     let (ample, grown, expected) = build(1 << 16);
-    let pairs = ample.demand("pairs").expect("the pool has a status");
-    assert!(ample.complete && grown.is_none() && pairs > 10, "{ample:?}");
-    for room in [0, 1, pairs / 2, pairs - 1] {
+    let demand = ample.demand(pool).expect("the pool has a status");
+    assert!(ample.complete && grown.is_none() && demand > 10, "{ample:?}");
+    assert!(expected.iter().any(Hit::is_hit), "something is hit");
+    for room in [0, 1, demand / 2, demand - 1] {
         let (status, grown, _) = build(room);
-        assert_eq!((status.complete, status.demand("pairs")), (false, Some(pairs)), "room for {room}");
-        assert_eq!(grown, Some(sizes(pairs).elements("scratch")), "room for {room}");
+        assert_eq!((status.complete, status.demand(pool)), (false, Some(demand)), "room for {room}");
+        assert_eq!(grown, Some(sizes(demand).elements("scratch")), "room for {room}");
     }
-    let (status, _, hits) = build(pairs);
+    let (status, _, hits) = build(demand);
     assert!(status.complete && hits == expected);
-    pairs
+    demand
 }

@@ -5,7 +5,7 @@ use rasray_abuffer::{
 };
 use rasray_ads::{CameraView, Ray, Structure, Viewpoint};
 use rasray_gpu::Timing;
-use rasray_tests::capacity::check_capacities_of_pairs;
+use rasray_tests::capacity::check_capacities_of;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, all_sizes};
@@ -115,6 +115,6 @@ fn every_edge_capacity_of_pairs() {
         ..Demand::default()
     };
     let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    let pairs = check_capacities_of_pairs(&bench, &mut structure, sizes, &rays);
+    let pairs = check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays);
     assert_eq!(sizes(pairs).elements("scratch"), pairs);
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use rasray_abuffer::{ABuffer, Builder, Config, Coverage, March, Storage, Views, cell_count, well_formed};
-use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind};
+use rasray_ads::{BruteForce, CameraView, Hit, Ray, Structure, StructureKind, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
@@ -207,7 +207,7 @@ fn fringes_of_what_is_lost_are_searched_to_their_end() {
     }
 }
 
-/// Neither storage nor leaps nor pauses change a hit from that of brute force, and small budgets end within long fringes.
+/// Neither storage nor views nor leaps nor pauses change a hit from that of brute force, and small budgets end within long fringes.
 #[test]
 fn fringes_are_searched_to_their_end() {
     let bench = Bench::new();
@@ -233,11 +233,24 @@ fn fringes_are_searched_to_their_end() {
     configs.push(Config { march: March::Pyramid, ..conservative });
     configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..conservative });
     configs.push(Config { sort: false, skip: false, ..conservative });
+    let with_camera = Config { views: Views::CubeCamera, camera_resolution: 21, ..conservative };
+    configs.push(with_camera);
+    configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..with_camera });
+    configs.push(Config { resolution: 13, ..with_camera });
     configs.push(Config { work_budget: Some(3), ..conservative });
     configs.push(Config { work_budget: Some(17), march: March::Pyramid, ..conservative });
+    let camera = CameraView {
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 0.8, 0.6],
+        forward: [0.0, -0.6, 0.8],
+        half_width: 0.7,
+        half_height: 0.5,
+    };
     for config in configs {
         let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
-        let found: Vec<_> = bench.build_and_trace(&mut structure, EYE, &rays).iter().map(bits).collect();
+        let viewpoint = Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(camera) };
+        let found: Vec<_> =
+            bench.build_and_trace(&mut structure, viewpoint, &rays).iter().map(bits).collect();
         let different = (0..found.len()).filter(|&ray| found[ray] != expected[ray]).count();
         assert_eq!(different, 0, "{config:?}");
     }

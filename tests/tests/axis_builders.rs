@@ -3,7 +3,7 @@
 use rasray_ads::{Builder, Ray, Structure};
 use rasray_gpu::Timing;
 use rasray_ldc::LayeredDepthCube;
-use rasray_tests::capacity::check_capacities_of_pairs;
+use rasray_tests::capacity::check_capacities_of;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::all_sizes;
@@ -133,7 +133,7 @@ fn every_edge_capacity_of_pairs_of_layered_depth_cubes() {
         .expect("the options are valid");
     let demand = Demand { fragments: 1 << 16, fringe: 1 << 16, layers: 1 << 8, ..Demand::default() };
     let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    check_capacities_of_pairs(&bench, &mut structure, sizes, &rays());
+    check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays());
 }
 
 #[test]
@@ -146,5 +146,5 @@ fn every_edge_capacity_of_pairs_of_voxels() {
         .expect("the options are valid");
     let demand = Demand { entries: 1 << 16, ..Demand::default() };
     let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    check_capacities_of_pairs(&bench, &mut structure, sizes, &rays());
+    check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays());
 }

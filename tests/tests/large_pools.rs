@@ -79,6 +79,12 @@ fn every_system_reaches_large_pools_by_address() {
     let mut tree = Bvh::new(bench.device(), rasray_bvh::Config::new(Builder::Sah), &geometry, None)
         .expect("the options are valid");
     let truth = bench.build_and_trace(&mut tree, eye, &rays);
+    // Trees grow with triangles alone, and brute force has no pools.
+    for system in
+        SYSTEMS.iter().map(|system| system.name).filter(|name| !["bvh", "brute-force"].contains(name))
+    {
+        assert!(LARGE.iter().any(|(large, _)| *large == system), "{system} has no large pool here");
+    }
     let quick = LARGE.iter().filter(|(system, _)| *system == "hu").copied();
     let tried: Vec<_> = if rasray_tests::tier::is_full() { LARGE.to_vec() } else { quick.collect() };
     if tried.len() < LARGE.len() {

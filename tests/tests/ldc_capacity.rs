@@ -4,8 +4,8 @@
 use rasray_ads::{BuildStatus, Check, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_ldc::{
-    Addressing, Config, Contents, Coverage, Demand, Depth, Fault, LayeredDepthCube, Occupancy, Payload,
-    formula_bytes, plan, well_formed,
+    Addressing, Config, Contents, Coverage, Demand, Depth, Fault, LayeredDepthCube, Making, Occupancy,
+    Payload, formula_bytes, plan, well_formed,
 };
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::hard_cases::{self, Scale};
@@ -36,7 +36,7 @@ fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> 
 
 /// Room for so many fragments and triangles beside centres.
 fn room(fragments: u64, fringe: u64) -> Demand {
-    Demand { fragments, fringe, ..Demand::default() }
+    Demand { fragments, fringe, layers: 64, ..Demand::default() }
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {
@@ -124,6 +124,11 @@ fn every_edge_capacity_of_robust_cubes() {
 fn every_edge_capacity_of_published_cubes() {
     // Attributes need a scene; they come when all lists are made.
     every_edge_capacity(Config { payload: Payload::Index, ..Config::published(32) });
+}
+
+#[test]
+fn every_edge_capacity_of_peeled_cubes() {
+    every_edge_capacity(Config { making: Making::Peel, ..Config::robust(32) });
 }
 
 #[test]

@@ -109,7 +109,7 @@ pub struct StructureOptions {
     #[arg(long, conflicts_with = "inline")]
     #[serde(skip)]
     pub decoupled: bool,
-    /// With --storage paged: fragments of a page, 1 to 8
+    /// With --storage paged: fragments of a page, 1 to 8; of mmrt 1, 2, 4 or 8
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub page: Option<u32>,

@@ -129,9 +129,9 @@ pub struct FormulaBytes {
     pub blocks: u64,
     /// Per place: triangle 4, or colour and normal 8; and depth 2 or 4.
     pub fragments: u64,
-    /// Per triangle beside a centre: triangle and link 8.
+    /// Per triangle beside a centre: triangle, link and depths 12.
     pub fringe: u64,
-    /// With ids: 4 per fragment, or slot of a page.
+    /// With ids: 4 per fragment.
     pub ids: u64,
     /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where that is more 4 per
     /// triangle with many cells where they are binned.
