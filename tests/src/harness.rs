@@ -3,7 +3,8 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
-    BuildStatus, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, Structure, TraceMode, Viewpoint,
+    BuildStatus, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, RayQueue, Structure, Surface,
+    TraceMode, Viewpoint,
 };
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
@@ -122,6 +123,28 @@ impl Bench {
         let tracer =
             BatchTracer::new(&self.device, rays.len().clamp(1, 65_536) as u32).expect("a queue fits");
         tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish")
+    }
+
+    /// What rays meet, and what is shaded there.
+    ///
+    /// # Panics
+    /// If the device fails, or the structure was made without a scene.
+    pub fn surfaces(&self, structure: &dyn Structure, rays: &[Ray]) -> Vec<(Hit, Surface)> {
+        let device = self.device();
+        let count = rays.len() as u32;
+        let queue = RayQueue::new(device, "surfaces", count, true).expect("a queue fits");
+        device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
+        device.upload_slice(queue.rays(), 0, rays).expect("the device works");
+        let submitted = device.submit(|recorder| {
+            structure.record_trace(recorder, &queue, count, TraceMode::Closest, structure.rounds());
+            structure.record_surfaces(recorder, &queue, count)
+        });
+        submitted.expect("the device works").value.expect("the scene has surfaces");
+        let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
+        let surfaces =
+            device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
+        assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+        hits.into_iter().zip(surfaces).collect()
     }
 
     /// Whether each ray meets anything.

@@ -9,6 +9,8 @@ pub mod pictures;
 pub mod random;
 pub mod shapes;
 pub mod tier;
+pub mod views;
 pub mod visits;
+pub mod voxels;
 
 pub use rasray_hard_cases as hard_cases;

@@ -1,11 +1,12 @@
 //! Small pictures of built-in scenes, through whatever structure.
 
-use rasray_ads::Structure;
+use rasray_ads::{Ray, Structure};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{Film, Integrator, waves};
 use rasray_scene::builtin::builtin;
 
 use crate::harness::Bench;
+use crate::random::Random;
 
 /// A built-in scene on the device, seen by its first camera in `size` x `size` pixels.
 ///
@@ -18,6 +19,18 @@ pub fn stage(bench: &Bench, name: &str, size: u32) -> GpuScene {
     let tables = SceneTables::new(&scene, origin, &Parts::ALL).expect("the scene is whole");
     let view = View { camera, width: size, height: size, seed: 1 };
     GpuScene::upload(bench.device(), &tables, &view).expect("the scene fits")
+}
+
+/// Rays from anywhere well within a scene to anywhere.
+pub fn rays_inside(scene: &GpuScene, count: usize) -> Vec<Ray> {
+    let [lower, upper] = scene.geometry().bounds();
+    let mut random = Random::new(0x7061_796C);
+    let mut inside = |axis: usize| {
+        let share = random.between(0.2, 0.8);
+        lower[axis] + share * (upper[axis] - lower[axis])
+    };
+    let origins: Vec<[f32; 3]> = (0..count).map(|_| [inside(0), inside(1), inside(2)]).collect();
+    origins.into_iter().map(|origin| Ray::new(origin, random.direction())).collect()
 }
 
 /// The pixels of `samples` paths each.

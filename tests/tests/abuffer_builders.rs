@@ -3,12 +3,13 @@
 use rasray_abuffer::{
     ABuffer, Accept, Addressing, Builder, Config, Contents, Coverage, Demand, Storage, Views, plan,
 };
-use rasray_ads::{CameraView, Ray, Structure, Viewpoint};
+use rasray_ads::{Ray, Structure, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::capacity::check_capacities_of;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, all_sizes};
+use rasray_tests::views::LEANING;
 use rasray_tracer::build_until_complete;
 
 /// Triangles of all sizes, with some that span the faces of a cube and pass the eye closely.
@@ -27,14 +28,7 @@ fn rays(count: usize) -> Vec<Ray> {
 }
 
 fn viewpoint(config: &Config, eye: [f32; 3]) -> Viewpoint {
-    let camera = CameraView {
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 0.8, 0.6],
-        forward: [0.0, -0.6, 0.8],
-        half_width: 0.7,
-        half_height: 0.5,
-    };
-    Viewpoint { eye, camera: config.views.has_camera().then_some(camera) }
+    Viewpoint { eye, camera: config.views.has_camera().then_some(LEANING) }
 }
 
 struct Built {

@@ -5,52 +5,16 @@ use rasray_abuffer::{ABuffer, Accept, Addressing, Config, Coverage, March, Stora
 use rasray_ads::{Counters, Hit, Ray, Structure, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
+use rasray_tests::invariance::{EYE, rays, scene};
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::Triangle;
 use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 /// Enough for the smallest budget below: a ray has at most a few thousand work units here.
 const ROUNDS: u32 = 700;
 const RESOLUTION: u32 = 24;
-const EYE: [f32; 3] = [0.1, -0.2, 0.3];
-
-/// Everything the rasterizer sees: scattered layers, a sphere, and a room around them.
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 6));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    triangles
-}
-
-/// The same with triangles that coincide.
-fn scene_with_twins() -> Vec<Triangle> {
-    let mut triangles = scene();
-    triangles.extend(triangles.clone().into_iter().step_by(3));
-    triangles
-}
-
-fn rays(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(11);
-    (0..count)
-        .map(|index| {
-            let origin = random.point(-6.0, 6.0);
-            match index % 8 {
-                // Along an axis, in the image planes, and with a limited range.
-                0 => {
-                    let mut direction = [0.0; 3];
-                    direction[index / 8 % 3] = if index / 24 % 2 == 0 { 1.0 } else { -1.0 };
-                    Ray::new(origin, direction)
-                }
-                1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
-                2 => Ray::new(EYE, random.direction()),
-                _ => Ray::new(origin, random.direction()),
-            }
-        })
-        .collect()
-}
 
 /// The repaired structure.
 fn robust() -> Config {
@@ -185,7 +149,7 @@ fn first_difference<T: PartialEq>(left: &[T], right: &[T]) -> Option<usize> {
 
 fn no_change_changes_a_hit(base: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene_with_twins(), rays(600));
+    let (triangles, rays) = (scene(true), rays(600));
     let expected = answers(&bench, base, &triangles, &rays);
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
     assert!(hit > 150 && hit < 600, "{hit} of 600 rays hit: too few or too many to tell anything");
@@ -220,7 +184,7 @@ fn robust_hits_do_not_depend_on_speed_options() {
 #[test]
 fn sloped_hits_do_not_depend_on_the_storage() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene_with_twins(), rays(600));
+    let (triangles, rays) = (scene(true), rays(600));
     let base = Config { accept: Accept::Slope, march: March::Dda, ..robust() };
     let expected = answers(&bench, base, &triangles, &rays);
     let mut changes: Vec<Config> = Storage::ALL.map(|storage| Config { storage, ..base }).into();
@@ -236,7 +200,7 @@ fn sloped_hits_do_not_depend_on_the_storage() {
 #[test]
 fn a_dda_is_a_march_of_enough_samples() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(600));
+    let (triangles, rays) = (scene(false), rays(600));
     let march = |march, samples| Config { march, samples, ..sampled() };
     let dda = answers(&bench, march(March::Dda, 1), &triangles, &rays);
     let enough = answers(&bench, march(March::Samples, 65_535), &triangles, &rays);
@@ -259,7 +223,7 @@ fn a_dda_is_a_march_of_enough_samples() {
 #[test]
 fn leaps_change_no_hit() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene_with_twins(), rays(if is_full() { 40_000 } else { 600 }));
+    let (triangles, rays) = (scene(true), rays(if is_full() { 40_000 } else { 600 }));
     let storage = |storage, resolution| Config { storage, resolution, ..robust() };
     let slope = Config { accept: Accept::Slope, ..storage(Storage::Paged, 128) };
     let mut configs = vec![robust(), Config { work_budget: Some(7), ..storage(Storage::Sb, 37) }];
@@ -283,7 +247,7 @@ fn leaps_change_no_hit() {
 #[test]
 fn leaps_follow_the_depths_of_blocks() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(600));
+    let (triangles, rays) = (scene(false), rays(600));
     let base = Config { resolution: 64, counters: Counters::Sums, ..robust() };
     let traced = |structure: &ABuffer| trace_in_rounds(&bench, structure, &rays, TraceMode::Closest, 2);
     let built = |march| {
@@ -313,7 +277,7 @@ fn sampled_hits_do_not_depend_on_speed_options() {
 
 fn order_of_triangles_does_not_matter(base: Config) {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(600));
+    let (triangles, rays) = (scene(false), rays(600));
     let expected = answers(&bench, base, &triangles, &rays);
     let mut random = Random::new(5);
     for _ in 0..2 {
@@ -351,7 +315,7 @@ fn sampled_hits_do_not_depend_on_the_order_of_triangles() {
 #[test]
 fn options_that_may_change_hits_do() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), rays(600));
+    let (triangles, rays) = (scene(false), rays(600));
     let expected = answers(&bench, robust(), &triangles, &rays);
     let changes: [(&str, Change); 4] = [
         ("resolution", |config| Config { resolution: 12, ..config }),
@@ -368,7 +332,7 @@ fn options_that_may_change_hits_do() {
 #[test]
 fn a_budget_without_progress_is_refused() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&scene(false));
     for budget in [0, 1] {
         let config = Config { work_budget: Some(budget), ..robust() };
         let error = ABuffer::new(bench.device(), config, &geometry, None).map(drop).expect_err("no progress");

@@ -5,24 +5,16 @@ use std::collections::HashSet;
 use rasray_abuffer::{
     ABuffer, Accept, Addressing, Builder, Config, Contents, Coverage, March, Storage, Views, well_formed,
 };
-use rasray_ads::{CameraView, Geometry, Hit, Ray, SceneBinding, Structure, Viewpoint};
+use rasray_ads::{Geometry, Hit, Ray, SceneBinding, Structure, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::pictures::stage;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, all_sizes};
+use rasray_tests::views::ALONG_Z;
 use rasray_tracer::build_until_complete;
 
 const EYE: [f32; 3] = [0.3, -0.7, 0.2];
-
-/// A right angle of view along z: the rays through its cells' centres are easily named.
-const ALONG_Z: CameraView = CameraView {
-    right: [1.0, 0.0, 0.0],
-    up: [0.0, 1.0, 0.0],
-    forward: [0.0, 0.0, 1.0],
-    half_width: 1.0,
-    half_height: 1.0,
-};
 
 fn viewpoint(config: &Config) -> Viewpoint {
     Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(ALONG_Z) }

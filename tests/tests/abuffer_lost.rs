@@ -3,11 +3,12 @@
 use std::collections::HashSet;
 
 use rasray_abuffer::{ABuffer, Builder, Config, Coverage, March, Storage, Views, cell_count, well_formed};
-use rasray_ads::{BruteForce, CameraView, Hit, Ray, Structure, StructureKind, Viewpoint};
+use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::views::LEANING;
 use rasray_tracer::build_until_complete;
 
 const EYE: [f32; 3] = [0.1, -0.2, 0.3];
@@ -239,16 +240,9 @@ fn fringes_are_searched_to_their_end() {
     configs.push(Config { resolution: 13, ..with_camera });
     configs.push(Config { work_budget: Some(3), ..conservative });
     configs.push(Config { work_budget: Some(17), march: March::Pyramid, ..conservative });
-    let camera = CameraView {
-        right: [1.0, 0.0, 0.0],
-        up: [0.0, 0.8, 0.6],
-        forward: [0.0, -0.6, 0.8],
-        half_width: 0.7,
-        half_height: 0.5,
-    };
     for config in configs {
         let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
-        let viewpoint = Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(camera) };
+        let viewpoint = Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(LEANING) };
         let found: Vec<_> =
             bench.build_and_trace(&mut structure, viewpoint, &rays).iter().map(bits).collect();
         let different = (0..found.len()).filter(|&ray| found[ray] != expected[ray]).count();

@@ -4,43 +4,17 @@ use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Storage, Views, cell
 use rasray_ads::{CameraView, Hit, PRIMITIVE_NONE, Ray, TraceMode, Viewpoint};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
-use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
+use rasray_tests::invariance::scene;
 use rasray_tests::random::Random;
-use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::shapes::{Triangle, sphere};
+use rasray_tests::views::{ALONG_Z, TURNED};
 use rasray_tracer::{TracerError, build_until_complete};
 
 const EYE: [f32; 3] = [0.1, -0.2, 0.3];
 
-/// A right angle of view along z: exactly the cube's face towards +z.
-const ALONG_Z: CameraView = CameraView {
-    right: [1.0, 0.0, 0.0],
-    up: [0.0, 1.0, 0.0],
-    forward: [0.0, 0.0, 1.0],
-    half_width: 1.0,
-    half_height: 1.0,
-};
-
-/// Turned about all axes, and twice as wide as high.
-fn turned() -> CameraView {
-    CameraView {
-        right: [-1.0 / 3.0, -2.0 / 3.0, 2.0 / 3.0],
-        up: [14.0 / 15.0, -1.0 / 3.0, 2.0 / 15.0],
-        forward: [2.0 / 15.0, 2.0 / 3.0, 11.0 / 15.0],
-        half_width: 0.9,
-        half_height: 0.45,
-    }
-}
-
 fn at_eye(camera: CameraView) -> Viewpoint {
     Viewpoint { eye: EYE, camera: Some(camera) }
-}
-
-fn scene() -> Vec<Triangle> {
-    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
-    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 6));
-    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
-    triangles
 }
 
 /// Rays between two points that the camera sees: all of each is seen. Depths are metres along the view.
@@ -83,7 +57,7 @@ fn keys(hits: &[Hit]) -> Vec<[u32; 4]> {
 #[test]
 fn a_camera_along_an_axis_is_a_face() {
     let bench = Bench::new();
-    let (triangles, rays) = (scene(), seen_rays(ALONG_Z, 600));
+    let (triangles, rays) = (scene(false), seen_rays(ALONG_Z, 600));
     let cube = Config::robust(24);
     let expected = bench.trace(&built(&bench, cube, &triangles, EYE.into()), &rays).hits;
     let hit = expected.iter().filter(|hit| hit.is_hit()).count();
@@ -105,8 +79,8 @@ fn a_camera_along_an_axis_is_a_face() {
 #[test]
 fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     let bench = Bench::new();
-    let triangles = scene();
-    let camera = turned();
+    let triangles = scene(false);
+    let camera = TURNED;
     let config = Config { views: Views::Camera, camera_resolution: 40, ..Config::robust(8) };
     let structure = built(&bench, config, &triangles, at_eye(camera));
     let contents = contents(&bench, &structure);
@@ -134,7 +108,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
 fn a_turned_camera_keeps_the_law_of_fragments() {
     let bench = Bench::new();
     let triangles = sphere([0.0; 3], 6.0, 10);
-    let camera = turned();
+    let camera = TURNED;
     let rays = seen_rays(camera, 2000).into_iter().map(|ray| Ray { t_max: f32::INFINITY, ..ray });
     // What a ray meets inside a closed sphere may lie outside of what is seen.
     let oracle = oracle_of(&triangles);
@@ -170,7 +144,7 @@ fn a_turned_camera_keeps_the_law_of_fragments() {
 #[test]
 fn a_view_of_a_camera_needs_one() {
     let bench = Bench::new();
-    let geometry = bench.geometry(&scene());
+    let geometry = bench.geometry(&scene(false));
     for views in [Views::CubeCamera, Views::Camera] {
         let config = Config { views, ..Config::robust(8) };
         let mut structure =

@@ -92,7 +92,7 @@ fn every_edge_capacity_of(config: Config) {
     let expected = trace(&bench, &structure, &rays);
 
     let full = [0, 1, entries / 2, entries - 1, entries].map(|capacity| (capacity, near));
-    let near_full = [0, 1, near.saturating_sub(1)].map(|capacity| (entries, capacity.min(near)));
+    let near_full = [0, 1, near / 2, near.saturating_sub(1)].map(|capacity| (entries, capacity.min(near)));
     for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
         let sizes = plan(&config, &self::room(room, near_room, &triangles)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");

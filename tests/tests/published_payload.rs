@@ -1,14 +1,13 @@
 //! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays meet
 //! fragments that do not say which triangle they are of.
 
-use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray, RayQueue, Structure, Surface, TraceMode};
+use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Structure, Surface};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::GpuScene;
 use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc};
 use rasray_systems::Spec;
 use rasray_tests::harness::Bench;
-use rasray_tests::pictures::{rendered, stage};
-use rasray_tests::random::Random;
+use rasray_tests::pictures::{rays_inside, rendered, stage};
 use rasray_tracer::build_until_complete;
 
 const SIZE: u32 = 32;
@@ -91,35 +90,6 @@ fn secondary_rays_of_parities_come_near_the_truth() {
     assert!(error_of("mmrt", "attributes") > 0.3);
 }
 
-/// What rays meet, and what is shaded there.
-fn surfaces(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<(Hit, Surface)> {
-    let device = bench.device();
-    let count = rays.len() as u32;
-    let queue = RayQueue::new(device, "surfaces", count, true).expect("a queue fits");
-    device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
-    device.upload_slice(queue.rays(), 0, rays).expect("the device works");
-    let submitted = device.submit(|recorder| {
-        structure.record_trace(recorder, &queue, count, TraceMode::Closest, structure.rounds());
-        structure.record_surfaces(recorder, &queue, count)
-    });
-    submitted.expect("the device works").value.expect("the scene has surfaces");
-    let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
-    let surfaces = device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
-    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
-    hits.into_iter().zip(surfaces).collect()
-}
-
-fn rays(scene: &GpuScene, count: usize) -> Vec<Ray> {
-    let [lower, upper] = scene.geometry().bounds();
-    let mut random = Random::new(0x7061_796C);
-    let mut inside = |axis: usize| {
-        let share = random.between(0.2, 0.8);
-        lower[axis] + share * (upper[axis] - lower[axis])
-    };
-    let origins: Vec<[f32; 3]> = (0..count).map(|_| [inside(0), inside(1), inside(2)]).collect();
-    origins.into_iter().map(|origin| Ray::new(origin, random.direction())).collect()
-}
-
 fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
@@ -146,7 +116,7 @@ fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();
     for name in ["cornell", "spheres:10k", "atrium:detail=0.25"] {
         let scene = stage(&bench, name, SIZE);
-        let rays = rays(&scene, 2000);
+        let rays = rays_inside(&scene, 2000);
         let mut expected: Option<(Vec<_>, f32)> = None;
         for (payload, storage, inline, builder, coverage) in [
             ("attributes", "dllb", "off", "raster", "exact"),
@@ -165,7 +135,7 @@ fn normals_alone_serve_ambient_occlusion() {
                 ("coverage", coverage),
             ];
             let mut structure = made(&bench, &scene, "mmrt", &options);
-            let found = surfaces(&bench, structure.as_ref(), &rays);
+            let found = bench.surfaces(structure.as_ref(), &rays);
             let stored = |surface: &Surface| surface.valid != 0 && surface.primitive == PRIMITIVE_UNKNOWN;
             let met = found.iter().filter(|(_, surface)| stored(surface)).count();
             assert!(met > rays.len() / 8, "{name}: {met} fragments");
@@ -200,7 +170,7 @@ fn both_builders_store_the_same_attributes() {
     let bench = Bench::new();
     for name in ["cornell", "atrium:detail=0.25"] {
         let scene = stage(&bench, name, SIZE);
-        let rays = rays(&scene, 2000);
+        let rays = rays_inside(&scene, 2000);
         for (system, payload) in
             SYSTEMS.map(|system| (system, "attributes")).into_iter().chain([("mmrt", "normal")])
         {
@@ -212,7 +182,7 @@ fn both_builders_store_the_same_attributes() {
                     let met = hit.is_hit().then_some((surface.base_color, surface.normal));
                     (hit.t.to_bits(), hit.primitive, met)
                 };
-                let found = surfaces(&bench, structure.as_ref(), &rays).into_iter().map(key);
+                let found = bench.surfaces(structure.as_ref(), &rays).into_iter().map(key);
                 (found.collect::<Vec<_>>(), structure.report().expect("the header is readable").stored)
             };
             let [(drawn, stored), computed] = ["raster", "binning"].map(found);
@@ -233,11 +203,11 @@ fn stored_surfaces_are_those_of_the_triangles() {
         [("cornell", "64", 1.0e-3), ("furnace", "128", 0.04), ("spheres:10k", "128", 0.4)]
     {
         let scene = stage(&bench, name, SIZE);
-        let rays = rays(&scene, 4000);
+        let rays = rays_inside(&scene, 4000);
         for system in SYSTEMS {
             let found = |payload, addressing| {
                 let options = [("resolution", resolution), ("payload", payload), ("addressing", addressing)];
-                surfaces(&bench, made(&bench, &scene, system, &options).as_ref(), &rays)
+                bench.surfaces(made(&bench, &scene, system, &options).as_ref(), &rays)
             };
             let (named, stored) = (found("index", "descriptor"), found("attributes", "descriptor"));
             if name == "cornell" {
@@ -255,7 +225,7 @@ fn stored_surfaces_are_those_of_the_triangles() {
                 };
                 for (option, value) in kept {
                     let options = [("resolution", resolution), (option, value)];
-                    let kept = surfaces(&bench, made(&bench, &scene, system, &options).as_ref(), &rays);
+                    let kept = bench.surfaces(made(&bench, &scene, system, &options).as_ref(), &rays);
                     assert!(stored.iter().map(key).eq(kept.iter().map(key)), "{system}: {option} {value}");
                 }
             }
@@ -304,13 +274,13 @@ fn stored_surfaces_are_those_of_the_triangles() {
 fn ids_name_triangles_and_change_nothing_else() {
     let bench = Bench::new();
     let scene = stage(&bench, "cornell", SIZE);
-    let rays = rays(&scene, 3000);
+    let rays = rays_inside(&scene, 3000);
     let robust = Spec::new("bvh", "robust", []).expect("the options are valid");
     let mut tree =
         robust.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("pipelines are made");
     build_until_complete(bench.device(), tree.as_mut(), scene.eye(), Timing::None)
         .expect("the build completes");
-    let truth = surfaces(&bench, tree.as_ref(), &rays);
+    let truth = bench.surfaces(tree.as_ref(), &rays);
     let cases: &[(&str, &[(&str, &str)])] = &[
         ("mmrt", &[]),
         ("mmrt", &[("storage", "ll"), ("inline", "on")]),
@@ -335,7 +305,7 @@ fn ids_name_triangles_and_change_nothing_else() {
             let structure = made(&bench, &scene, system, &given);
             let report = structure.report().expect("the header is readable");
             let used = report.bytes() - report.slack();
-            (surfaces(&bench, structure.as_ref(), &rays), used, report.diagnostic_bytes)
+            (bench.surfaces(structure.as_ref(), &rays), used, report.diagnostic_bytes)
         };
         let (without, used, none) = of("off");
         let (with, more, diagnostic) = of("on");

@@ -7,8 +7,9 @@ use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::voxels::{hu, made, selective};
 use rasray_voxel::{
-    Accept, Addressing, Axes, Config, Contents, Coverage, Demand, Fault, March, Payload, Storage, Voxels,
+    Accept, Addressing, Axes, Config, Contents, Coverage, Demand, Fault, March, Storage, Voxels,
     formula_bytes, plan, well_formed,
 };
 
@@ -24,24 +25,10 @@ fn rays() -> Vec<Ray> {
     (0..400).map(|_| Ray::new(random.point(-5.0, 5.0), random.direction())).collect()
 }
 
-/// The published rules of both papers with triangles in the fragments: attributes need a scene.
-fn hu(resolution: u32) -> Config {
-    Config { payload: Payload::Index, ..Config::published_hu(resolution) }
-}
-
-fn selective(resolution: u32) -> Config {
-    Config { payload: Payload::Index, ..Config::published_selective(resolution) }
-}
-
 fn trace(bench: &Bench, structure: &Voxels, rays: &[Ray]) -> Vec<Hit> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
     hits
-}
-
-fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
-    let geometry = bench.geometry(triangles);
-    Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
 }
 
 /// Room for so many fragments.

@@ -1,24 +1,11 @@
 //! Which voxels are said to hold something, and along which axes they are searched.
 
-use rasray_gpu::Timing;
 use rasray_shaders_glsl::constants::voxel::VOXEL_OCCUPIED;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
-use rasray_tracer::build_until_complete;
-use rasray_voxel::{Axes, Config, Contents, Marking, Voxels};
-
-fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
-    let geometry = bench.geometry(triangles);
-    let mut structure = Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
-        .expect("the build completes");
-    structure
-}
-
-fn contents(bench: &Bench, structure: &Voxels) -> Contents {
-    structure.download(bench.device()).expect("the device works")
-}
+use rasray_tests::voxels::{built, contents};
+use rasray_voxel::{Axes, Config, Marking};
 
 /// Twice the area vector of a triangle.
 fn area_vector(triangle: &Triangle) -> [f64; 3] {

@@ -2,36 +2,12 @@
 //! builds that repeat, and hits that do not depend on budgets and on how lists are kept.
 
 use rasray_ads::{Hit, Ray, Structure};
-use rasray_gpu::Timing;
 use rasray_scene::facing::Facing;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
-use rasray_tracer::build_until_complete;
-use rasray_voxel::{
-    Accept, Axes, Config, Contents, Coverage, Fragment, March, Marking, Payload, Storage, Voxels,
-};
-
-/// The published rules of both papers with triangles in the fragments: attributes need a scene.
-fn hu(resolution: u32) -> Config {
-    Config { payload: Payload::Index, ..Config::published_hu(resolution) }
-}
-
-fn selective(resolution: u32) -> Config {
-    Config { payload: Payload::Index, ..Config::published_selective(resolution) }
-}
-
-fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
-    let geometry = bench.geometry(triangles);
-    let mut structure = Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
-        .expect("the build completes");
-    structure
-}
-
-fn contents(bench: &Bench, structure: &Voxels) -> Contents {
-    structure.download(bench.device()).expect("the device works")
-}
+use rasray_tests::voxels::{built, contents, hu, selective};
+use rasray_voxel::{Accept, Axes, Config, Contents, Coverage, Fragment, March, Marking, Storage};
 
 /// The share of fragments that keeping each triangle in one view can save: 1 - sum(max |n| A) / sum(|n|_1 A).
 fn geometric_bound(triangles: &[Triangle]) -> f64 {

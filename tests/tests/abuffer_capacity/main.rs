@@ -86,7 +86,7 @@ fn every_edge_capacity(config: Config) {
     let expected = trace(&bench, &structure, &rays);
 
     let full = [0, 1, nodes / 2, nodes - 1, nodes].map(|capacity| (capacity, near));
-    let near_full = [0, 1, near - 1].map(|capacity| (nodes, capacity));
+    let near_full = [0, 1, near / 2, near - 1].map(|capacity| (nodes, capacity));
     for (nodes_room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
         let sizes = plan(&config, room(nodes_room, near_room)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");

@@ -1,0 +1,46 @@
+//! Voxels as tests build them.
+
+use rasray_gpu::Timing;
+use rasray_tracer::build_until_complete;
+use rasray_voxel::{Config, Contents, Payload, Voxels};
+
+use crate::harness::Bench;
+use crate::shapes::Triangle;
+
+/// The published rules of Hu et al. with triangles in the fragments: attributes need a scene.
+pub fn hu(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_hu(resolution) }
+}
+
+/// The published rules of Selective reflections with triangles in the fragments: attributes need a scene.
+pub fn selective(resolution: u32) -> Config {
+    Config { payload: Payload::Index, ..Config::published_selective(resolution) }
+}
+
+/// A structure of these triangles, not built.
+///
+/// # Panics
+/// If the options are not valid, or the device fails.
+pub fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
+    let geometry = bench.geometry(triangles);
+    Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
+}
+
+/// The same, built in as much room as it takes.
+///
+/// # Panics
+/// As [`made`], or if it cannot be built.
+pub fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
+    let mut structure = made(bench, config, triangles);
+    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+        .expect("the build completes");
+    structure
+}
+
+/// What a structure holds.
+///
+/// # Panics
+/// If the device fails.
+pub fn contents(bench: &Bench, structure: &Voxels) -> Contents {
+    structure.download(bench.device()).expect("the device works")
+}
