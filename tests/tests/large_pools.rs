@@ -1,7 +1,7 @@
 //! Pools larger than what one binding holds: refused by name through descriptors, and reached by address with the
 //! same hits; and, in the full tier, a million triangles through every system.
 
-use rasray_ads::{AdsError, Hit, Ray, Structure, StructureKind};
+use rasray_ads::{AdsError, BruteForce, Hit, Ray, Structure, StructureKind};
 use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
@@ -9,6 +9,7 @@ use rasray_systems::{SYSTEMS, Spec, SystemsError};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 /// The share of rays that structures of fragments may answer wrongly among a million small triangles, at 512 cells a side.
@@ -86,7 +87,7 @@ fn every_system_reaches_large_pools_by_address() {
         assert!(LARGE.iter().any(|(large, _)| *large == system), "{system} has no large pool here");
     }
     let quick = LARGE.iter().filter(|(system, _)| *system == "hu").copied();
-    let tried: Vec<_> = if rasray_tests::tier::is_full() { LARGE.to_vec() } else { quick.collect() };
+    let tried: Vec<_> = if is_full() { LARGE.to_vec() } else { quick.collect() };
     if tried.len() < LARGE.len() {
         println!("skipped: set RASRAY_FULL to 1 for systems other than hu");
     }
@@ -116,18 +117,73 @@ fn every_system_reaches_large_pools_by_address() {
     }
 }
 
+/// A room with so many triangles of small spheres in it, or a few more.
+fn many_spheres(count: usize) -> Vec<Triangle> {
+    let mut random = Random::new(403);
+    let mut triangles: Vec<Triangle> = closed_box([-4.0; 3], [4.0; 3]);
+    while triangles.len() < count {
+        triangles.extend(sphere(random.point(-3.0, 3.0), random.between(0.02, 0.2), 40));
+    }
+    triangles
+}
+
+/// Trees grow with triangles alone, and so do bricks where their resolution follows from these: with more of them than a
+/// binding has room for, both builders and the bricks are refused by name or reached by address, and find the same.
 #[test]
-fn a_million_triangles_are_found_alike() {
-    if !rasray_tests::tier::is_full() {
+fn trees_and_bricks_of_many_triangles_are_reached_by_address() {
+    if !is_full() {
         println!("skipped: set RASRAY_FULL to 1 for the large counts");
         return;
     }
     let bench = Bench::new();
-    let mut random = Random::new(403);
-    let mut triangles: Vec<Triangle> = closed_box([-4.0; 3], [4.0; 3]);
-    while triangles.len() < 1_000_000 {
-        triangles.extend(sphere(random.point(-3.0, 3.0), random.between(0.02, 0.2), 40));
+    if !bench.device().has(Feature::BufferDeviceAddress) {
+        println!("skipped: the device has no buffer device addresses");
+        return;
     }
+    let geometry = bench.geometry(&many_spheres(2_300_000));
+    let rays = rays(20_000);
+    // Every triangle for a few.
+    let few = &rays[..200];
+    let brute = BruteForce::new(bench.device(), &geometry, None, true).expect("pipelines can be made");
+    let truth = all_bits(&bench.trace(&brute, few).hits);
+    let mut expected: Option<Vec<[u32; 4]>> = None;
+    for (system, option, value) in
+        [("bvh", "builder", "sah"), ("bvh", "builder", "lbvh"), ("dirt", "storage", "bricks")]
+    {
+        let described = Spec::new(system, "robust", [(option.to_owned(), value.to_owned())]).expect("valid");
+        let spec = described.clone().with_option("addressing", "address").expect("every system takes it");
+        let build = |spec: &Spec| -> Result<_, String> {
+            let structure = spec.create(bench.device(), &geometry, None);
+            let mut structure = structure.map_err(|error| error.to_string())?;
+            build_until_complete(bench.device(), structure.as_mut(), [0.1, 0.2, 0.3], Timing::None)
+                .map_err(|error| error.to_string())?;
+            Ok(structure)
+        };
+        let structure = build(&spec).expect("addresses reach it");
+        let pools = structure.sizes().pools.iter();
+        let largest = pools.max_by_key(|pool| pool.elements * pool.element_bytes).expect("it has pools");
+        let bytes = largest.elements * largest.element_bytes;
+        println!("{system} {value}: {} takes {bytes} bytes", largest.name);
+        if bytes > bench.device().limits().max_storage_buffer_range {
+            let refusal = build(&described).map(drop).expect_err("a binding cannot hold it");
+            assert!(refusal.contains("reach it by device address"), "{refusal}");
+        } else {
+            println!("skipped: a binding of this device holds {}", largest.name);
+        }
+        let hits = all_bits(&bench.trace(structure.as_ref(), &rays).hits);
+        assert_eq!(hits[..few.len()], truth, "{system} {value}");
+        assert!(expected.get_or_insert_with(|| hits.clone()) == &hits, "{system} {value}");
+    }
+}
+
+#[test]
+fn a_million_triangles_are_found_alike() {
+    if !is_full() {
+        println!("skipped: set RASRAY_FULL to 1 for the large counts");
+        return;
+    }
+    let bench = Bench::new();
+    let triangles = many_spheres(1_000_000);
     let geometry = bench.geometry(&triangles);
     let rays = rays(20_000);
     let mut specs: Vec<(&str, Option<(&str, &str)>)> = SYSTEMS
