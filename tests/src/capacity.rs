@@ -33,9 +33,10 @@ pub fn check_capacities_of(
     check_capacities(bench, structure, [0.0; 3].into(), counted, sizes, hits)
 }
 
-/// Builds a structure in room for none, one, half, all but one and all of what is counted, `sizes` being its pools with room
-/// for so many. What has no room is counted and grown, and no build is said to be complete until it has; the answers
-/// of the last are those of one in ample room. Returns how many there are, which is more than ten.
+/// Builds a structure in room for none, one, half, all but one and all of what is counted, `sizes` being its
+/// pools with room for so many. What has no room is counted and grown, and no build is said to be complete
+/// until it has; the answers of the last are those of one in ample room. Returns how many there are, which is
+/// more than ten.
 ///
 /// # Panics
 /// If the device fails, or any of that does not hold.

@@ -16,8 +16,8 @@ pub struct Bench {
     _turn: MutexGuard<'static, ()>,
 }
 
-/// Enough for every preset of every system: tests make the same structures again and again, and compiling their shaders is
-/// most of what they wait for.
+/// Enough for every preset of every system: tests make the same structures again and again, and compiling
+/// their shaders is most of what they wait for.
 const KEPT_PIPELINES: usize = 512;
 
 /// Features that any test may use.

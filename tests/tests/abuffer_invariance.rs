@@ -218,8 +218,8 @@ fn a_dda_is_a_march_of_enough_samples() {
     assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
 }
 
-/// Leaps pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are the same, with the
-/// same stays of the ray, whatever fragments stand for.
+/// Leaps pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are
+/// the same, with the same stays of the ray, whatever fragments stand for.
 #[test]
 fn leaps_change_no_hit() {
     let bench = Bench::new();

@@ -130,7 +130,8 @@ fn holes_of_masks_show_the_layer_behind() {
     }
 }
 
-/// Hits do not depend on how a single layer is stored, and of rays through the centres of cells they are those of all layers.
+/// Hits do not depend on how a single layer is stored, and of rays through the centres of cells they are
+/// those of all layers.
 #[test]
 fn through_centres_a_single_layer_is_enough() {
     const SIDE: u32 = 40;

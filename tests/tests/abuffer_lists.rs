@@ -96,8 +96,8 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     }
 }
 
-/// Lists that are short enough each, and too many nodes for the thread that sorts several: what is left over is sorted with the long
-/// ones.
+/// Lists that are short enough each, and too many nodes for the thread that sorts several: what is left over
+/// is sorted with the long ones.
 #[test]
 fn lists_that_one_thread_cannot_sort_together_are_sorted() {
     const LAYERS: u32 = 400;

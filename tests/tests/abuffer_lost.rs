@@ -139,8 +139,8 @@ fn conservative_coverage_finds_what_brute_force_finds() {
     }
 }
 
-/// What is lost, and what is seen edge-on, is sent to where rays can hit it: nothing is lost then, what no fragment names is found
-/// like other triangles, and fringes hold far less than with conservative coverage.
+/// What is lost, and what is seen edge-on, is sent to where rays can hit it: nothing is lost then, what no
+/// fragment names is found like other triangles, and fringes hold far less than with conservative coverage.
 #[test]
 fn edge_on_triangles_are_found() {
     let bench = Bench::new();
@@ -208,7 +208,8 @@ fn fringes_of_what_is_lost_are_searched_to_their_end() {
     }
 }
 
-/// Neither storage nor views nor leaps nor pauses change a hit from that of brute force, and small budgets end within long fringes.
+/// Neither storage nor views nor leaps nor pauses change a hit from that of brute force, and small budgets
+/// end within long fringes.
 #[test]
 fn fringes_are_searched_to_their_end() {
     let bench = Bench::new();

@@ -63,7 +63,8 @@ fn both_builders_of_layered_depth_cubes_store_the_same_fragments() {
         let [drawn, computed] = [&contents[0], &contents[1]];
         assert!(drawn.lists == computed.lists && drawn.blocks == computed.blocks, "{name}");
         assert_eq!(drawn.header.fringe_demand, computed.header.fringe_demand, "{name}");
-        // Lists are sorted, so that they have one order. Lists of 16-bit depths may have a place at their end that holds nothing.
+        // Lists are sorted, so that they have one order. Lists of 16-bit depths may have a place at their end
+        // that holds nothing.
         if config.depth == Depth::Bits32 {
             let end = drawn.header.demand as usize;
             assert!(drawn.payload[..end] == computed.payload[..end], "{name}: other triangles");

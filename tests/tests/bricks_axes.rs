@@ -1,5 +1,5 @@
-//! Bricks of cells along the axes: they list exactly the cells that a triangle reaches into, hits are those of brute force on every
-//! shape of a scene and from everywhere, and too little room for them is noticed.
+//! Bricks of cells along the axes: they list exactly the cells that a triangle reaches into, hits are those
+//! of brute force on every shape of a scene and from everywhere, and too little room for them is noticed.
 
 use std::collections::HashMap;
 

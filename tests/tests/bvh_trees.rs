@@ -200,8 +200,8 @@ fn a_tree_of_the_host_is_asked_for_and_serves_one_build() {
     }
 }
 
-/// Pools of every edge capacity, one smaller than the tree or all of them: nothing is answered, and what is grown to its
-/// demand answers as if it had had room.
+/// Pools of every edge capacity, one smaller than the tree or all of them: nothing is answered, and what is
+/// grown to its demand answers as if it had had room.
 #[test]
 fn every_edge_capacity() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! Rates over what the catalogue sweeps within a case: the angle of a plane (V2), depth (Z13), the steps of a search (X11),
-//! and the size of the views (V16).
+//! Rates over what the catalogue sweeps within a case: the angle of a plane (V2), depth (Z13), the steps of a
+//! search (X11), and the size of the views (V16).
 
 use rasray_abuffer::{ABuffer, Accept, Config};
 use rasray_ads::{Addressing, Ray, Structure, StructureKind};
@@ -42,8 +42,9 @@ fn across(random: &mut Random, along: [f64; 3]) -> (Ray, f64) {
     (Ray::new(origin, direction.map(|x| x as f32)), (ray.abs() / (plane - ray).abs()).min(1.0))
 }
 
-/// P(hit) = min(1, |m_r| / |m_p - m_r|) for the slopes of ray and plane, in groups of rays of like P: the steeper the plane,
-/// the fewer of the rays that meet it meet a sample. A plane that is narrower than a pixel has no sample at all.
+/// P(hit) = min(1, |m_r| / |m_p - m_r|) for the slopes of ray and plane, in groups of rays of like P: the
+/// steeper the plane, the fewer of the rays that meet it meet a sample. A plane that is narrower than a pixel
+/// has no sample at all.
 #[test]
 fn planes_are_met_as_often_as_their_slope_says() {
     const GROUPS: usize = 4;
@@ -105,8 +106,9 @@ fn lost(bench: &Bench, structure: &mut dyn Structure, prepared: &Prepared) -> f6
     (confusion.missed.count + wrong.count) as f64 / confusion.missed.total as f64
 }
 
-/// An even number of plates between two points of a ray counts as none, and of an odd number one is found. Plates are at
-/// least 0.3 voxels apart: steps of a whole or of half a voxel take several for none or for one.
+/// An even number of plates between two points of a ray counts as none, and of an odd number one is found.
+/// Plates are at least 0.3 voxels apart: steps of a whole or of half a voxel take several for none or for
+/// one.
 #[test]
 fn steps_shorter_than_the_gap_between_plates_tell_them_apart() {
     let bench = Bench::new();
@@ -126,9 +128,9 @@ fn steps_shorter_than_the_gap_between_plates_tell_them_apart() {
     }
 }
 
-/// Pairs 0.002 metres apart in a cube with a side of a kilometre, at the depths that Z13's rays take in turn. Halves are
-/// rounded by more than a tolerance of a millimetre from eight metres on, floats never, and planes need neither. The pair at
-/// one metre is narrower than a cell, so that nothing but triangles finds it.
+/// Pairs 0.002 metres apart in a cube with a side of a kilometre, at the depths that Z13's rays take in turn.
+/// Halves are rounded by more than a tolerance of a millimetre from eight metres on, floats never, and planes
+/// need neither. The pair at one metre is narrower than a cell, so that nothing but triangles finds it.
 #[test]
 fn halves_lose_pairs_that_floats_tell_apart() {
     const DEPTHS: usize = 4;
@@ -166,8 +168,8 @@ fn outermost(size: u32) -> Vec<Triangle> {
     }
 }
 
-/// Rays at points of the face within these triangles, every other one from the eye. None starts as close as a pixel is wide:
-/// planes let go of those.
+/// Rays at points of the face within these triangles, every other one from the eye. None starts as close as a
+/// pixel is wide: planes let go of those.
 fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
     let mut rays = Vec::with_capacity(RAYS);
     while rays.len() < RAYS {
@@ -183,9 +185,9 @@ fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
     rays
 }
 
-/// Views of one, three, five and 511 pixels a side with geometry in the outermost pixels only: where triangles are found every
-/// hit is brute force's, elsewhere no ray passes. Published voxels are left out: what they lose of a flat scene has other
-/// reasons (the deviations of V16).
+/// Views of one, three, five and 511 pixels a side with geometry in the outermost pixels only: where
+/// triangles are found every hit is brute force's, elsewhere no ray passes. Published voxels are left out:
+/// what they lose of a flat scene has other reasons (the deviations of V16).
 #[test]
 fn views_of_odd_sizes_keep_their_outermost_pixels() {
     let bench = Bench::new();

@@ -27,8 +27,9 @@ fn every_turn_of_a_loop_is_made() {
     assert_eq!(made(&bench, &ADS_TEST_TURNS, &wanted), wanted);
 }
 
-/// A memory barrier orders memory and nobody waits at it. Software drivers before Mesa 22.3.7 wait all the same, and end a
-/// workgroup with the first of its vectors to finish (docs/measurements/bvh.md): no shader here has such a loop.
+/// A memory barrier orders memory and nobody waits at it. Software drivers before Mesa 22.3.7 wait all the
+/// same, and end a workgroup with the first of its vectors to finish (docs/measurements/bvh.md): no shader
+/// here has such a loop.
 #[test]
 fn turns_with_a_memory_barrier_are_made_but_by_some_software_drivers() {
     let bench = Bench::new();

@@ -1,5 +1,5 @@
-//! Ambient occlusion and paths through every system in every preset: where triangles are found without loss the images are
-//! those of brute force, bit for bit; elsewhere they are as bright as errors of hits allow.
+//! Ambient occlusion and paths through every system in every preset: where triangles are found without loss
+//! the images are those of brute force, bit for bit; elsewhere they are as bright as errors of hits allow.
 
 use rasray_ads::StructureKind;
 use rasray_gpu::Timing;
@@ -14,9 +14,10 @@ const SIZE: u32 = 32;
 const SAMPLES: u32 = 4;
 const BOUNCES: u32 = 2;
 
-/// How far the means of occlusion and of light may be off, relative, where hits may be: at least and at most, so that what
-/// passes unexpectedly is noticed. Published fragments store no emission, so most of what shines is lost; those of mmrt
-/// without a thickness lose most of what occludes as well, and its robust ones what is seen edge-on from the eye.
+/// How far the means of occlusion and of light may be off, relative, where hits may be: at least and at most,
+/// so that what passes unexpectedly is noticed. Published fragments store no emission, so most of what shines
+/// is lost; those of mmrt without a thickness lose most of what occludes as well, and its robust ones what is
+/// seen edge-on from the eye.
 const ALLOWED: &[(&str, Preset, [[f32; 2]; 2])] = &[
     ("mmrt", Preset::Robust, [[0.0, 0.06], [0.0, 0.25]]),
     ("mmrt", Preset::Published, [[0.8, 2.4], [0.6, 0.95]]),

@@ -1,5 +1,5 @@
-//! Which options may change a hit: every system of the registry, one option at a time, in pairs, and in other processes with
-//! other numbers of driver threads. Hits are compared bit for bit.
+//! Which options may change a hit: every system of the registry, one option at a time, in pairs, and in other
+//! processes with other numbers of driver threads. Hits are compared bit for bit.
 
 use std::process::Command;
 
@@ -89,8 +89,8 @@ fn one_option_at_a_time_changes_no_hit() {
     }
 }
 
-/// How many pairs of a subject's options exclude each other: cells along the axes have no slices, and are bricks; layers are peeled
-/// by drawing.
+/// How many pairs of a subject's options exclude each other: cells along the axes have no slices, and are
+/// bricks; layers are peeled by drawing.
 const REFUSED: &[(&str, usize)] = &[("dirt robust", 16), ("ldc robust", 1)];
 
 #[test]

@@ -12,7 +12,8 @@ use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
-/// The share of rays that structures of fragments may answer wrongly among a million small triangles, at 512 cells a side.
+/// The share of rays that structures of fragments may answer wrongly among a million small triangles, at 512
+/// cells a side.
 const FRAGMENTS_OFF: f64 = 0.05;
 
 fn rays(count: usize) -> Vec<Ray> {
@@ -127,8 +128,9 @@ fn many_spheres(count: usize) -> Vec<Triangle> {
     triangles
 }
 
-/// Trees grow with triangles alone, and so do bricks where their resolution follows from these: with more of them than a
-/// binding has room for, both builders and the bricks are refused by name or reached by address, and find the same.
+/// Trees grow with triangles alone, and so do bricks where their resolution follows from these: with more of
+/// them than a binding has room for, both builders and the bricks are refused by name or reached by address,
+/// and find the same.
 #[test]
 fn trees_and_bricks_of_many_triangles_are_reached_by_address() {
     if !is_full() {

@@ -118,8 +118,8 @@ fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     }
 }
 
-/// Hundreds of plates in one cell, and ten thousand, which a dispatch does not sort: each is found from both sides, with
-/// depths of either length.
+/// Hundreds of plates in one cell, and ten thousand, which a dispatch does not sort: each is found from both
+/// sides, with depths of either length.
 #[test]
 fn a_deep_cell_finds_every_layer() {
     let bench = Bench::new();

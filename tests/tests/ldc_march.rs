@@ -1,5 +1,5 @@
-//! The walk over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if it had not been,
-//! columns without rows included.
+//! The walk over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if it
+//! had not been, columns without rows included.
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::LDC_TEST_MARCH;

@@ -1,5 +1,6 @@
-//! Hits do not know where a scene lies where that is exact, nor how a ray is cut: scenes scaled by powers of two and turned by
-//! right angles, rays split in two, segments asked from both ends. Structures that find triangles, hits compared bit for bit.
+//! Hits do not know where a scene lies where that is exact, nor how a ray is cut: scenes scaled by powers of
+//! two and turned by right angles, rays split in two, segments asked from both ends. Structures that find
+//! triangles, hits compared bit for bit.
 
 use rasray_ads::{PRIMITIVE_NONE, Ray, StructureKind};
 use rasray_metrics::Truth;

@@ -132,8 +132,8 @@ fn check(bench: &Bench, name: &str, traced: [&Traced; 2]) {
     assert_ne!(differences(&found, [&moved, &traced[1].hits]), 0, "{name}");
 }
 
-/// Every pair of structures, or but for the large counts these: all pairs compile, or there would be no tests, and a driver
-/// takes seconds for each. The names of their shaders end in `suffix`.
+/// Every pair of structures, or but for the large counts these: all pairs compile, or there would be no
+/// tests, and a driver takes seconds for each. The names of their shaders end in `suffix`.
 fn check_pairs(bench: &Bench, structures: &BTreeMap<&str, Traced>, suffix: &str, quick: &[[&str; 2]]) {
     assert!(structures.len() >= 5, "{:?}", structures.keys());
     for (first, one) in structures {

@@ -18,8 +18,8 @@ fn room(bench: &Bench) -> (GpuScene, Vec<Ray>) {
     (scene, rays)
 }
 
-/// Where rays meet something, and what is shaded there, to the bit. Fragments without ids are told apart by what they carry:
-/// their place in a pool follows the order of threads.
+/// Where rays meet something, and what is shaded there, to the bit. Fragments without ids are told apart by
+/// what they carry: their place in a pool follows the order of threads.
 fn shaded(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Option<[u32; 10]>> {
     let shaded: Vec<_> = bench
         .surfaces(structure, rays)

@@ -139,7 +139,8 @@ fn no_size_changes_a_hit() {
     }
 }
 
-/// Triangles that cross each other and triangles that are seen almost edge-on, in tiles and buckets so wide that many share one.
+/// Triangles that cross each other and triangles that are seen almost edge-on, in tiles and buckets so wide
+/// that many share one.
 fn crossing() -> Vec<Triangle> {
     let mut random = Random::new(29);
     let mut triangles: Vec<Triangle> = (0..300)
@@ -166,8 +167,9 @@ fn crossing() -> Vec<Triangle> {
     triangles
 }
 
-/// Each rule of the paper loses hits by itself, and what is found instead lies behind: the comparison notices. The rule that
-/// a hit must lie in its tile alone loses those that rounding moves: one in many thousands.
+/// Each rule of the paper loses hits by itself, and what is found instead lies behind: the comparison
+/// notices. The rule that a hit must lie in its tile alone loses those that rounding moves: one in many
+/// thousands.
 #[test]
 fn every_published_rule_loses_hits() {
     let bench = Bench::new();
@@ -198,8 +200,8 @@ fn every_published_rule_loses_hits() {
     let structure = lists(&bench, accept, &triangles, EYES[0]);
     let lost = differences(&bench.trace(&structure, &rays).hits, &expected).len();
     println!("accept: {lost} of {} hits differ", rays.len());
-    // Rounding alone moves a hit to another tile. That the rule is there shows beside the jump, where it refuses what a tile
-    // passed by would have had.
+    // Rounding alone moves a hit to another tile. That the rule is there shows beside the jump, where it
+    // refuses what a tile passed by would have had.
     assert!(!accept.is_exact() && lost < rays.len() / 1000, "{lost} of {} hits differ", rays.len());
     let jumping = Config { march: March::Jump, ..fine };
     let refusing = Config { accept: Accept::Tile, ..jumping };

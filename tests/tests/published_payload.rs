@@ -63,9 +63,9 @@ fn secondary_rays_meet_fragments_without_ids() {
     }
 }
 
-/// Parities lose little of a room, so that occlusion is near the truth with ids and without. All rays start a cell off a surface;
-/// only those that know its triangle exclude it, and the others may meet it again. A-buffers by their paper's rules lose most of
-/// the walls, which shows that the comparison would notice.
+/// Parities lose little of a room, so that occlusion is near the truth with ids and without. All rays start a
+/// cell off a surface; only those that know its triangle exclude it, and the others may meet it again.
+/// A-buffers by their paper's rules lose most of the walls, which shows that the comparison would notice.
 #[test]
 fn secondary_rays_of_parities_come_near_the_truth() {
     let bench = Bench::new();
@@ -94,7 +94,8 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
 
-/// Metallic, roughness and specular that fragments of a system keep of a triangle's, or the defaults of those they do not.
+/// Metallic, roughness and specular that fragments of a system keep of a triangle's, or the defaults of those
+/// they do not.
 fn terms(system: &str, of_triangle: &Surface) -> [f32; 3] {
     match system {
         "mmrt" | "hu" => [of_triangle.metallic, of_triangle.roughness, of_triangle.specular],
@@ -109,8 +110,8 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
     (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
 }
 
-/// What the paper stores for ambient occlusion is enough for it: hits and normals are those of all attributes, bit for bit, but for
-/// one ray in a thousand where fragments meet at one t.
+/// What the paper stores for ambient occlusion is enough for it: hits and normals are those of all
+/// attributes, bit for bit, but for one ray in a thousand where fragments meet at one t.
 #[test]
 fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();
@@ -262,8 +263,8 @@ fn stored_surfaces_are_those_of_the_triangles() {
             println!("{system}, {name}: {met} fragments, turned by {turn}, {other} of another surface");
             assert!(met > rays.len() / 8, "{system}, {name}: {met} fragments");
             assert!(turn < largest_turn, "{system}, {name}: normals turned by {turn}");
-            // Of fragments at one t ids take another one than words do: in corners, where a ray enters a cell within the
-            // tolerance of both walls.
+            // Of fragments at one t ids take another one than words do: in corners, where a ray enters a cell
+            // within the tolerance of both walls.
             assert!(other <= met / 1000, "{system}, {name}: {other} of {met} see another surface");
         }
     }

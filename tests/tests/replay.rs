@@ -80,8 +80,8 @@ fn cube(bench: &Bench, geometry: &Geometry, config: rasray_ldc::Config) -> Box<d
     Box::new(structure)
 }
 
-/// Brute force, trees, lists of triangles and of fragments, voxels, with the work that is recorded; budgets are small, so that
-/// rays pause.
+/// Brute force, trees, lists of triangles and of fragments, voxels, with the work that is recorded; budgets
+/// are small, so that rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
     let work_budget = Some(40);
     let brute = BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made");

@@ -157,8 +157,8 @@ fn bytes_are_those_of_the_formula() {
     }
 }
 
-/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such lists, or stay as
-/// they are; planes find each layer, and parities the same whatever the order.
+/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such
+/// lists, or stay as they are; planes find each layer, and parities the same whatever the order.
 #[test]
 fn lists_of_ten_thousand_are_searched() {
     const LAYERS: usize = 10_000;

@@ -26,8 +26,8 @@ fn dominant(triangle: &Triangle) -> u32 {
     (0..3).filter(|&axis| size[axis] >= largest - rounding).map(|axis| 1 << axis).sum()
 }
 
-/// Every point of every triangle lies in a voxel that is searched along the triangle's axis, or, where all views keep all
-/// and triangles mark voxels, in one that is searched at all. Fragments do not mark as many.
+/// Every point of every triangle lies in a voxel that is searched along the triangle's axis, or, where all
+/// views keep all and triangles mark voxels, in one that is searched at all. Fragments do not mark as many.
 #[test]
 fn every_voxel_that_a_triangle_reaches_into_is_searched() {
     let bench = Bench::new();
@@ -102,8 +102,8 @@ fn every_voxel_that_a_triangle_reaches_into_is_searched() {
     }
 }
 
-/// Specks without a fragment, however many, leave a voxel the axis of the fragments in it, and give one without fragments their
-/// own. Marked by fragments alone that one is empty.
+/// Specks without a fragment, however many, leave a voxel the axis of the fragments in it, and give one
+/// without fragments their own. Marked by fragments alone that one is empty.
 #[test]
 fn triangles_have_a_say_on_axes_where_there_are_no_fragments() {
     const GRID: u32 = 16;

@@ -81,8 +81,8 @@ fn lists(contents: &Contents) -> Vec<Vec<Fragment>> {
         .collect()
 }
 
-/// Sums of whole numbers do not depend on the order of threads: axes, lists and fragments are the same in every build, and
-/// of every storage.
+/// Sums of whole numbers do not depend on the order of threads: axes, lists and fragments are the same in
+/// every build, and of every storage.
 #[test]
 fn builds_repeat_to_the_bit() {
     let bench = Bench::new();
@@ -220,8 +220,8 @@ fn a_room_is_exact_at_every_resolution() {
     }
 }
 
-/// As many cells as a dispatch may step through, in one voxel, and what lies behind them is still found: the walk fits the
-/// loops that a driver allows.
+/// As many cells as a dispatch may step through, in one voxel, and what lies behind them is still found: the
+/// walk fits the loops that a driver allows.
 #[test]
 fn a_walk_as_long_as_the_budget_reaches_its_end() {
     let bench = Bench::new();

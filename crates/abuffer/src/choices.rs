@@ -5,8 +5,8 @@ use rasray_shaders_glsl::constants::abuffer as numbers;
 /// How a ray steps through cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) a face. Cells between are not
-    /// visited.
+    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) a face. Cells
+    /// between are not visited.
     Samples,
     /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
     Dda,
@@ -41,7 +41,8 @@ pub enum Accept {
 }
 
 impl Accept {
-    /// Whether it looks at more of the fragment's triangle than its depth; then cells store how far triangles reach in depth.
+    /// Whether it looks at more of the fragment's triangle than its depth; then cells store how far triangles
+    /// reach in depth.
     pub fn needs_triangles(self) -> bool {
         matches!(self, Self::Slope | Self::Plane)
     }
@@ -66,7 +67,8 @@ pub enum Payload {
     /// The paper's payload for ambient occlusion: the quantised normal that is shaded by, alone, 4 bytes.
     /// Needs a scene.
     Normal,
-    /// The triangle's plane in full, 16 bytes: rays meet it without asking for the triangle, and know nothing else of it.
+    /// The triangle's plane in full, 16 bytes: rays meet it without asking for the triangle, and know nothing
+    /// else of it.
     Plane,
 }
 
@@ -106,13 +108,15 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe: edge-on ones,
-    /// silhouettes, and what is smaller than a cell. Rays then test triangles, not their planes, and find what brute force
-    /// finds ([`Config::is_exact`](crate::Config::is_exact)). Needs [`Accept::Plane`].
+    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe:
+    /// edge-on ones, silhouettes, and what is smaller than a cell. Rays then test triangles, not their
+    /// planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
+    /// [`Accept::Plane`].
     Conservative,
-    /// As [`Coverage::Exact`], and of the triangles that reach into a cell beside its centre those are kept that have no
-    /// fragment in any view, or whose planes are seen edge-on there: what the paper names as its open limit. Fragments are
-    /// met by their planes, triangles of the fringe by themselves. Needs [`Accept::Plane`].
+    /// As [`Coverage::Exact`], and of the triangles that reach into a cell beside its centre those are kept
+    /// that have no fragment in any view, or whose planes are seen edge-on there: what the paper names as its
+    /// open limit. Fragments are met by their planes, triangles of the fringe by themselves. Needs
+    /// [`Accept::Plane`].
     EdgeOn,
 }
 
@@ -145,7 +149,8 @@ impl Coverage {
 pub enum Views {
     /// Six faces of a cube around the eye: all that is around it.
     Cube,
-    /// The same, and what the camera sees, with [`Config::camera_resolution`](crate::Config::camera_resolution) cells a side.
+    /// The same, and what the camera sees, with
+    /// [`Config::camera_resolution`](crate::Config::camera_resolution) cells a side.
     CubeCamera,
     /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
     Camera,

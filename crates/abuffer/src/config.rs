@@ -19,10 +19,12 @@ pub struct Config {
     pub inline: bool,
     /// Fragments a page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all layers. Changes no hit.
+    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
+    /// layers. Changes no hit.
     pub buckets: u32,
     /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
-    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then meet nothing that is behind something else as seen from the eye.
+    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then meet nothing that is behind something
+    /// else as seen from the eye.
     pub single_layer: bool,
     /// How rays step.
     pub march: March,
@@ -34,8 +36,8 @@ pub struct Config {
     pub thickness: f32,
     /// What a fragment carries.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it, and nothing else
-    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
+    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
     /// Who decides coverage.
     pub coverage: Coverage,
@@ -171,8 +173,8 @@ impl Config {
         Ok(())
     }
 
-    /// Whether every hit is that of brute force: cells keep every triangle that reaches into them, and rays visit every cell
-    /// that they cross, all around the eye.
+    /// Whether every hit is that of brute force: cells keep every triangle that reaches into them, and rays
+    /// visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
     }
@@ -187,7 +189,8 @@ impl Config {
         self.coverage == Coverage::Conservative
     }
 
-    /// Sets of marks of triangles: those with a fragment, and where these decide what the fringe keeps, those that it does.
+    /// Sets of marks of triangles: those with a fragment, and where these decide what the fringe keeps, those
+    /// that it does.
     pub(crate) fn mark_sets(&self) -> u64 {
         if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
     }
@@ -202,7 +205,8 @@ impl Config {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// Whether the fragments of a cell are kept by depth in several lists: of a single layer there is one, whatever the storage.
+    /// Whether the fragments of a cell are kept by depth in several lists: of a single layer there is one,
+    /// whatever the storage.
     pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer
     }

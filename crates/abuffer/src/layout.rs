@@ -93,8 +93,8 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at the extent, and
-/// beside buckets their scale; with conservative coverage the head of the fringe.
+/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at
+/// the extent, and beside buckets their scale; with conservative coverage the head of the fringe.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     let extent = match (config.accept.needs_triangles(), config.has_buckets()) {
         (true, true) => 2,
@@ -114,8 +114,8 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config)
 }
 
-/// Words for the sums of the scan of contiguous lists, and behind them for the triangles with many cells, and once those have been
-/// visited two of each long list.
+/// Words for the sums of the scan of contiguous lists, and behind them for the triangles with many cells, and
+/// once those have been visited two of each long list.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
     let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
     scan_words(config) + pairs.max(2 * demand.long_lists)
@@ -204,12 +204,14 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative and edge-on coverage: per cell 4, per triangle beside its centre 12; with the latter 4 per 32 triangles.
+    /// With conservative and edge-on coverage: per cell 4, per triangle beside its centre 12; with the latter
+    /// 4 per 32 triangles.
     pub fringe: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
-    /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with many cells of a view
-    /// where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32 triangles for their marks.
+    /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with
+    /// many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32
+    /// triangles for their marks.
     pub rest: u64,
 }
 
@@ -342,8 +344,8 @@ mod tests {
         }
     }
 
-    /// Bytes a cell with four buckets, and bytes a fragment beside the payload, decoupled as in table 2 of the paper, and inline,
-    /// where only the S-buffer saves a word: the payload's index.
+    /// Bytes a cell with four buckets, and bytes a fragment beside the payload, decoupled as in table 2 of
+    /// the paper, and inline, where only the S-buffer saves a word: the payload's index.
     #[test]
     fn storages_have_the_papers_bytes() {
         let table = [

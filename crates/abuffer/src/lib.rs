@@ -1,5 +1,6 @@
-//! Multiview, multilayer A-buffers: the rasterizer stores every fragment of the six faces of a cube
-//! around the eye, or of what a camera there sees, in per-cell, per-bucket lists, and rays are traced through the cells.
+//! Multiview, multilayer A-buffers: the rasterizer stores every fragment of the six faces of a cube around
+//! the eye, or of what a camera there sees, in per-cell, per-bucket lists, and rays are traced through the
+//! cells.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "A multiview and multilayer approach for interactive ray
 //! tracing", I3D 2016 (MMRT). Lists are kept in one of the storages the paper compares ([`Storage`]), with payload

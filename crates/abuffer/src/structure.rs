@@ -105,7 +105,8 @@ impl ABuffer {
             camera.map_or_else(Default::default, |camera| {
                 let resolution = config.camera_resolution as f32;
                 let half = camera.half_width.max(camera.half_height);
-                // A point's place in the camera's view is also turned and stretched: twice the rounding, and narrow views more.
+                // A point's place in the camera's view is also turned and stretched: twice the rounding, and
+                // narrow views more.
                 let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
                 (camera.rows(), stretch, stretch * resolution, 2.0 * half / resolution)
             });
@@ -120,8 +121,8 @@ impl ABuffer {
             Accept::Interval | Accept::Thickness => rounding,
         };
         let cells = (faces as f32).max(camera_cells);
-        // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be lost the march
-        // needs more, and what a ray meets outside of the near box is not behind the eye.
+        // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be
+        // lost the march needs more, and what a ray meets outside of the near box is not behind the eye.
         let near_size = if config.has_fringe() {
             (NEAR_BOX * cells * farthest).max(2.0 * triangle_rounding).max(1.0e-30)
         } else {

@@ -22,7 +22,8 @@ pub struct Contents {
     pub data: Vec<u32>,
     /// Triangles of the near box.
     pub near: Vec<u32>,
-    /// What the scan of contiguous lists left behind, and the lists that one dispatch does not sort with how far each is.
+    /// What the scan of contiguous lists left behind, and the lists that one dispatch does not sort with how
+    /// far each is.
     pub scratch: Vec<u32>,
     /// Triangle and next link of each node of the fringe.
     pub fringe: Vec<u32>,
@@ -199,8 +200,8 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     if beside == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked: beside }) }
 }
 
-/// The links of a list. `linked` nodes are in lists before it, a contiguous one begins at `place`, and `pages` are those that
-/// lists before it have.
+/// The links of a list. `linked` nodes are in lists before it, a contiguous one begins at `place`, and
+/// `pages` are those that lists before it have.
 fn links(
     contents: &Contents,
     cell: usize,

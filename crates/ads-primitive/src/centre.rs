@@ -3,17 +3,17 @@
 /// Rays from farther than `ORIGIN_LIMIT` times the geometry are tested one by one; eyes stay nearer than this.
 const EYE_LIMIT: f32 = 3.5;
 
-/// Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no fraction at which
-/// a scene is likely to have a wall.
+/// Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no
+/// fraction at which a scene is likely to have a wall.
 const MARGIN: f32 = 0.2718;
 
-/// Flatter bounds than this, shortest over longest side, have no inside: a centre among their triangles would see them all
-/// edge-on and across many tiles.
+/// Flatter bounds than this, shortest over longest side, have no inside: a centre among their triangles would
+/// see them all edge-on and across many tiles.
 const FLATTEST: f32 = 0.25;
 
-/// The centre of faces for an eye and geometry within `bounds` (lower, upper), metres: the eye itself within them, or where
-/// they are flat; else the point of about their inner half that is nearest to it, as far back towards the eye as rays from
-/// there need.
+/// The centre of faces for an eye and geometry within `bounds` (lower, upper), metres: the eye itself within
+/// them, or where they are flat; else the point of about their inner half that is nearest to it, as far back
+/// towards the eye as rays from there need.
 ///
 /// From an eye outside all geometry lies in a part of the faces, in as few tiles as it is far away.
 pub(crate) fn centre_within(eye: [f32; 3], [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {

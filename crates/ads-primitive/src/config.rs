@@ -30,8 +30,8 @@ pub enum Storage {
 pub enum Centre {
     /// At the eye, as in the paper.
     Eye,
-    /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the nearest point well
-    /// within.
+    /// At the eye within the geometry's bounds, or where those are flat; for an eye outside of them, at the
+    /// nearest point well within.
     Scene,
 }
 
@@ -53,8 +53,8 @@ pub struct Config {
     pub storage: Storage,
     /// What is seen where. Resolution, tile, slices and centre are those of [`Views::Cube`].
     pub views: Views,
-    /// [`Views::Axes`] only: cells along the longest side of the geometry's bounds, 1 to 1024, made up to a multiple of 4; where
-    /// absent, as many as make a cell about as wide as a triangle. Changes no hit.
+    /// [`Views::Axes`] only: cells along the longest side of the geometry's bounds, 1 to 1024, made up to a
+    /// multiple of 4; where absent, as many as make a cell about as wide as a triangle. Changes no hit.
     pub grid: Option<u32>,
     /// Where the faces meet.
     pub centre: Centre,

@@ -22,7 +22,8 @@ pub struct Header {
     pub tiles: u32,
     /// Pixels a side of a cell.
     pub tile: u32,
-    /// Farthest that the geometry is from the centre along an axis, metres; of views along axes, more where the eye is far away.
+    /// Farthest that the geometry is from the centre along an axis, metres; of views along axes, more where
+    /// the eye is far away.
     pub reach: f32,
     /// Half side of the near box, metres.
     pub near_size: f32,

@@ -65,8 +65,8 @@ pub(crate) fn entry_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which binning needs while
-/// it builds. None for lists that are drawn.
+/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which
+/// binning needs while it builds. None for lists that are drawn.
 pub(crate) fn triangle_words(config: &Config) -> u64 {
     match (config.storage, config.builder()) {
         (Storage::Bricks, _) if config.keeps_corners() => 9,
@@ -275,7 +275,8 @@ mod tests {
     /// Table 3 of the paper: a node of a list is 8 bytes, a head 4, and depth bounds 8 a tile.
     #[test]
     fn published_lists_have_the_papers_bytes() {
-        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 a bucket, a node of 8.
+        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 a bucket,
+        // a node of 8.
         let published = Config { tile: 1, buckets: 4, ..Config::published(512) };
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
         let (formula, cells) = (formula_bytes(&published, &demand), cell_count(512));

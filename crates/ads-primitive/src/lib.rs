@@ -2,7 +2,8 @@
 //! faces of a cube around the eye, and rays are tested against what the tiles on their way list.
 //!
 //! Source: Vardis, Vasilakis, Papaioannou, "DIRT: Deferred image-based ray tracing", HPG 2016. Hits are those
-//! of the triangles themselves; the rules of the paper by which some are lost are options. See `docs/systems/dirt.md` for passes, bytes, options, limits and departures.
+//! of the triangles themselves; the rules of the paper by which some are lost are options. See
+//! `docs/systems/dirt.md` for passes, bytes, options, limits and departures.
 //!
 //! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 

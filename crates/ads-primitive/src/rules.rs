@@ -5,8 +5,8 @@
 pub enum Coverage {
     /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
     Conservative,
-    /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing): rays that pass
-    /// a listed triangle's neighbour are lost.
+    /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing):
+    /// rays that pass a listed triangle's neighbour are lost.
     Hardware,
 }
 
@@ -15,8 +15,8 @@ pub enum Coverage {
 pub enum Accept {
     /// By its t, wherever it lies.
     T,
-    /// Where the point projects into the tile that listed it (section 4.2.1): rounding at the tiles' borders loses hits, and
-    /// so does every tile that the march passes by.
+    /// Where the point projects into the tile that listed it (section 4.2.1): rounding at the tiles' borders
+    /// loses hits, and so does every tile that the march passes by.
     Tile,
 }
 
@@ -34,8 +34,8 @@ pub enum Stop {
 pub enum Depths {
     /// Those of all of it that lies in the tile.
     Clipped,
-    /// Those of its plane at the tile's corners (section 4.1.1, as the authors' program clips): part of the triangle may lie
-    /// outside of them.
+    /// Those of its plane at the tile's corners (section 4.1.1, as the authors' program clips): part of the
+    /// triangle may lie outside of them.
     Corners,
 }
 
@@ -44,6 +44,7 @@ pub enum Depths {
 pub enum March {
     /// Over the boundary at which it leaves the tile.
     Exact,
-    /// Half a pixel beyond that along the longer axis (the authors' program): tiles that are crossed in less are passed by.
+    /// Half a pixel beyond that along the longer axis (the authors' program): tiles that are crossed in less
+    /// are passed by.
     Jump,
 }

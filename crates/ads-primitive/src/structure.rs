@@ -91,8 +91,8 @@ impl PrimitiveLists {
         &self.config
     }
 
-    /// Columns, rows and slices of each view, one brick where there is no room for those that the geometry asks for; and
-    /// whether there is.
+    /// Columns, rows and slices of each view, one brick where there is no room for those that the geometry
+    /// asks for; and whether there is.
     fn cells(&self) -> ([u32; 3], bool) {
         let wanted = self.config.cells(&self.geometry);
         let room = self.pools.sizes().elements(cells_pool(self.config.storage));

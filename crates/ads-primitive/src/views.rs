@@ -9,8 +9,8 @@ use crate::config::{BRICK_SIDE, SIDE_LIMIT};
 pub enum Views {
     /// Six faces of a cube around a centre, as in the paper: cells grow with the distance.
     Cube,
-    /// Bricks only: one box of cells of one size around the geometry, seen along an axis, which are the cells of views along
-    /// the other two axes as well. Nothing depends on the eye but how far away rays may start.
+    /// Bricks only: one box of cells of one size around the geometry, seen along an axis, which are the cells
+    /// of views along the other two axes as well. Nothing depends on the eye but how far away rays may start.
     Axes,
 }
 
@@ -36,15 +36,15 @@ const EYE_LIMIT: f32 = 3.5;
 /// Margins of a distant eye are no wider than this share of a cell.
 const WIDEST_MARGIN: f64 = 0.125;
 
-/// The bounds (lower, upper) are wider than the geometry by this many margins below and twice as many above: sides lie well
-/// within a cell then, and so does the middle.
+/// The bounds (lower, upper) are wider than the geometry by this many margins below and twice as many above:
+/// sides lie well within a cell then, and so does the middle.
 const WIDENING: f64 = 4.0;
 
 /// Half the longest side of what has no size: all that follows from it stays within the range of numbers.
 const SMALLEST_REACH: f32 = 1.0e-30;
 
-/// Cells along each axis, multiples of 4, for bounds (lower, upper) in metres and that many triangles: `along` on the longest
-/// side, or as many as make a cell about as wide as a triangle is.
+/// Cells along each axis, multiples of 4, for bounds (lower, upper) in metres and that many triangles:
+/// `along` on the longest side, or as many as make a cell about as wide as a triangle is.
 pub(crate) fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));
     let longest = extent.into_iter().fold(0.0_f64, f64::max);

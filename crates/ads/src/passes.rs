@@ -162,8 +162,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// A labelled pass of several dispatches one after the other, each with its number as step; no pass where there are no
-    /// workgroups.
+    /// A labelled pass of several dispatches one after the other, each with its number as step; no pass where
+    /// there are no workgroups.
     pub fn rounds_pass(
         &self,
         recorder: &mut Recorder<'_>,
@@ -217,7 +217,8 @@ impl BuildTarget<'_> {
         self.raster_views(recorder, label, pipeline, &[ViewDraw { side, views, first: 0 }]);
     }
 
-    /// The same for views of several sizes. Passes learn the number of a draw's first view where others learn their step.
+    /// The same for views of several sizes. Passes learn the number of a draw's first view where others learn
+    /// their step.
     pub fn raster_views(
         &self,
         recorder: &mut Recorder<'_>,

@@ -9,7 +9,8 @@ use crate::{AdsError, Counters, Geometry, RayQueue, Viewpoint};
 pub enum StructureKind {
     /// Triangles: no missed, false or wrong hit on unambiguous rays.
     Primitive,
-    /// Triangles, by the rules of a paper that lose some of them: a share of the hits that does not fall with the resolution.
+    /// Triangles, by the rules of a paper that lose some of them: a share of the hits that does not fall with
+    /// the resolution.
     LossyPrimitive,
     /// Stored fragments: errors follow a law in the resolution.
     Fragment,
@@ -116,7 +117,8 @@ pub struct StructureReport {
     pub diagnostic_bytes: u64,
     /// Fragments or entries stored; absent where the structure stores none.
     pub stored: Option<u64>,
-    /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them; absent where that is not counted.
+    /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them; absent
+    /// where that is not counted.
     pub lost: Option<u64>,
 }
 

@@ -51,8 +51,8 @@ pub struct Hit {
     pub primitive: u32,
     /// The structure's; weight of vertex 1 where hits are primitives.
     pub a: f32,
-    /// The structure's; weight of vertex 2 where hits are primitives, and the bits `HIT_STORED` where a fragment without them names its
-    /// triangle for diagnostics.
+    /// The structure's; weight of vertex 2 where hits are primitives, and the bits `HIT_STORED` where a
+    /// fragment without them names its triangle for diagnostics.
     pub b: f32,
 }
 

@@ -61,8 +61,9 @@ impl Visit {
         Ok(Self { label: label.to_owned(), passes: Passes::Raster(pipelines.raster(vertex, fragment)?) })
     }
 
-    /// Computes with `bin`, one invocation a triangle, and `many`, workgroups for those with many cells of a view, whose number
-    /// is three u32 at this byte of the header. The label gets the endings `_bin` and `_bin_many`.
+    /// Computes with `bin`, one invocation a triangle, and `many`, workgroups for those with many cells of a
+    /// view, whose number is three u32 at this byte of the header. The label gets the endings `_bin` and
+    /// `_bin_many`.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -115,8 +116,9 @@ impl PairsPass {
     }
 }
 
-/// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader `build_2_bounds.alpha`
-/// has compute shaders `build_2_bounds_bin.alpha` and `build_2_bounds_bin_many.alpha` beside it.
+/// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
+/// `build_2_bounds.alpha` has compute shaders `build_2_bounds_bin.alpha` and `build_2_bounds_bin_many.alpha`
+/// beside it.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
     /// What makes pipelines.
@@ -155,8 +157,8 @@ impl Visits<'_> {
     }
 }
 
-/// Workgroups for a triangle with many cells of a view: so many that the loops of no invocation turn more than `BIN_TURNS` times.
-/// `turns`: cells of the largest view, times those of a loop within each.
+/// Workgroups for a triangle with many cells of a view: so many that the loops of no invocation turn more
+/// than `BIN_TURNS` times. `turns`: cells of the largest view, times those of a loop within each.
 pub fn bin_groups(turns: u64) -> u32 {
     turns.div_ceil(u64::from(BIN_GROUP_SIZE) * BIN_TURNS as u64) as u32
 }

@@ -42,8 +42,9 @@ pub fn version_text() -> &'static str {
     &TEXT
 }
 
-/// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit
-/// code: 0 done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped by a signal.
+/// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit code: 0
+/// done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped
+/// by a signal.
 ///
 /// Takes over SIGINT and SIGTERM and writes to stdout and stderr; call it once in a process.
 pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend<'_>) -> u8 {

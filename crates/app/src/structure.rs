@@ -113,8 +113,8 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub page: Option<u32>,
-    /// Voxels along each side of the scene's cube, balanced with --resolution if not given; with --views axes of triangles, or
-    /// --storage bricks of voxels, cells along the longest side of the scene
+    /// Voxels along each side of the scene's cube, balanced with --resolution if not given; with --views axes
+    /// of triangles, or --storage bricks of voxels, cells along the longest side of the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<u32>,

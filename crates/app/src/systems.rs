@@ -31,8 +31,9 @@ impl SystemConfig {
         entry(self.name)
     }
 
-    /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion where nothing else is
-    /// asked for, unless a payload was given. Comparisons keep the preset's, since rays are compared beside the image.
+    /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
+    /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
+    /// are compared beside the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         let occlusion = workload.integrator == Integrator::AmbientOcclusion;
@@ -116,9 +117,10 @@ pub fn single(
     Ok(config)
 }
 
-/// Every named system with every named preset that it has. An option goes to the systems that have
-/// it; `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`), which takes part once with
-/// each of several values (`mmrt.samples=50,100`) and with every combination of them.
+/// Every named system with every named preset that it has. An option goes to the systems that have it;
+/// `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`),
+/// which takes part once with each of several values (`mmrt.samples=50,100`) and with every combination of
+/// them.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.

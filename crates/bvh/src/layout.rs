@@ -59,8 +59,9 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 pub struct FormulaBytes {
     /// What traces read: header 96, 64 a node, 40 a triangle.
     pub traced: u64,
-    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1024 for
-    /// every 256 of them, 4 for every 1024 of them, and 24 a union of four boxes, unions of unions included, each rounded up.
+    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1024
+    /// for every 256 of them, 4 for every 1024 of them, and 24 a union of four boxes, unions of unions
+    /// included, each rounded up.
     pub scratch: u64,
 }
 

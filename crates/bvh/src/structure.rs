@@ -111,8 +111,8 @@ impl Bvh {
         })
     }
 
-    /// Writes the tree back, as [`Bvh::download`] returned it or changed. Submits and waits: for tests and tools. Traces end
-    /// within their bounds whatever nodes say; the header is taken at its word.
+    /// Writes the tree back, as [`Bvh::download`] returned it or changed. Submits and waits: for tests and
+    /// tools. Traces end within their bounds whatever nodes say; the header is taken at its word.
     ///
     /// # Errors
     /// The tree is larger than what was allocated, or the device failed.

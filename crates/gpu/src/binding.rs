@@ -9,8 +9,8 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
-/// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders. Clones are handles to
-/// the same layout.
+/// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders.
+/// Clones are handles to the same layout.
 #[derive(Clone)]
 pub struct SetLayout {
     pub(crate) inner: Arc<SetLayoutInner>,

@@ -8,9 +8,9 @@
 //! **Who owns what.** [`Device::create`] owns instance, device and queue. [`Device::from_raw`] owns none of
 //! them: the host keeps everything it hands in and destroys it after the last object made from the [`Device`]
 //! is gone. Buffers, set layouts, binding sets, pipelines and timers are cheap handles to counted values;
-//! each keeps its device alive, a binding set keeps its buffers and layout, a pipeline its set layouts. A value
-//! is destroyed when its last handle is dropped, so what a pending command buffer uses must outlive it. Pipelines of the same
-//! making are one; [`Device::keep_pipelines`] keeps some that are not in use.
+//! each keeps its device alive, a binding set keeps its buffers and layout, a pipeline its set layouts. A
+//! value is destroyed when its last handle is dropped, so what a pending command buffer uses must outlive it.
+//! Pipelines of the same making are one; [`Device::keep_pipelines`] keeps some that are not in use.
 //!
 //! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
 //! [`Device::submit`], [`Device::upload`] and [`Device::download`] submit and wait with a timeout; they are for

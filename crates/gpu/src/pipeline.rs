@@ -111,8 +111,8 @@ impl RasterPipeline {
 }
 
 impl Device {
-    /// A compute pipeline. Asked for again with the same module, constants and layouts it is the same one, as long as there
-    /// is a handle to it or [`Device::keep_pipelines`] keeps it.
+    /// A compute pipeline. Asked for again with the same module, constants and layouts it is the same one, as
+    /// long as there is a handle to it or [`Device::keep_pipelines`] keeps it.
     ///
     /// # Errors
     /// [`GpuError::InvalidShader`] for words that are no module, [`GpuError::LimitExceeded`] for too many
@@ -225,9 +225,9 @@ impl Device {
         Ok(RasterPipeline { inner })
     }
 
-    /// Keeps up to `count` pipelines that no handle is left to, so that they need not be compiled again; 0 unless set.
-    /// Beyond that the longest unused are destroyed. For those who make structures again and again: a change of options, or
-    /// an experiment over many of them.
+    /// Keeps up to `count` pipelines that no handle is left to, so that they need not be compiled again; 0
+    /// unless set. Beyond that the longest unused are destroyed. For those who make structures again and
+    /// again: a change of options, or an experiment over many of them.
     pub fn keep_pipelines(&self, count: usize) {
         self.core.pipelines.keep(&self.core, count);
     }

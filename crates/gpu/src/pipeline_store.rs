@@ -1,7 +1,7 @@
 //! The pipelines of a device: one of a kind, however many handles there are.
 //!
-//! Compiling is what most of the time of making a structure goes to, and structures of one device share passes: what was made
-//! of the same modules, constants and layouts is the same pipeline.
+//! Compiling is what most of the time of making a structure goes to, and structures of one device share
+//! passes: what was made of the same modules, constants and layouts is the same pipeline.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -135,8 +135,8 @@ impl Books {
             let Some((_, recipe)) = self.idle.pop_first() else { return };
             let Some(entry) = self.entries.remove(&recipe) else { continue };
             if core.is_usable() {
-                // SAFETY: there is no handle to it. Submissions that use a pipeline hold one, so none is pending; embedders
-                // keep what they record alive.
+                // SAFETY: there is no handle to it. Submissions that use a pipeline hold one, so none is
+                // pending; embedders keep what they record alive.
                 unsafe { entry.made.destroy(core) };
             }
         }

@@ -58,8 +58,8 @@ pub enum Making {
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
     Index,
-    /// Colour and opacity 8:8:8:8 and normal 16:16: 8 bytes, read from a scene. Surfaces come from these, and what else a
-    /// surface has takes its default. Needs [`Accept::Tolerance`]: the others ask the triangle.
+    /// Colour and opacity 8:8:8:8 and normal 16:16: 8 bytes, read from a scene. Surfaces come from these, and
+    /// what else a surface has takes its default. Needs [`Accept::Tolerance`]: the others ask the triangle.
     Attributes,
 }
 
@@ -90,8 +90,8 @@ pub struct Config {
     pub depth: Depth,
     /// What a fragment carries. Hits that do not name their triangle have `PRIMITIVE_UNKNOWN` and cannot be excluded.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it, and nothing else
-    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it,
+    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
     /// Skip blocks and parts of lists that the ray's depths cannot meet. Changes no hit.
     pub skip: bool,

@@ -80,8 +80,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have been visited two of each
-/// long list; or one of each layer that is peeled.
+/// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have
+/// been visited two of each long list; or one of each layer that is peeled.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
     let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
     let sorted_or_peeled = match config.making {
@@ -133,8 +133,8 @@ pub struct FormulaBytes {
     pub fringe: u64,
     /// With ids: 4 per fragment.
     pub ids: u64,
-    /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where that is more 4 per
-    /// triangle with many cells where they are binned.
+    /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where
+    /// that is more 4 per triangle with many cells where they are binned.
     pub rest: u64,
 }
 

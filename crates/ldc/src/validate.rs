@@ -173,9 +173,9 @@ fn half(bits: u32) -> f32 {
     }
 }
 
-/// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they should be,
-/// that depths lie within those of their blocks, that fragments which name triangles name some that exist, and that every
-/// node of the fringe is in exactly one list.
+/// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they
+/// should be, that depths lie within those of their blocks, that fragments which name triangles name some
+/// that exist, and that every node of the fringe is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use crate::Scene;
 
-/// Areas of a scene's triangles as the axes see them, in square metres. Seen along an axis, a triangle of area A and unit
-/// normal n leaves fragments in proportion to A times the magnitude of n's component along it.
+/// Areas of a scene's triangles as the axes see them, in square metres. Seen along an axis, a triangle of
+/// area A and unit normal n leaves fragments in proportion to A times the magnitude of n's component along
+/// it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Facing {
     /// Sum over triangles of the area seen along the axis each faces most: max|n| A.
@@ -45,8 +46,9 @@ impl Facing {
         }
     }
 
-    /// The share of the fragments of three views along the axes that keeping each triangle in the view it faces most saves,
-    /// were cells infinitely small: 1 - `most` / `all`, between 0 (walls along the axes) and 2/3. `None` without area.
+    /// The share of the fragments of three views along the axes that keeping each triangle in the view it
+    /// faces most saves, were cells infinitely small: 1 - `most` / `all`, between 0 (walls along the axes)
+    /// and 2/3. `None` without area.
     pub fn saved_by_one_view(self) -> Option<f64> {
         (self.all > 0.0).then(|| 1.0 - self.most / self.all)
     }

@@ -35,7 +35,8 @@ pub struct System {
     pub presets: &'static [Preset],
     /// Options it has, by their names on the command line.
     pub options: &'static [&'static str],
-    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has none of its own for it.
+    /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
+    /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,
     /// The structure that a spec traces, as crates and shaders name it.
     pub(crate) structure: fn(&Spec) -> &'static str,

@@ -10,8 +10,9 @@ use rasray_gpu::{Device, PassTiming, Timing};
 use crate::share::Shares;
 use crate::{Replay, TracerError};
 
-/// Traces batches of rays of any length through a queue of fixed capacity. A submission to a structure that has not been
-/// traced yet is small, and later ones hold as many rays as fit into a second; which rays share a submission changes no hit.
+/// Traces batches of rays of any length through a queue of fixed capacity. A submission to a structure that
+/// has not been traced yet is small, and later ones hold as many rays as fit into a second; which rays share
+/// a submission changes no hit.
 #[derive(Debug)]
 pub struct BatchTracer {
     device: Device,

@@ -17,8 +17,8 @@ pub enum Axes {
 /// What makes a voxel one in which something lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
-    /// The fragments in it alone, in the pass that counts or stores them. What a triangle reaches into between the centres of cells is taken for
-    /// empty. Needs [`Axes::All`].
+    /// The fragments in it alone, in the pass that counts or stores them. What a triangle reaches into
+    /// between the centres of cells is taken for empty. Needs [`Axes::All`].
     Fragments,
     /// The triangles that reach into it, in a pass before: no voxel with a part of one is taken for empty.
     Triangles,
@@ -122,8 +122,8 @@ pub struct Config {
     pub builder: Builder,
     /// What a fragment carries.
     pub payload: Payload,
-    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Material`]. Hits then name it, and nothing else
-    /// follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
+    /// For diagnostics: keep the triangle of each fragment behind [`Payload::Material`]. Hits then name it,
+    /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
     /// How lists are kept.
     pub storage: Storage,
@@ -166,8 +166,8 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, linked in one pass, what is shaded in each fragment, three steps in a voxel, and
-    /// parities.
+    /// Hu et al.: everything in all views, linked in one pass, what is shaded in each fragment, three steps
+    /// in a voxel, and parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,

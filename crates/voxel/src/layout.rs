@@ -72,8 +72,8 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// Words for the sums of the scan where lists are counted, and behind them for the triangles with many cells, and once those have
-/// been visited for two of each long list.
+/// Words for the sums of the scan where lists are counted, and behind them for the triangles with many cells,
+/// and once those have been visited for two of each long list.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
     let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
     let long = if config.storage == Storage::Contiguous { 2 * demand.long_lists } else { 0 };
@@ -102,8 +102,8 @@ pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     }
 }
 
-/// Turns of the loops over the cells of a view, or over the columns of voxels and the few of each that a triangle reaches into in
-/// the view it faces most.
+/// Turns of the loops over the cells of a view, or over the columns of voxels and the few of each that a
+/// triangle reaches into in the view it faces most.
 pub(crate) fn widest_view(config: &Config) -> u64 {
     let cells = |side: u32| (u64::from(side) + 2).pow(2);
     cells(config.resolution).max(8 * cells(config.grid()))
@@ -143,8 +143,8 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
-    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where that is more 4 per
-    /// triangle with many cells where they are binned.
+    /// Header; with contiguous lists a sum of 4 per 1024 lists for the scan, and 8 per long list; or where
+    /// that is more 4 per triangle with many cells where they are binned.
     pub rest: u64,
 }
 

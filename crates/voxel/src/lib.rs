@@ -1,9 +1,11 @@
-//! A voxel grid over three axis A-buffers: the rasterizer stores the fragments of three orthographic views of the scene's
-//! cube, and marks the voxels they lie in. Rays step through the voxels, and search the views of those that are marked.
+//! A voxel grid over three axis A-buffers: the rasterizer stores the fragments of three orthographic views of
+//! the scene's cube, and marks the voxels they lie in. Rays step through the voxels, and search the views of
+//! those that are marked.
 //!
-//! Sources: Hu, Huang, Zhang, Yuan, Li, "Ray tracing via GPU rasterization", The Visual Computer 30 (2014); Frid Kastrati,
-//! Goswami, "Selective rasterized raytracing", 2017, which keeps each fragment in one view only. See `docs/systems/hu.md`
-//! and `docs/systems/selective.md` for passes, bytes, options, limits and departures.
+//! Sources: Hu, Huang, Zhang, Yuan, Li, "Ray tracing via GPU rasterization", The Visual Computer 30 (2014);
+//! Frid Kastrati, Goswami, "Selective rasterized raytracing", 2017, which keeps each fragment in one view
+//! only. See `docs/systems/hu.md` and `docs/systems/selective.md` for passes, bytes, options, limits and
+//! departures.
 //!
 //! [`Voxels`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 

@@ -230,9 +230,9 @@ impl Structure for Voxels {
     }
 
     fn rounds(&self) -> u32 {
-        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are not sorted at most
-        // so many as are as long as the longest: there each point of a parity reads one, where a voxel is entered, the steps
-        // in it, halvings, and for the nearest.
+        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
+        // not sorted at most so many as are as long as the longest: there each point of a parity reads one,
+        // where a voxel is entered, the steps in it, halvings, and for the nearest.
         let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
         let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
         let points = match (self.config.accept, self.config.march) {

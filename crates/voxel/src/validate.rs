@@ -12,8 +12,8 @@ pub struct Contents {
     pub header: Header,
     /// Four bits a voxel: the axes it is searched along, and whether something lies in it.
     pub voxels: Vec<u32>,
-    /// Of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads to the newest
-    /// page. 0 where a linked list is empty.
+    /// Of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads
+    /// to the newest page. 0 where a linked list is empty.
     pub lists: Vec<u32>,
     /// Depth and triangle of each fragment, or depth, triangle or terms of the material, colour and normal; where it is
     /// linked its link behind these. Of a page the word that leads to the next one, and fragments.
@@ -198,9 +198,9 @@ impl Contents {
     }
 }
 
-/// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and, where it names a
-/// triangle, names one of `triangles`, that lists are sorted where they should be, and that voxels are searched iff something
-/// lies in them.
+/// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and,
+/// where it names a triangle, names one of `triangles`, that lists are sorted where they should be, and that
+/// voxels are searched iff something lies in them.
 ///
 /// # Errors
 /// The first fault found.

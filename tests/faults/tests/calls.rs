@@ -18,8 +18,8 @@ const SYSTEMS: [(&str, Counts<usize>); 2] = [
     ("mmrt", Counts { quick: 8, software: 100, full: ALL }),
 ];
 
-/// After so many failed calls it is looked whether the next render gives the same picture; in the full tier after each, as
-/// always for what is left behind.
+/// After so many failed calls it is looked whether the next render gives the same picture; in the full tier
+/// after each, as always for what is left behind.
 const LOOK: Counts<usize> = Counts { quick: 6, software: 1, full: 1 };
 
 /// What must be as before after a failure.

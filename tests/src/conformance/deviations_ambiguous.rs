@@ -1,5 +1,5 @@
-//! Rays that rounding decides, aimed at edges, corners and seams: where structures that may answer some rays wrongly do so
-//! more often than elsewhere.
+//! Rays that rounding decides, aimed at edges, corners and seams: where structures that may answer some rays
+//! wrongly do so more often than elsewhere.
 
 use super::Deviation;
 use super::deviations::deviation;
@@ -11,8 +11,8 @@ const SEAM: &str = "rays along the seams of three views, where neither may cover
 const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is passed by";
 const LEAKS: &str = "corners of a closed box, at which a sample's depths leave a gap";
 
-/// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to others. Where that
-/// allows half of them or more, nothing is demanded of ambiguous ones.
+/// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to
+/// others. Where that allows half of them or more, nothing is demanded of ambiguous ones.
 const TIMES: f64 = 2.0;
 
 /// Or this, if that is more: few cases aim more than a handful of rays so.
@@ -32,8 +32,8 @@ const DEVIATIONS: &[(&str, Deviation)] = &[
     ("mmrt-published-128", deviation("P6", LEAKS, 0.03, 0.14)),
 ];
 
-/// The least and the largest share of ambiguous rays that a row may answer inadmissibly on a case where `limit` bounds its
-/// wrong answers to others, and why.
+/// The least and the largest share of ambiguous rays that a row may answer inadmissibly on a case where
+/// `limit` bounds its wrong answers to others, and why.
 pub(super) fn bounds(row: &str, case: &str, limit: f64) -> ([f64; 2], &'static str) {
     let excused = DEVIATIONS.iter().find(|(name, deviation)| *name == row && deviation.case == case);
     excused.map_or(([0.0, (TIMES * limit).max(SHARE)], "the bound of other rays, twice"), |(_, deviation)| {

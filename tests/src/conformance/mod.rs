@@ -5,10 +5,11 @@
 //! rate must lie in, so that an unexpected pass fails as well. Rows that find triangles without loss may
 //! carry none.
 //!
-//! Another structure needs one row in a file of its own, listed in [`ROWS`], once its system is in the registry: a name,
-//! the system, the preset, options, and [`Demand::Exact`], [`Demand::Law`] or [`Demand::Loss`]. The tests hold every row without being told; one of
-//! them fails for a preset of the registry that no row stands for. A list of deviations starts empty: the first run
-//! reports every case whose rate is beyond the law, with the rate. `RASRAY_RATES=1` with `--nocapture` prints all rates.
+//! Another structure needs one row in a file of its own, listed in [`ROWS`], once its system is in the
+//! registry: a name, the system, the preset, options, and [`Demand::Exact`], [`Demand::Law`] or
+//! [`Demand::Loss`]. The tests hold every row without being told; one of them fails for a preset of the
+//! registry that no row stands for. A list of deviations starts empty: the first run reports every case whose
+//! rate is beyond the law, with the rate. `RASRAY_RATES=1` with `--nocapture` prints all rates.
 //!
 //! Rates are judged by their interval, so that all judgements together are wrong with a probability of at
 //! most [`FALSE_ALARM`] where every law holds, whatever the seed.

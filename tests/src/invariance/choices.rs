@@ -9,8 +9,8 @@ pub fn takes<'a>(subject: &Subject, mut others: impl Iterator<Item = &'a Law>, c
         })
 }
 
-/// The options of a subject that may not change a hit, each with the values that it takes alone or beside one other choice of
-/// these: pages go with paged lists only.
+/// The options of a subject that may not change a hit, each with the values that it takes alone or beside one
+/// other choice of these: pages go with paged lists only.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let laws: Vec<_> = subject
         .spec

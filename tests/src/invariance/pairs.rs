@@ -10,10 +10,9 @@ pub struct Pairs {
     pub refused: Vec<Pair>,
 }
 
-/// Choices in which every pair of values of two options occurs that goes with the first values of the others, or with all but two
-/// of them. `values` says how
-/// many values each option has, `allowed` whether all values of a choice go together. Greedy, always the same for the same
-/// input.
+/// Choices in which every pair of values of two options occurs that goes with the first values of the others,
+/// or with all but two of them. `values` says how many values each option has, `allowed` whether all values
+/// of a choice go together. Greedy, always the same for the same input.
 pub fn pairwise(values: &[usize], allowed: impl Fn(&[usize]) -> bool) -> Pairs {
     let mut open: Vec<Pair> = Vec::new();
     for (a, &of_a) in values.iter().enumerate() {

@@ -63,7 +63,8 @@ pub struct Answers {
 }
 
 impl Subject {
-    /// Every preset of every system of the registry, and the presets of the registry with options that make more of them.
+    /// Every preset of every system of the registry, and the presets of the registry with options that make
+    /// more of them.
     ///
     /// # Panics
     /// If the device fails or a preset cannot be made.
@@ -104,7 +105,8 @@ impl Subject {
         )
     }
 
-    /// The same with other values of options; absent where the system does not take them, or makes another structure of them.
+    /// The same with other values of options; absent where the system does not take them, or makes another
+    /// structure of them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
         let all = self.spec.options().clone().into_iter().chain(given);

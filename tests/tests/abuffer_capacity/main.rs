@@ -47,7 +47,8 @@ fn room(fragments: u64, near_triangles: u64) -> Demand {
     Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
 }
 
-/// What rays meet, bit for bit. Of fragments without an id a and b name a node, whose number follows the order of threads.
+/// What rays meet, bit for bit. Of fragments without an id a and b name a node, whose number follows the
+/// order of threads.
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<[u32; 4]> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
     assert_eq!((counters.not_ready, counters.unfinished), (0, 0));

@@ -28,8 +28,8 @@ const BRUTE_FORCE: usize = 20;
 /// The largest rate of errors that a law may allow.
 const LARGEST_LIMIT: f64 = 0.75;
 
-/// Cases of surfaces that coincide, where answers could depend on the order in which threads ran: built and traced again and
-/// again.
+/// Cases of surfaces that coincide, where answers could depend on the order in which threads ran: built and
+/// traced again and again.
 const REPEATED: &[&str] = &["Z4", "Z14", "C10"];
 
 /// How often, in the quick tier and in the full one.
@@ -53,8 +53,9 @@ impl Held {
     }
 }
 
-/// With `RASRAY_PROGRESS` set, says what comes next on the real standard error, with the seconds since the first word: the
-/// last line of a log then tells where a driver ended the program, and all of them where its time went.
+/// With `RASRAY_PROGRESS` set, says what comes next on the real standard error, with the seconds since the
+/// first word: the last line of a log then tells where a driver ended the program, and all of them where its
+/// time went.
 fn progress(what: &str) {
     static BEGUN: OnceLock<Instant> = OnceLock::new();
     if std::env::var_os("RASRAY_PROGRESS").is_some() {

@@ -162,9 +162,9 @@ pub(super) struct Built {
 }
 
 impl Built {
-    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until complete. Where a pool
-    /// exceeds what one binding can hold and nothing was said of addressing, the pools are reached by
-    /// device address instead.
+    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until
+    /// complete. Where a pool exceeds what one binding can hold and nothing was said of addressing, the pools
+    /// are reached by device address instead.
     pub(super) fn new(
         device: &Device,
         spec: &Spec,

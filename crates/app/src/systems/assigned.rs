@@ -15,8 +15,8 @@ pub(super) struct Assigned {
 }
 
 impl Assigned {
-    /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50` with the parser of the command line, so that both
-    /// know the same values.
+    /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50` with the parser of the
+    /// command line, so that both know the same values.
     pub(super) fn read(text: &str) -> Result<Self, AppError> {
         #[derive(Parser)]
         #[command(no_binary_name = true, disable_help_flag = true)]
