@@ -70,7 +70,8 @@ bool abuffer_has_extent() {
     return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 }
 
-// Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the head of its fringe.
+// Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the
+// head of its fringe.
 uint abuffer_bounds_stride() {
     uint ends = abuffer_has_ends() ? 2u : 0u;
     uint extent = abuffer_has_extent() ? (abuffer_has_buckets() ? 2u : 1u) : 0u;
@@ -123,8 +124,8 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
 }
 
-// The same for one end alone, where only the nearest fragments are kept: the near one is known before they are stored, the
-// far one is that of what is.
+// The same for one end alone, where only the nearest fragments are kept: the near one is known before they
+// are stored, the far one is that of what is.
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()], ~floatBitsToUint(z));
 }
@@ -157,7 +158,8 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
-// Sets of marks of triangles: those that have a fragment, and where that decides what the fringe keeps, those that it does.
+// Sets of marks of triangles: those that have a fragment, and where that decides what the fringe keeps, those
+// that it does.
 uint abuffer_mark_sets() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;
 }

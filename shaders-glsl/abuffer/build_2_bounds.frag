@@ -1,4 +1,5 @@
-// What: depth bounds of each cell, of storages with buckets; of a single layer its smallest depth alone, whatever the storage.
+// What: depth bounds of each cell, of storages with buckets; of a single layer its smallest depth alone,
+// whatever the storage.
 // Reads: geometry, header. Writes: bounds.
 // Source: MMRT section 3.3, first geometry pass.
 #version 460

@@ -1,5 +1,5 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with FRINGE those that it may
-// reach into.
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with FRINGE
+// those that it may reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
 #version 460

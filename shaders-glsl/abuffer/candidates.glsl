@@ -14,8 +14,9 @@ bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
 }
 
-// Judges the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if it may. Rays that
-// leave a surface begin a cell off it, so that they need not be told from others. The caller counts the test.
+// Judges the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
+// it may. Rays that leave a surface begin a cell off it, so that they need not be told from others. The
+// caller counts the test.
 void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {
     precise vec3 origin = ray.origin - abuffer_eye(s);
     float t;

@@ -27,15 +27,16 @@
 #define ABUFFER_PAYLOAD_NORMAL 2u
 #define ABUFFER_PAYLOAD_PLANE 3u
 
-// Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its centre are kept, so
-// that triangles can be tested in place of planes; edge-on: of these only such as no cell keeps or as are seen edge-on.
+// Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its
+// centre are kept, so that triangles can be tested in place of planes; edge-on: of these only such as no cell
+// keeps or as are seen edge-on.
 #define ABUFFER_COVERAGE_HARDWARE 0u
 #define ABUFFER_COVERAGE_EXACT 1u
 #define ABUFFER_COVERAGE_CONSERVATIVE 2u
 #define ABUFFER_COVERAGE_EDGE_ON 3u
 
-// How much farther than wide, in cells, a triangle's plane must reach in depth over a cell to count as seen edge-on there: about
-// seven degrees.
+// How much farther than wide, in cells, a triangle's plane must reach in depth over a cell to count as seen
+// edge-on there: about seven degrees.
 #define ABUFFER_EDGE_ON_SLOPE 8.0
 
 // How the fragments of a cell are kept.
@@ -46,8 +47,8 @@
 #define ABUFFER_STORAGE_SB 4u
 #define ABUFFER_STORAGE_PAGED 5u
 
-// Longest list that the reorder pass sorts at once, and steps that suffice for it, which is merged ten times. Longer lists
-// are sorted a share a dispatch.
+// Longest list that the reorder pass sorts at once, and steps that suffice for it, which is merged ten times.
+// Longer lists are sorted a share a dispatch.
 #define ABUFFER_SORT_LIMIT 1024u
 #define ABUFFER_SORT_STEPS 24000u
 

@@ -1,8 +1,9 @@
 // What: leaps of the exact march over blocks of cells that hold nothing at a ray's depths.
 // Reads: header, bounds. Writes: nothing.
 // Source: not in the paper; DIRT section 4.2.1 leaps over tiles.
-// What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be the same, with the
-// same stays, with leaps and without. Left out are only cells whose fragments the search would refuse one by one.
+// What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be
+// the same, with the same stays, with leaps and without. Left out are only cells whose fragments the search
+// would refuse one by one.
 #ifndef ABUFFER_LEAP_GLSL
 #define ABUFFER_LEAP_GLSL
 
@@ -18,8 +19,9 @@ vec2 abuffer_leap_depths(float origin_z, float direction_z, float t_low, float t
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }
 
-// Passes by the cell that a walk has come to, and all in the largest block around it that it may. False where the cell must be
-// searched; else `more` says whether the walk goes on. Each level that is looked at is a unit of work; a view has at most 14.
+// Passes by the cell that a walk has come to, and all in the largest block around it that it may. False where
+// the cell must be searched; else `more` says whether the walk goes on. Each level that is looked at is a
+// unit of work; a view has at most 14.
 bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, float best, inout uint work, out bool more) {
     more = true;
     if (any(notEqual(walk.searched, walk.cells.cell))) {

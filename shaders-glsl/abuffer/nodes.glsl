@@ -85,8 +85,9 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
     return words;
 }
 
-// Whether a fragment's payload has the lower words, the first that differ: nearly always the first of all, so that a loop that ends
-// there costs less than one that is unrolled. Not for sorts, whose steps leave no room for iterations beside their own.
+// Whether a fragment's payload has the lower words, the first that differ: nearly always the first of all, so
+// that a loop that ends there costs less than one that is unrolled. Not for sorts, whose steps leave no room
+// for iterations beside their own.
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;

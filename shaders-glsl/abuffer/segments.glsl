@@ -1,7 +1,7 @@
 // What: the stretches of a ray, one after the other: what the camera sees of it, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
-// Source: MMRT section 3.4. Every view that sees a stretch is marched and the nearest hit counts. The camera comes first: what
-// it finds ends the faces early.
+// Source: MMRT section 3.4. Every view that sees a stretch is marched and the nearest hit counts. The camera
+// comes first: what it finds ends the faces early.
 #ifndef ABUFFER_SEGMENTS_GLSL
 #define ABUFFER_SEGMENTS_GLSL
 

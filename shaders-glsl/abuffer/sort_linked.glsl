@@ -118,8 +118,8 @@ uint abuffer_sort_step(AbufferRef s, uint list, inout AbufferMerge merge) {
     return SORT_PASSED;
 }
 
-// Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than `limit` nodes stay as
-// they are.
+// Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than
+// `limit` nodes stay as they are.
 uint abuffer_sort_linked(AbufferRef s, uint list, uint limit, uint steps) {
     uint count = abuffer_sort_count(s, list, limit);
     if (count > limit) {
@@ -143,9 +143,10 @@ uint abuffer_sort_linked(AbufferRef s, uint list, uint limit, uint steps) {
     return SORT_MORE;
 }
 
-// Sorts the lists first, first + stride, ... that come before `end`, ABUFFER_SORT_LISTS at most. The set of those that stay as
-// they are, by bits: they are longer than ABUFFER_SORT_LIMIT, or ABUFFER_SORT_STEPS do not suffice for them beside those before.
-// That follows from the numbers of nodes alone, in whatever order they stand.
+// Sorts the lists first, first + stride, ... that come before `end`, ABUFFER_SORT_LISTS at most. The set of
+// those that stay as they are, by bits: they are longer than ABUFFER_SORT_LIMIT, or ABUFFER_SORT_STEPS do not
+// suffice for them beside those before. That follows from the numbers of nodes alone, in whatever order they
+// stand.
 uint abuffer_sort_several(AbufferRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;
     uint left_over = 0u;

@@ -1,4 +1,5 @@
-// What: the plane of a fragment's triangle in full as its payload: hits lie on it, and nothing else of the triangle is asked for.
+// What: the plane of a fragment's triangle in full as its payload: hits lie on it, and nothing else of the
+// triangle is asked for.
 // Reads: geometry, when packing. Writes: nothing.
 // Source: not in the paper; what plane acceptance needs of a triangle, stored beside the fragment.
 // Words 0 to 2: unit normal. Word 3: distance of the plane from the eye along it, metres. Both as floats.
@@ -7,8 +8,8 @@
 
 #include "ads/geometry.glsl"
 
-// Of a triangle around a point of it. The distance is that of this point, so that errors of the normal count over the cell
-// alone, not over the triangle.
+// Of a triangle around a point of it. The distance is that of this point, so that errors of the normal count
+// over the cell alone, not over the triangle.
 uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     vec3 a;
     vec3 b;

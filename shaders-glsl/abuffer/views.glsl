@@ -1,7 +1,7 @@
 // What: the views of an A-buffer: the faces of a cube around the eye, what the camera at the eye sees, or both.
 // Reads: header. Writes: nothing.
-// Source: MMRT section 3.1. Every view is a pyramid |x| <= z, |y| <= z with a border of one cell; turning a point into the
-// camera's rounds, turning it into a face does not.
+// Source: MMRT section 3.1. Every view is a pyramid |x| <= z, |y| <= z with a border of one cell; turning a
+// point into the camera's rounds, turning it into a face does not.
 #ifndef ABUFFER_VIEWS_GLSL
 #define ABUFFER_VIEWS_GLSL
 
@@ -21,7 +21,8 @@ uint abuffer_resolution(AbufferRef s, uint view) {
     return view == ABUFFER_CAMERA ? ABUFFER_HEADER(s).camera_resolution : ABUFFER_HEADER(s).resolution;
 }
 
-// Common centre of the views. A function: with addresses, glslang does not end where precise expressions follow a reference.
+// Common centre of the views. A function: with addresses, glslang does not end where precise expressions
+// follow a reference.
 vec3 abuffer_eye(AbufferRef s) {
     return ABUFFER_HEADER(s).eye;
 }

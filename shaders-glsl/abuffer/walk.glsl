@@ -1,7 +1,7 @@
 // What: where a ray stands on its way through the cells of a view, and how that is kept between two dispatches.
 // Reads: header. Writes: nothing.
-// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list, 7 the cell being
-// searched, or the sample, or the place in the near list.
+// cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list,
+// 7 the cell being searched, or the sample, or the place in the near list.
 #ifndef ABUFFER_WALK_GLSL
 #define ABUFFER_WALK_GLSL
 

@@ -2,9 +2,9 @@
 // which view it faces most, which cells' centres it covers, which cells it reaches into, and the screen triangle that
 // makes the rasterizer visit at least those.
 // Reads, writes: nothing.
-// View 0 looks along x, 1 along y, 2 along z. In the frame of a view the origin is the lower corner of the cube, z is
-// depth, and the order of axes is turned, which is exact. A view has `resolution` cells a side and a border of one, as a
-// face of a cube around an eye has (ads/views.glsl); nothing lies in the border.
+// View 0 looks along x, 1 along y, 2 along z. In the frame of a view the origin is the lower corner of the
+// cube, z is depth, and the order of axes is turned, which is exact. A view has `resolution` cells a side and
+// a border of one, as a face of a cube around an eye has (ads/views.glsl); nothing lies in the border.
 #ifndef ADS_AXIS_VIEWS_GLSL
 #define ADS_AXIS_VIEWS_GLSL
 
@@ -60,8 +60,8 @@ vec4 axis_proposal(AxisView view, vec3 a, vec3 b, vec3 c, uint corner, float mar
         view.resolution, margin * 2.0 / float(view.resolution));
 }
 
-// First and last cell, border included, whose centre may be within `margin` cells of the triangle a, b, c (frame of the view);
-// false where there is none.
+// First and last cell, border included, whose centre may be within `margin` cells of the triangle a, b, c
+// (frame of the view); false where there is none.
 bool axis_cells(AxisView view, vec3 a, vec3 b, vec3 c, float margin, out ivec2 lower, out ivec2 upper) {
     return coverage_cells(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), view.resolution,
         margin * 2.0 / float(view.resolution), lower, upper);

@@ -1,5 +1,6 @@
 // What: triangles with many cells of a view, which binning builders leave to a pass with workgroups for each.
-// The including file says where they are kept: PairRef, PAIR_HEADER(s) with pairs and groups, PAIR_WORD(s, place), PAIR_CAPACITY(s).
+// The including file says where they are kept: PairRef, PAIR_HEADER(s) with pairs and groups, PAIR_WORD(s,
+// place), PAIR_CAPACITY(s).
 // Reads, writes: pairs, header.pairs, header.groups.
 #ifndef ADS_BIN_PAIRS_GLSL
 #define ADS_BIN_PAIRS_GLSL

@@ -1,5 +1,6 @@
-// What: the one place that says what binning passes do with a triangle in a view. A structure whose fragments may be built by
-// computing has a file binned.glsl that includes ads/bin_pairs.glsl and defines bin_built, a PairRef, and
+// What: the one place that says what binning passes do with a triangle in a view. A structure whose fragments
+// may be built by computing has a file binned.glsl that includes ads/bin_pairs.glsl and defines bin_built, a
+// PairRef, and
 //   uint bin_view_count()                                     views that are built
 //   Bin                                                       a triangle in a view, with `lower` and `upper`, the first and last
 //                                                             cell that the pass may visit, and whether they are `many`

@@ -1,13 +1,15 @@
-// What: the planes between cells of one box of columns, rows and slices along the axes of the world, as bricks are marched: a view
-// along z in which all cells have one size. ads/brick_cube.glsl has those of a cube's faces.
+// What: the planes between cells of one box of columns, rows and slices along the axes of the world, as
+// bricks are marched: a view along z in which all cells have one size. ads/brick_cube.glsl has those of a
+// cube's faces.
 // Reads, writes: nothing.
-// A cell is one unit a side, so planes are whole numbers. Nothing else is exact: with R half the longest side of the geometry and
-// u = 2^-24, every place below is right to 48 u R metres for origins up to 4 R away; cells list what lies within that.
+// A cell is one unit a side, so planes are whole numbers. Nothing else is exact: with R half the longest side
+// of the geometry and u = 2^-24, every place below is right to 48 u R metres for origins up to 4 R away;
+// cells list what lies within that.
 #ifndef ADS_BRICK_AXES_GLSL
 #define ADS_BRICK_AXES_GLSL
 
-// Where the cells are. Precise expressions take values from such a local copy: with addresses, glslang does not end where they
-// follow a reference.
+// Where the cells are. Precise expressions take values from such a local copy: with addresses, glslang does
+// not end where they follow a reference.
 struct BrickAxes {
     vec3 lower;           // metres: corner of the first cell
     vec3 per_metre;       // cells

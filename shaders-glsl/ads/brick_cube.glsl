@@ -1,8 +1,8 @@
-// What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that meet in the
-// eye, slices are parallel. ads/brick_axes.glsl has those of a view along an axis.
+// What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
+// meet in the eye, slices are parallel. ads/brick_axes.glsl has those of a view along an axis.
 // Reads, writes: nothing.
-// Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is right to 96 u R
-// metres and to 32 u in x/z; cells list what lies within that.
+// Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is
+// right to 96 u R metres and to 32 u in x/z; cells list what lies within that.
 #ifndef ADS_BRICK_CUBE_GLSL
 #define ADS_BRICK_CUBE_GLSL
 

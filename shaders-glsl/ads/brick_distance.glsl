@@ -1,15 +1,17 @@
 // What: how far empty bricks reach towards each octant, found one axis after the other.
 // Reads, writes: nothing; build passes read and write words.
-// A word of the first pass holds two reaches of 4 bits, towards lower and higher slices; of the second four, of the third
-// eight. A reach counts bricks from the own one on, BRICK_REACH at most; 0 is a brick that lists something. The reach
-// along two axes is the side of the largest square that is empty, since each column of it must be empty that far.
+// A word of the first pass holds two reaches of 4 bits, towards lower and higher slices; of the second four,
+// of the third eight. A reach counts bricks from the own one on, BRICK_REACH at most; 0 is a brick that lists
+// something. The reach along two axes is the side of the largest square that is empty, since each column of
+// it must be empty that far.
 #ifndef ADS_BRICK_DISTANCE_GLSL
 #define ADS_BRICK_DISTANCE_GLSL
 
 #include "ads/bricks.glsl"
 
-// A line of bricks is gone through once in each direction, with the lengths of the runs that end at the brick: nibble v - 1
-// counts bricks in a row that reach v or more, BRICK_REACH at most. Before the first brick everything is empty.
+// A line of bricks is gone through once in each direction, with the lengths of the runs that end at the
+// brick: nibble v - 1 counts bricks in a row that reach v or more, BRICK_REACH at most. Before the first
+// brick everything is empty.
 #define BRICK_RUNS_BEGIN 0x88888888u
 
 // The runs that end at a brick, from those that end before it and what it reaches along the axes so far.

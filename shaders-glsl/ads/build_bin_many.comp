@@ -1,5 +1,5 @@
-// What: the same for triangles with many cells of a view: as many workgroups for each as the header says (groups[2]), cells by
-// turns. The host gives so many that an invocation looks at BIN_TURNS cells at most.
+// What: the same for triangles with many cells of a view: as many workgroups for each as the header says
+// (groups[2]), cells by turns. The host gives so many that an invocation looks at BIN_TURNS cells at most.
 // Reads, writes: see the structure's binned.glsl; reads pairs.
 #version 460
 #include "contract/extensions.glsl"

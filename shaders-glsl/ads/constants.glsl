@@ -39,8 +39,8 @@
 // geometry: 24 units of rounding for each of the five distances between origin and hit.
 #define TRIANGLE_ROUNDING 7.2e-6
 
-// Half side of the near box over cells a side times the distance of the geometry where no hit may be lost: there a cell is
-// as wide as the guard of the march, 16 units of rounding for each of nine distances.
+// Half side of the near box over cells a side times the distance of the geometry where no hit may be lost:
+// there a cell is as wide as the guard of the march, 16 units of rounding for each of nine distances.
 #define NEAR_BOX 4.8e-6
 
 // Pages that the word of a list can name beside how many of their slots are used.

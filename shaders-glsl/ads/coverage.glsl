@@ -91,8 +91,8 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
-// First and last column and row, of a view with a border of one cell, of the cells whose centres may be within `margin` of the
-// triangle in x/z and in y/z; false where there is none.
+// First and last column and row, of a view with a border of one cell, of the cells whose centres may be
+// within `margin` of the triangle in x/z and in y/z; false where there is none.
 bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out ivec2 lower, out ivec2 upper) {
     lower = ivec2(0);
     upper = ivec2(-1);

@@ -1,13 +1,14 @@
-// What: the fringe of a cell: triangles that reach into it and have no fragment there, in a linked list of their own. Links are
-// node number + 1; 0 ends a list. Included once for each structure that has one: its reference type tells the functions apart.
+// What: the fringe of a cell: triangles that reach into it and have no fragment there, in a linked list of
+// their own. Links are node number + 1; 0 ends a list. Included once for each structure that has one: its
+// reference type tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
 //   FringeRef                the type that names the structure
 //   FRINGE_HEAD(s, cell)     the first link of a cell
 //   FRINGE_NODES(s)          words of the nodes: triangle, next link, depths in the cell
 //   FRINGE_HEADER(s)         has fringe_demand, fringe_capacity and corrupted
 // Source: not in the papers; MMRT names edge-on triangles as its open limit.
-// Depths are not negative; the upper halves of their bits are kept, the larger one rounded up, so that what is kept holds what
-// was given.
+// Depths are not negative; the upper halves of their bits are kept, the larger one rounded up, so that what
+// is kept holds what was given.
 
 #ifndef ADS_FRINGE_GLSL
 #define ADS_FRINGE_GLSL
@@ -30,7 +31,8 @@ bool fringe_meets(FringeNode node, float low, float high) {
 }
 #endif
 
-// Puts a triangle, with the smallest and largest depth it has there, into a cell's fringe, or counts that there was no room for it.
+// Puts a triangle, with the smallest and largest depth it has there, into a cell's fringe, or counts that
+// there was no room for it.
 void fringe_add(FringeRef s, uint cell, uint primitive, vec2 depths) {
     uint node = atomicAdd(FRINGE_HEADER(s).fringe_demand, 1u);
     if (node < FRINGE_HEADER(s).fringe_capacity) {

@@ -102,8 +102,8 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     return !proper || alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// Judges a triangle alone among fragments whose planes count, logs it, and lets it replace the best hit if it may. The caller
-// counts the test.
+// Judges a triangle alone among fragments whose planes count, logs it, and lets it replace the best hit if it
+// may. The caller counts the test.
 void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;

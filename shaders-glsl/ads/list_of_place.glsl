@@ -1,5 +1,5 @@
-// What: the list that a place of a pool is in, where lists lie one behind the other and each has a word that says where it
-// ends.
+// What: the list that a place of a pool is in, where lists lie one behind the other and each has a word that
+// says where it ends.
 // Reads: what `list_end(list)` reads, which who includes this has defined. Writes: nothing.
 #ifndef ADS_LIST_OF_PLACE_GLSL
 #define ADS_LIST_OF_PLACE_GLSL

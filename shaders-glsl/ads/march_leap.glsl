@@ -1,8 +1,9 @@
 // What: goes over a block of cells at once, from the cell of a walk to the one behind the block.
 // Reads, writes: nothing.
-// As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index exactly. The other
-// index is found from the point there, as at the begin of a walk, with all cells that the point touches within rounding; or the
-// leap is left where it touches any, for structures whose hits depend on the cell in which a ray is.
+// As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index
+// exactly. The other index is found from the point there, as at the begin of a walk, with all cells that the
+// point touches within rounding; or the leap is left where it touches any, for structures whose hits depend
+// on the cell in which a ray is.
 #ifndef ADS_MARCH_LEAP_GLSL
 #define ADS_MARCH_LEAP_GLSL
 
@@ -56,7 +57,8 @@ ivec2 march_leap_to(CellMarch m, MarchLeap leap) {
     return ivec2(leap.step_x ? over.x : cell.x, leap.step_y ? over.y : cell.y);
 }
 
-// The cell of a block in which a walk ends that does not leave it; the one beyond a boundary where it may have crossed that.
+// The cell of a block in which a walk ends that does not leave it; the one beyond a boundary where it may
+// have crossed that.
 ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
     CellMarch last = m;
     last.cell = clamp(march_leap_to(m, leap), leap.first, leap.last);
@@ -66,8 +68,9 @@ ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
     return clamp(last.cell + farther * m.step_direction, leap.first, leap.last);
 }
 
-// Bound of the errors of all t at which a walk crosses boundaries on its way to a cell, `t` being the largest of them. Those of
-// boundaries between two are no larger than theirs; infinite where the ray runs along one of them.
+// Bound of the errors of all t at which a walk crosses boundaries on its way to a cell, `t` being the largest
+// of them. Those of boundaries between two are no larger than theirs; infinite where the ray runs along one
+// of them.
 float march_leap_error(CellMarch m, ivec2 cell, float t) {
     float error = 0.0;
     for (int axis = 0; axis < 2; axis++) {
@@ -83,8 +86,9 @@ float march_leap_error(CellMarch m, ivec2 cell, float t) {
     return error;
 }
 
-// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit. False where rounding leaves open how
-// it does, because the ray leaves the block where it touches another boundary; then nothing is changed.
+// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit. False where
+// rounding leaves open how it does, because the ray leaves the block where it touches another boundary; then
+// nothing is changed.
 bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
     CellMarch next = m;
     next.cell = march_leap_to(m, leap);

@@ -1,4 +1,5 @@
-// What: whether a triangle reaches into a cell of a face, and the depths it has there. May accept more than is exact, never less.
+// What: whether a triangle reaches into a cell of a face, and the depths it has there. May accept more than
+// is exact, never less.
 // Reads, writes: nothing.
 // Source: DIRT section 3.2 clips each primitive to the tile. Here the depth follows from the plane over
 // the whole tile and from the corners: 1/z is affine in x/z and y/z.

@@ -1,5 +1,6 @@
-// What: lists of pages: how an entry gets a slot in the page at the head of its list, or in a new one, without locks; and
-// how a list is read. Included once for each structure that has pages: its reference type tells the functions apart.
+// What: lists of pages: how an entry gets a slot in the page at the head of its list, or in a new one,
+// without locks; and how a list is read. Included once for each structure that has pages: its reference type
+// tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
 //   PageRef                  the type that names the structure
 //   PAGE_SIZE                slots a page, 1 to 8
@@ -23,8 +24,8 @@ uint page_first_slot(PageRef s, uint word) {
     return ((word >> 4) - 1u) * PAGE_SIZE + PAGE_SIZE - (word & 15u);
 }
 
-// Lets a page lead to the next one, where it exists. A function of its own because the shader compiler does not end where
-// `precise` values depend on memory that is written from a local variable.
+// Lets a page lead to the next one, where it exists. A function of its own because the shader compiler does
+// not end where `precise` values depend on memory that is written from a local variable.
 void page_set_next(PageRef s, uint page, uint word) {
     if (page < PAGE_CAPACITY(s)) {
         PAGE_NEXT(s, page) = word;

@@ -1,8 +1,8 @@
-// What: a pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level in the words of a
-// pool, up to one block a view.
+// What: a pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level
+// in the words of a pool, up to one block a view.
 // Reads, writes: nothing.
-// Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so that a leap
-// passes by no cell that the march would have touched within rounding.
+// Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so
+// that a leap passes by no cell that the march would have touched within rounding.
 #ifndef ADS_PYRAMID_GLSL
 #define ADS_PYRAMID_GLSL
 
@@ -44,7 +44,8 @@ uvec2 pyramid_block(PyramidLevel level, ivec2 cell) {
     return uvec2(cell + 1) >> level.level;
 }
 
-// Whether a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false: then it does.
+// Whether a block with these words holds nothing from depths.x to depths.y. Comparisons with NaN are false:
+// then it does.
 bool pyramid_leaves_out(uvec2 words, vec2 depths) {
     return words.y == 0u || depths.y < uintBitsToFloat(~words.x) || depths.x > uintBitsToFloat(words.y);
 }

@@ -1,4 +1,5 @@
-// What: the one place that says whose pyramid is built. A structure with one has a file pyramid.glsl that defines, with its prefix,
+// What: the one place that says whose pyramid is built. A structure with one has a file pyramid.glsl that
+// defines, with its prefix,
 //   PyramidLevel x_pyramid_first(XRef s, uint view)            level 1 of the views that are drawn with `view`, the first of them
 //   uint x_pyramid_cells(XRef s, uint view)                    cells a side of those, border included
 //   uvec2 x_pyramid_cell(XRef s, uint view, ivec2 cell)        words of a cell

@@ -1,4 +1,5 @@
-// What: traces every ray through two structures in one shader and files both answers, for tests. FIRST and SECOND say which.
+// What: traces every ray through two structures in one shader and files both answers, for tests. FIRST and
+// SECOND say which.
 // Reads: geometry, both structures, rays. Writes: hits (two a ray).
 #version 460
 #include "contract/extensions.glsl"

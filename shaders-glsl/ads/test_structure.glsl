@@ -1,5 +1,6 @@
-// What: one of the structures that a test puts into one shader: the trace of TEST_STRUCTURE under the name TEST_TRACE, with its
-// descriptors in STRUCTURE_SET. Included once for each; the three are undefined again at the end.
+// What: one of the structures that a test puts into one shader: the trace of TEST_STRUCTURE under the name
+// TEST_TRACE, with its descriptors in STRUCTURE_SET. Included once for each; the three are undefined again at
+// the end.
 // Reads, writes: see the structure.
 
 #if TEST_STRUCTURE == STRUCTURE_ABUFFER

@@ -1,5 +1,5 @@
-// What: counts the turns that invocations of one workgroup make of a loop, each of as many as it is told; with BARRIER a memory
-// barrier ends each turn. For tests.
+// What: counts the turns that invocations of one workgroup make of a loop, each of as many as it is told;
+// with BARRIER a memory barrier ends each turn. For tests.
 // Reads: turns wanted. Writes: turns made.
 #version 460
 #include "contract/extensions.glsl"

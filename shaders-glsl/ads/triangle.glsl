@@ -1,8 +1,8 @@
 // What: the watertight ray-triangle test and the depth of a triangle's plane.
 // Reads, writes: nothing.
-// Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no
-// contraction can change and which two triangles sharing an edge evaluate with the roles swapped, so
-// that one of them always accepts. Errors are counted in roundings, gamma_n = n u / (1 - n u), as in pbrt-v4, section 6.8.
+// Source: Woop, Benthin, Wald 2013. Edges are decided by comparing two rounded products, which no contraction
+// can change and which two triangles sharing an edge evaluate with the roles swapped, so that one of them
+// always accepts. Errors are counted in roundings, gamma_n = n u / (1 - n u), as in pbrt-v4, section 6.8.
 #ifndef ADS_TRIANGLE_GLSL
 #define ADS_TRIANGLE_GLSL
 
@@ -19,8 +19,8 @@ vec3 triangle_permute(vec3 p, uint axis) {
     return axis == 0u ? p.yzx : (axis == 1u ? p.zxy : p);
 }
 
-// The normal of a triangle, as long as twice its area, is `along - against`. The two are kept apart: where they are equal,
-// product by product, contraction cannot make a difference.
+// The normal of a triangle, as long as twice its area, is `along - against`. The two are kept apart: where
+// they are equal, product by product, contraction cannot make a difference.
 void triangle_normal_terms(vec3 a, vec3 b, vec3 c, out vec3 along, out vec3 against) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;
@@ -38,13 +38,13 @@ bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
     return any(notEqual(along, against));
 }
 
-// The t at which a ray meets a triangle's plane, and a bound of its error: infinite where rounding decides, or where numbers
-// are too small or too large for one. `along`, `against`: of the normal; `p`: a corner relative to the origin; `d`: the
-// direction; all with the axes in the same order. Of the axes the last one is added last, so that turning the others changes
-// no bit.
+// The t at which a ray meets a triangle's plane, and a bound of its error: infinite where rounding decides,
+// or where numbers are too small or too large for one. `along`, `against`: of the normal; `p`: a corner
+// relative to the origin; `d`: the direction; all with the axes in the same order. Of the axes the last one
+// is added last, so that turning the others changes no bit.
 //
-// With N = |along| + |against| the normal is off by at most 4 u N in each component, its products with p and d by 8 u and
-// 7 u of the sums below, and the quotient follows; 12 u covers the rounding of the sums.
+// With N = |along| + |against| the normal is off by at most 4 u N in each component, its products with p and
+// d by 8 u and 7 u of the sums below, and the quotient follows; 12 u covers the rounding of the sums.
 void triangle_plane_t(vec3 along, vec3 against, vec3 p, vec3 d, out float t, out float t_error) {
     const float gamma9 = 5.3644210e-7;
     const float gamma12 = 7.1525625e-7;
@@ -67,12 +67,13 @@ void triangle_plane_t(vec3 along, vec3 against, vec3 p, vec3 d, out float t, out
     t_error = holds ? error : uintBitsToFloat(0x7F800000u);
 }
 
-// Bounds the error of t = (edges . depths) / sum(edges), infinite where rounding decides whether there is a triangle. `x`, `y`:
-// the sheared corners; `dx`, `dy`: how far they may be off; `first`, `second`: the products that `edges` are the difference of.
+// Bounds the error of t = (edges . depths) / sum(edges), infinite where rounding decides whether there is a
+// triangle. `x`, `y`: the sheared corners; `dx`, `dy`: how far they may be off; `first`, `second`: the
+// products that `edges` are the difference of.
 //
-// Edges that are off by delta each move t by sum(delta |depth - t|) / |sum of the true edges|: mixing equal depths gives that
-// depth whatever the weights. Of rounding, depths, products, sums and the quotient take 18 u of sum(|edges depths|), and
-// depth - t itself is off by 24 u of the largest.
+// Edges that are off by delta each move t by sum(delta |depth - t|) / |sum of the true edges|: mixing equal
+// depths gives that depth whatever the weights. Of rounding, depths, products, sums and the quotient take 18
+// u of sum(|edges depths|), and depth - t itself is off by 24 u of the largest.
 float triangle_mixing_error(vec3 x, vec3 y, vec3 dx, vec3 dy, vec3 first, vec3 second, vec3 edges, vec3 depths, float det,
     float t, float max_depth) {
     const float gamma2 = 1.1920930e-7;
@@ -156,8 +157,9 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     precise vec3 dy = gamma3 * abs(y) + abs(sy) * shifted;
     precise float mixed_t = clamp(scaled * inverse, nearest, farthest);
     float mixed_error = triangle_mixing_error(x, y, dx, dy, first, second, edges, depths, det, mixed_t, max_depth);
-    // Corners are mixed well where they are about as far away as the ray's hit, and a plane is well known where its triangle
-    // is not thin: whichever is known better. The bounds are as precise as what they decide about.
+    // Corners are mixed well where they are about as far away as the ray's hit, and a plane is well known
+    // where its triangle is not thin: whichever is known better. The bounds are as precise as what they
+    // decide about.
     float plane_t;
     float plane_error;
     triangle_plane_t(triangle_permute(along, axis), triangle_permute(against, axis), pa, d, plane_t, plane_error);

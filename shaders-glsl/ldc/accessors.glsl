@@ -66,7 +66,8 @@ uint ldc_places(LdcRef s) {
     return min(LDC_HEADER(s).capacity, LDC_HEADER(s).demand);
 }
 
-// Places of a cell's list: first, and one past the last. A list that leaves the `places` there are is counted and empty.
+// Places of a cell's list: first, and one past the last. A list that leaves the `places` there are is counted
+// and empty.
 uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     uint begin = cell == 0u ? 0u : ldc_aligned(LDC_LISTS(s)[cell - 1u]);
     uint end = LDC_LISTS(s)[cell];
@@ -77,8 +78,8 @@ uvec2 ldc_list(LdcRef s, uint cell, uint places) {
     return uvec2(begin, end);
 }
 
-// Words of a fragment's payload, and of the triangle kept for diagnostics. With attributes its first word holds the triangle until
-// all that goes by triangles is done.
+// Words of a fragment's payload, and of the triangle kept for diagnostics. With attributes its first word
+// holds the triangle until all that goes by triangles is done.
 uint ldc_payload_stride() {
     return (LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u) + LDC_IDS;
 }

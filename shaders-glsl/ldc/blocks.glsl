@@ -1,6 +1,7 @@
 // What: the blocks of a layered depth cube, of both levels: which there are, and what depths they hold.
 // Reads, writes: header, blocks.
-// Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not in the paper.
+// Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not
+// in the paper.
 #ifndef LDC_BLOCKS_GLSL
 #define LDC_BLOCKS_GLSL
 
@@ -45,9 +46,9 @@ uvec2 ldc_slices(float slices_a_metre, float z_low, float z_high) {
     return bits;
 }
 
-// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so that a cleared
-// block is empty and both ends are maxima; depths are not negative, and order like their bits. Words only grow and most
-// fragments find theirs as large: reading first spares atomics.
+// Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so
+// that a cleared block is empty and both ends are maxima; depths are not negative, and order like their bits.
+// Words only grow and most fragments find theirs as large: reading first spares atomics.
 void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
     uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
     uint resolution = LDC_HEADER(s).resolution;

@@ -1,7 +1,8 @@
 // What: walks the squares of a flat grid that a ray crosses, column by column along the side it moves along most.
 // Reads, writes: nothing.
-// Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed follows from the
-// column alone, so a walk can go on anywhere. The visited squares are a superset of the exact ones.
+// Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed
+// follows from the column alone, so a walk can go on anywhere. The visited squares are a superset of the
+// exact ones.
 #ifndef LDC_MARCH_GLSL
 #define LDC_MARCH_GLSL
 

@@ -1,5 +1,5 @@
-// What: the surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its plane, or of
-// a fragment's own words.
+// What: the surface at a hit of a layered depth cube: of a triangle with the barycentrics of a point on its
+// plane, or of a fragment's own words.
 // Reads: the scene (payload index), payload (attributes). Writes: header.corrupted.
 #ifndef LDC_SURFACE_GLSL
 #define LDC_SURFACE_GLSL

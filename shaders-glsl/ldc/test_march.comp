@@ -1,5 +1,5 @@
-// What: lists the squares that a walk over a flat grid comes to, for tests: once in one go, and once stopped and resumed
-// at every square.
+// What: lists the squares that a walk over a flat grid comes to, for tests: once in one go, and once stopped
+// and resumed at every square.
 // Reads: rays in units of cells. Writes: visits (square, rows left), counts.
 #version 460
 #include "contract/extensions.glsl"

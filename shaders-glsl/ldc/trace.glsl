@@ -81,8 +81,8 @@ uint ldc_look(LdcRef s, LdcWalk walk, uint level, uint inner, LdcMarch march, in
     return met ? LDC_MET : LDC_PASSED_OVER;
 }
 
-// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Every level has a loop
-// of its own: invocations that run side by side pay for all that one of them does in a turn.
+// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Every
+// level has a loop of its own: invocations that run side by side pay for all that one of them does in a turn.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcWalk walk, inout LdcSearch search,
     inout TraceState state, inout uint work) {
     while (more) {

@@ -1,6 +1,6 @@
 // What: what the build does with a triangle in a cell of its view, the same for every builder: it counts, or stores.
-// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks; scratch, header.layer_demand,
-// header.beyond.
+// Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists, depths, payload, blocks; scratch,
+// header.layer_demand, header.beyond.
 // Source: Bürger et al. sections 1.2 and 1.3.
 #ifndef LDC_VISIT_GLSL
 #define LDC_VISIT_GLSL
@@ -9,7 +9,8 @@
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
 
-// Lengthens the cell's list, or in a second draw of layers that are peeled lets it grow from where it begins to where it ends.
+// Lengthens the cell's list, or in a second draw of layers that are peeled lets it grow from where it begins
+// to where it ends.
 void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;

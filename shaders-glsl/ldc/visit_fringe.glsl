@@ -1,5 +1,6 @@
-// What: keeps a triangle in a cell that it reaches into without covering its centre, where no fragment stands for it: at edges
-// towards triangles of another view, at silhouettes, and where it is smaller than a cell. The same for every builder.
+// What: keeps a triangle in a cell that it reaches into without covering its centre, where no fragment stands
+// for it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a cell.
+// The same for every builder.
 // Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand.
 // Source: not in the paper, whose rays pass between the views' cells there.
 #ifndef LDC_VISIT_FRINGE_GLSL

@@ -91,8 +91,9 @@ bool ldc_is_behind(LdcWalk walk, float t_low, float best_t) {
     return t_low - walk.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * walk.shift) > best_t;
 }
 
-// Begins the walk over the blocks of a level, or over cells (level 2), in a block of the level above or in all of the view;
-// false where the stretch has none. What it touches beside the block belongs to blocks that are walked over as well.
+// Begins the walk over the blocks of a level, or over cells (level 2), in a block of the level above or in
+// all of the view; false where the stretch has none. What it touches beside the block belongs to blocks that
+// are walked over as well.
 bool ldc_begin_level(LdcWalk walk, uint level, bool within, ivec2 block, vec2 stretch, out LdcMarch march) {
     int width = level == 2u ? 1 : int(ldc_block_cells(level));
     ivec2 first = ivec2(0);

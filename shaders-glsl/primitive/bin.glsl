@@ -27,9 +27,9 @@ void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     bounds = vec4(min(bounds.xy, place), max(bounds.zw, place));
 }
 
-// First and last column and row, of a face with a border of that many cells, that may hold any of the triangle (a, b, c in
-// face space) or are within `margin` in x/z of it; false where none does. What lies nearer than half the near box is met
-// there: cutting an edge there is right to a column.
+// First and last column and row, of a face with a border of that many cells, that may hold any of the
+// triangle (a, b, c in face space) or are within `margin` in x/z of it; false where none does. What lies
+// nearer than half the near box is met there: cutting an edge there is right to a column.
 bool bin_bounds(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, float margin, int border, out ivec2 lower, out ivec2 upper) {
     float near_size = 0.5 * grid.near_size;
     const float far = 3.0e38;

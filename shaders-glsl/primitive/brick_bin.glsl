@@ -32,8 +32,8 @@ struct BrickBin {
     ivec2 upper;
 };
 
-// How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor that of the
-// march takes a ray past a triangle it meets.
+// How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor
+// that of the march takes a ray past a triangle it meets.
 float brick_margin(PrimitiveGrid grid, float depth) {
     precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;
     return margin;

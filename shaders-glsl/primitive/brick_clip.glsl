@@ -1,9 +1,10 @@
-// What: between which depths a triangle lies within columns of cells along an axis; views along axes only. This function decides
-// for every builder; it may accept more than is exact, never less.
+// What: between which depths a triangle lies within columns of cells along an axis; views along axes only.
+// This function decides for every builder; it may accept more than is exact, never less.
 // Reads, writes: nothing.
-// What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices between its ends are
-// all met: one view lists exactly the cells that a triangle reaches into, however steep it stands. The ends lie at edges of
-// the triangle within the square, or at corners of the square within the triangle.
+// What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices
+// between its ends are all met: one view lists exactly the cells that a triangle reaches into, however steep
+// it stands. The ends lie at edges of the triangle within the square, or at corners of the square within the
+// triangle.
 #ifndef PRIMITIVE_BRICK_CLIP_GLSL
 #define PRIMITIVE_BRICK_CLIP_GLSL
 
@@ -103,7 +104,8 @@ void brick_clip_corners(BrickClip clip, vec2 lower, vec2 upper, inout vec2 depth
     }
 }
 
-// The depths of the triangle within a square of `side` columns, margins included; false where it does not reach into it.
+// The depths of the triangle within a square of `side` columns, margins included; false where it does not
+// reach into it.
 bool brick_clip_depths(BrickClip clip, ivec2 column, int side, out vec2 depths) {
     precise vec2 lower = vec2(column) - clip.margin.xy;
     precise vec2 upper = vec2(column + side) + clip.margin.xy;

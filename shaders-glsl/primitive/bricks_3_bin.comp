@@ -1,6 +1,7 @@
-// What: files each triangle in the columns of each face that it reaches into; one invocation a triangle. Those with many
-// columns of a face are left to the next pass.
-// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs, header.pairs, header.groups.
+// What: files each triangle in the columns of each face that it reaches into; one invocation a triangle.
+// Those with many columns of a face are left to the next pass.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs,
+// header.pairs, header.groups.
 // Source: DIRT section 3.2, by computing instead of drawing.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,5 @@
-// What: files triangles that may reach into many columns; one workgroup a triangle and face, blocks of columns by turns.
+// What: files triangles that may reach into many columns; one workgroup a triangle and face, blocks of
+// columns by turns.
 // Reads: geometry, header, pairs. Writes: records, bricks (masks), header.record_demand, header.demand.
 // Source: DIRT section 3.2, by computing instead of drawing.
 // With PRIMITIVE_BRICK_SIDE_LIMIT columns a side an invocation gets 1,024 blocks of 16 columns: its loops turn 21,504

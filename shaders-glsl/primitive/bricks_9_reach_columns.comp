@@ -1,4 +1,5 @@
-// What: how far empty bricks reach towards lower and higher columns as well; one invocation a line of bricks along columns.
+// What: how far empty bricks reach towards lower and higher columns as well; one invocation a line of bricks
+// along columns.
 // Reads: bricks. Writes: distances.
 // Source: not in the paper; ads/brick_distance.glsl.
 #version 460

@@ -1,5 +1,5 @@
-// What: lists the triangles that meet the near box, where the faces cannot be told apart; for bricks, counts triangles by
-// the octave of depth in which they begin.
+// What: lists the triangles that meet the near box, where the faces cannot be told apart; for bricks, counts
+// triangles by the octave of depth in which they begin.
 // Reads: geometry, header. Writes: near list, header.near_demand, header.octaves.
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460

@@ -1,5 +1,6 @@
-// What: goes through the cells that each triangle reaches into, once for their bounds, once for lengths of lists, and once to
-// store; one invocation a triangle. Those with many columns of a face are left to the next pass.
+// What: goes through the cells that each triangle reaches into, once for their bounds, once for lengths of
+// lists, and once to store; one invocation a triangle. Those with many columns of a face are left to the next
+// pass.
 // Reads: geometry, header, bounds. Writes: bounds, lists and entries; pairs, header.pairs, header.groups.
 // Source: DIRT section 4.1, by computing instead of drawing.
 #version 460

@@ -1,5 +1,5 @@
-// What: the same for triangles that may reach into many columns; as many workgroups a triangle and face as the header says
-// (groups[2]), blocks of columns by turns.
+// What: the same for triangles that may reach into many columns; as many workgroups a triangle and face as
+// the header says (groups[2]), blocks of columns by turns.
 // Reads: geometry, header, bounds, pairs. Writes: bounds, lists and entries.
 // Source: DIRT section 4.1, by computing instead of drawing.
 // The host gives so many workgroups that the loops of an invocation, buckets included, turn BIN_TURNS times at most.

@@ -9,7 +9,8 @@
 
 layout(location = 0) flat out uvec2 primitive_and_face;
 
-// Proposes the columns of a view along z: a square viewport of as many columns a side as the longer side has, with a border of one.
+// Proposes the columns of a view along z: a square viewport of as many columns a side as the longer side has,
+// with a border of one.
 vec4 propose_columns(uint primitive, uint corner) {
     vec3 p[3];
     geometry_vertices(primitive, p[0], p[1], p[2]);
@@ -21,8 +22,8 @@ vec4 propose_columns(uint primitive, uint corner) {
     for (int k = 0; k < 3; k++) {
         p[k] = vec3((p[k] - centre - lower).xy * per_metre.xy * (2.0 / float(side)) - 1.0, 1.0);
     }
-    // Half a column and how far columns reach beyond their sides, with 1/32 of a column for the hardware's grid and as much for
-    // rounding.
+    // Half a column and how far columns reach beyond their sides, with 1/32 of a column for the hardware's
+    // grid and as much for rounding.
     float margin = 0.5 + rounding * max(per_metre.x, per_metre.y) + 1.0 / 16.0;
     return coverage_proposal_within(p[0], p[1], p[2], corner, side, margin * 2.0 / float(side));
 }

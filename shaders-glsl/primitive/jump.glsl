@@ -1,6 +1,7 @@
 // What: the published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
 // Reads: header. Writes: nothing.
-// Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel are passed by.
+// Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel
+// are passed by.
 #ifndef PRIMITIVE_JUMP_GLSL
 #define PRIMITIVE_JUMP_GLSL
 
@@ -12,8 +13,8 @@ float primitive_half_pixel(PrimitiveRef s) {
     return 1.0 / float(PRIMITIVE_HEADER(s).tiles * PRIMITIVE_HEADER(s).tile);
 }
 
-// Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the segment's end; false
-// behind it. A face takes at most two jumps a pixel and a step a tile.
+// Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the
+// segment's end; false behind it. A face takes at most two jumps a pixel and a step a tile.
 bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchLeap leap) {
     m.neighbours = 0u;
     if (!leap.step_x && !leap.step_y) {

@@ -1,14 +1,15 @@
 // What: how far a ray may go on without meeting what any tile lists at its depths.
 // Reads: bounds. Writes: nothing.
-// Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among triangles is so.
+// Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
+// triangles is so.
 #ifndef PRIMITIVE_LEAP_GLSL
 #define PRIMITIVE_LEAP_GLSL
 
 #include "primitive/pyramid.glsl"
 #include "primitive/walk.glsl"
 
-// The largest block around the walk's cell that lists nothing at the ray's depths; false where none does. A face has at most
-// 14 levels.
+// The largest block around the walk's cell that lists nothing at the ray's depths; false where none does. A
+// face has at most 14 levels.
 bool primitive_leap(PrimitiveRef s, PrimitiveWalk walk, out MarchLeap leap) {
     float rounding = PRIMITIVE_HEADER(s).rounding;
     bool found = false;

@@ -1,5 +1,5 @@
-// What: the numbers that scans run over. Step 0, lists: lengths become places, their sum the demand. Step 1, bricks: cells
-// that list something become such cells before the brick.
+// What: the numbers that scans run over. Step 0, lists: lengths become places, their sum the demand. Step 1,
+// bricks: cells that list something become such cells before the brick.
 // Reads, writes: lists or bricks, sums, header.demand or header.cell_demand.
 #ifndef PRIMITIVE_SCANNED_GLSL
 #define PRIMITIVE_SCANNED_GLSL

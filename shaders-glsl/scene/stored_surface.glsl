@@ -62,8 +62,9 @@ void stored_set_terms(inout Surface s, uint word) {
     s.specular = terms.w;
 }
 
-// The surface of a fragment that a ray meets at t, known within `position_error` metres, of which the normal alone is stored:
-// white, dull and opaque to light, no emission, the stored normal as geometric and shading normal.
+// The surface of a fragment that a ray meets at t, known within `position_error` metres, of which the normal
+// alone is stored: white, dull and opaque to light, no emission, the stored normal as geometric and shading
+// normal.
 Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     Surface s = surface_miss(ray);
     s.position = ray.origin + t * ray.direction;

@@ -1,8 +1,8 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
-// A list is a cell of a view: its word is that of voxel/lists.glsl. A place is the number of a fragment, of pages that of a
-// slot.
+// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity. A list
+// is a cell of a view: its word is that of voxel/lists.glsl. A place is the number of a fragment, of pages
+// that of a slot.
 #ifndef VOXEL_ACCESSORS_GLSL
 #define VOXEL_ACCESSORS_GLSL
 
@@ -119,7 +119,8 @@ uint voxel_stored(VoxelRef s) {
     return min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand) * (voxel_paged() ? VOXEL_PAGE : 1u);
 }
 
-// Words of a fragment: its depth, a word of payload, with attributes colour and normal, and the triangle kept for diagnostics.
+// Words of a fragment: its depth, a word of payload, with attributes colour and normal, and the triangle kept
+// for diagnostics.
 uint voxel_stride() {
     return (VOXEL_PAYLOAD == VOXEL_PAYLOAD_INDEX ? 2u : 4u) + VOXEL_IDS;
 }

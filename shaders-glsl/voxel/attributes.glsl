@@ -1,9 +1,10 @@
 // What: the published payloads of a fragment: 16 bytes with its depth.
 // Reads: the scene, when packing. Writes: nothing.
-// Source: Hu et al. section 3.1, depth, normal and BRDF; Frid Kastrati and Goswami section 3.2, colour, depth, reflectivity,
-// normal and triangle.
-// Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is the reflectivity.
-// Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the triangle.
+// Source: Hu et al. section 3.1, depth, normal and BRDF; Frid Kastrati and Goswami section 3.2, colour,
+// depth, reflectivity, normal and triangle.
+// Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is
+// the reflectivity. Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the
+// triangle.
 #ifndef VOXEL_ATTRIBUTES_GLSL
 #define VOXEL_ATTRIBUTES_GLSL
 

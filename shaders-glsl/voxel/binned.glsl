@@ -1,5 +1,7 @@
-// What: what a binning pass of voxels with axis A-buffers does with a triangle in a view; BIN_VISIT says which pass it is.
-// Reads: geometry, header, voxels, with PAYLOAD_ATTRIBUTES the scene. Writes: see voxel/visit.glsl and voxel/visit_voxels.glsl.
+// What: what a binning pass of voxels with axis A-buffers does with a triangle in a view; BIN_VISIT says
+// which pass it is.
+// Reads: geometry, header, voxels, with PAYLOAD_ATTRIBUTES the scene. Writes: see voxel/visit.glsl and
+// voxel/visit_voxels.glsl.
 // Source: Hu et al. section 3.1, by computing instead of drawing. The same functions decide as in the raster builder.
 #ifndef VOXEL_BINNED_GLSL
 #define VOXEL_BINNED_GLSL
@@ -22,8 +24,8 @@ uint bin_view_count() {
     return VOXEL_AXES == VOXEL_AXES_TRIANGLE ? 1u : AXIS_VIEWS;
 }
 
-// A triangle in a view, and the first and last cell that may keep it; of the pass that marks voxels, the first and last column
-// of voxels.
+// A triangle in a view, and the first and last cell that may keep it; of the pass that marks voxels, the
+// first and last column of voxels.
 struct Bin {
     uint primitive;
     uint axis;

@@ -10,8 +10,8 @@
 // A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
 #define VOXEL_AXES_TRIANGLE 2u
 
-// What makes a voxel one in which something lies: the fragments in it alone, all axes only; or the triangles that reach into
-// it, in a pass before.
+// What makes a voxel one in which something lies: the fragments in it alone, all axes only; or the triangles
+// that reach into it, in a pass before.
 #define VOXEL_MARKED_BY_FRAGMENTS 0u
 #define VOXEL_MARKED_BY_TRIANGLES 1u
 
@@ -29,14 +29,14 @@
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
 
-// How the fragments of a cell are kept: one behind the other, after they were counted; linked to one another; or in linked
-// pages of several.
+// How the fragments of a cell are kept: one behind the other, after they were counted; linked to one another;
+// or in linked pages of several.
 #define VOXEL_STORAGE_CONTIGUOUS 0u
 #define VOXEL_STORAGE_LINKED 1u
 #define VOXEL_STORAGE_PAGED 2u
 
-// Which cells a triangle is kept in: those whose centre the rasterizer, or the shared function, says it covers; or all that
-// it reaches into, and then hits are those of triangles alone.
+// Which cells a triangle is kept in: those whose centre the rasterizer, or the shared function, says it
+// covers; or all that it reaches into, and then hits are those of triangles alone.
 #define VOXEL_COVERAGE_HARDWARE 0u
 #define VOXEL_COVERAGE_EXACT 1u
 #define VOXEL_COVERAGE_CONSERVATIVE 2u
@@ -57,7 +57,8 @@
 // Lists longer than this are entered by bisection where they are sorted.
 #define VOXEL_BISECT_FROM 8u
 
-// Halvings by which the place of a hit is refined between two points of a ray; 8 at most, whose outcomes a paused ray keeps.
+// Halvings by which the place of a hit is refined between two points of a ray; 8 at most, whose outcomes a
+// paused ray keeps.
 #define VOXEL_REFINEMENTS 8u
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell.

@@ -1,7 +1,8 @@
-// What: reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is nearest to it.
+// What: reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is
+// nearest to it.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2. Sorted lists are entered by bisection; others are read to their end, in dispatches of bounded
-// work. The order of a list has no influence on what is found.
+// Source: Hu et al. section 3.2. Sorted lists are entered by bisection; others are read to their end, in
+// dispatches of bounded work. The order of a list has no influence on what is found.
 #ifndef VOXEL_INSIDE_GLSL
 #define VOXEL_INSIDE_GLSL
 
@@ -33,8 +34,9 @@ uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState stat
     return place;
 }
 
-// Lets a fragment with a depth take the place of the one that is held as nearest to a point, if it is nearer in depth; of
-// equals the one before the point, and on one side the one that comes first. A total order: no order of reading matters.
+// Lets a fragment with a depth take the place of the one that is held as nearest to a point, if it is nearer
+// in depth; of equals the one before the point, and on one side the one that comes first. A total order: no
+// order of reading matters.
 void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint held, inout float held_z) {
     if (held == VOXEL_NO_PLACE) {
         held = place;
@@ -74,8 +76,8 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     return held;
 }
 
-// Counts the fragments of a point's cell that lie before it, or looks for the one nearest to it: walk.odd, walk.held. True if
-// the work budget ended first.
+// Counts the fragments of a point's cell that lie before it, or looks for the one nearest to it: walk.odd,
+// walk.held. True if the work budget ended first.
 bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk walk, inout TraceState state,
     inout uint work) {
     if (!walk.in_list) {

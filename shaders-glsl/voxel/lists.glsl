@@ -1,9 +1,10 @@
-// What: the list of a cell, behind which stands one of three storages: how a fragment is put into it, and how it is read.
+// What: the list of a cell, behind which stands one of three storages: how a fragment is put into it, and how
+// it is read.
 // Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
-// Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of several.
-// The word of a list, contiguous: first its length, then where the next fragment goes, and once all is stored where its
-// fragments end; they begin where those of the list before it end. Linked: a link to the newest. Paged: the word that leads to
-// the newest page. A link is a place + 1; 0 names none.
+// Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of
+// several. The word of a list, contiguous: first its length, then where the next fragment goes, and once all
+// is stored where its fragments end; they begin where those of the list before it end. Linked: a link to the
+// newest. Paged: the word that leads to the newest page. A link is a place + 1; 0 names none.
 #ifndef VOXEL_LISTS_GLSL
 #define VOXEL_LISTS_GLSL
 
@@ -74,8 +75,8 @@ VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
     return voxel_list_resume(s, list, voxel_paged() ? page_link(s, word) : word);
 }
 
-// Ends a list that has come back to the mark, and counts it. The mark moves on after twice as many links as before (Brent
-// 1980), so every circle is noticed within three times its links.
+// Ends a list that has come back to the mark, and counts it. The mark moves on after twice as many links as
+// before (Brent 1980), so every circle is noticed within three times its links.
 void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
     if (cursor.link == cursor.mark) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);

@@ -1,8 +1,8 @@
 // What: searches one voxel along one axis for the first place where a ray goes from outside to inside or back, a point
 // being inside where an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one a cell, then bisection.
-// As published it takes surfaces for closed, and a voxel for one smooth surface.
+// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one a cell,
+// then bisection. As published it takes surfaces for closed, and a voxel for one smooth surface.
 // The order of fragments in their lists has no influence: it only says how many of them are read.
 #ifndef VOXEL_PARITY_GLSL
 #define VOXEL_PARITY_GLSL
@@ -14,8 +14,8 @@
 #define VOXEL_STAGE_ENTER 0u
 // Those before the far point of a step.
 #define VOXEL_STAGE_STEP 1u
-// Those before the middle between two points of which one is inside; once all halvings are done, the fragment nearest to the
-// far point is looked for.
+// Those before the middle between two points of which one is inside; once all halvings are done, the fragment
+// nearest to the far point is looked for.
 #define VOXEL_STAGE_HALVE 2u
 // The fragment nearest to the near point is looked for, since the cell of the far one is empty.
 #define VOXEL_STAGE_NEAR 3u
@@ -107,8 +107,8 @@ bool voxel_next_step(VoxelRef s, vec2 stretch, inout VoxelWalk walk, inout Voxel
     return more;
 }
 
-// Goes on from the list that the walk's stage has read; false at the end of the voxel, or at the first crossing that counts,
-// which is the nearest.
+// Goes on from the list that the walk's stage has read; false at the end of the voxel, or at the first
+// crossing that counts, which is the nearest.
 bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, inout VoxelWalk walk, inout VoxelSpan span,
     inout TraceState state) {
     if (walk.stage == VOXEL_STAGE_ENTER) {

@@ -1,4 +1,5 @@
-// What: the numbers that the scan of lists runs over, contiguous storage only: lengths become places, and their sum the demand.
+// What: the numbers that the scan of lists runs over, contiguous storage only: lengths become places, and
+// their sum the demand.
 // Reads, writes: lists, scratch, header.demand.
 #ifndef VOXEL_SCANNED_GLSL
 #define VOXEL_SCANNED_GLSL

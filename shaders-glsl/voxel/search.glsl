@@ -1,7 +1,7 @@
 // What: searches one voxel along one axis for the nearest fragment whose plane a ray hits.
 // Reads: header, lists, fragments, geometry. Writes: header.corrupted.
-// Source: Hu et al. section 3.2, 2D-DDA; planes instead of the parity of depths. The order of lists only skips fragments
-// that the depths would refuse, so hits do not depend on it.
+// Source: Hu et al. section 3.2, 2D-DDA; planes instead of the parity of depths. The order of lists only
+// skips fragments that the depths would refuse, so hits do not depend on it.
 #ifndef VOXEL_SEARCH_GLSL
 #define VOXEL_SEARCH_GLSL
 
@@ -41,10 +41,10 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     uint index = axis_cell_index(walk.axis, walk.cell.xy, resolution);
     VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, index, walk.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
-    // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises by a cell at
-    // most from the centre to a corner. A cell more finds triangles that the ray meets in the next cell, whose centre
-    // they may not cover. Where cells keep all that reaches into them nothing may be lost, not the hits on slivers whose
-    // planes rounding has turned: then all of the list is looked at.
+    // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises
+    // by a cell at most from the centre to a corner. A cell more finds triangles that the ray meets in the
+    // next cell, whose centre they may not cover. Where cells keep all that reaches into them nothing may be
+    // lost, not the hits on slivers whose planes rounding has turned: then all of the list is looked at.
     float origin_z = walk.origin[walk.axis];
     float direction_z = walk.direction[walk.axis];
     float z_in = origin_z + stretch.x * direction_z;

@@ -1,4 +1,5 @@
-// What: the elements of a contiguous list for the shared sort: fragments by depth, ties by triangle or by what else they carry.
+// What: the elements of a contiguous list for the shared sort: fragments by depth, ties by triangle or by
+// what else they carry.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
 #ifndef VOXEL_SORT_GLSL
