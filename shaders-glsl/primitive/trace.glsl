@@ -29,6 +29,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             }
             work++;
             state.cells++;
+            trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
             MarchLeap leap;
             // What is touched beside a cell lies within the bounds of its block.
             if (PRIMITIVE_PYRAMID != 0u && all(equal(walk.searched, walk.cells.cell)) && primitive_leap(s, walk, leap)) {
@@ -37,7 +38,6 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
                 continue;
             }
             walk.searching = true;
-            trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
         }
         PrimitiveTile tile = PrimitiveTile(walk.origin, walk.direction, walk.searched);
         if (primitive_search(s, ray, tile, slack, any_hit, walk.search, state, work)) {

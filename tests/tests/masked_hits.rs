@@ -9,15 +9,14 @@ use rasray_scene::default_view::default_camera;
 use rasray_scene::needs::Needs;
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits};
+use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 1500;
 
-/// Systems with options that promise every hit.
+/// Options with which systems promise every hit, beside the presets that do.
 const EXACT: &[(&str, &[(&str, &str)])] = &[
-    ("bvh", &[]),
-    ("dirt", &[]),
     ("dirt", &[("resolution", "64"), ("storage", "sb")]),
     ("hu", &[("storage", "bricks")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
@@ -73,15 +72,19 @@ fn masks_are_looked_up_where_rays_meet_triangles() {
         scene.geometry().triangle_count()
     );
     assert!(behind_holes > RAYS / 100, "{behind_holes} rays pass through holes");
-    for (system, options) in EXACT {
+    let presets = Subject::all(&bench).into_iter().filter(|subject| subject.kind == StructureKind::Primitive);
+    let more = EXACT.iter().map(|(system, options)| {
         let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-        let spec = Spec::new(system, "robust", given).expect("the options are valid");
+        Spec::new(system, "robust", given).expect("the options are valid")
+    });
+    for spec in presets.map(|subject| subject.spec).chain(more) {
+        let name = format!("{} {:?}", spec.system().name, spec.options());
         let mut structure =
             spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("it is made");
-        assert_ne!(structure.kind(), StructureKind::Fragment, "{system} {options:?}");
+        assert_ne!(structure.kind(), StructureKind::Fragment, "{name}");
         build_until_complete(bench.device(), &mut *structure, scene.eye(), Timing::None)
             .expect("it is built");
         let wrong = different(&hits(&bench, &*structure, &rays), &expected);
-        assert_eq!(wrong, 0, "{system} {options:?}");
+        assert_eq!(wrong, 0, "{name}");
     }
 }

@@ -5,7 +5,7 @@ use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Structure, Surface};
 use rasray_gpu::Timing;
 use rasray_gpu_scene::GpuScene;
 use rasray_integrators::{AmbientOcclusion, Film, IntegratorDesc};
-use rasray_systems::Spec;
+use rasray_systems::{self as registry, Spec, System};
 use rasray_tests::harness::Bench;
 use rasray_tests::pictures::{rays_inside, rendered, stage};
 use rasray_tracer::build_until_complete;
@@ -14,6 +14,13 @@ const SIZE: u32 = 32;
 
 /// Systems whose published fragments carry attributes.
 const SYSTEMS: [&str; 4] = ["mmrt", "hu", "selective", "ldc"];
+
+#[test]
+fn every_system_of_fragments_is_tried() {
+    let has_payload = |system: &&System| system.options.contains(&"payload");
+    let names: Vec<_> = registry::SYSTEMS.iter().filter(has_payload).map(|system| system.name).collect();
+    assert!(names.iter().all(|name| SYSTEMS.contains(name)), "{names:?}");
+}
 
 /// A published structure with a payload, built around the scene.
 fn made(bench: &Bench, scene: &GpuScene, system: &str, options: &[(&str, &str)]) -> Box<dyn Structure> {

@@ -1,52 +1,20 @@
 //! Work counted per ray: it adds up to the sums, and counting changes no hit.
 
-use rasray_abuffer::{ABuffer, Config, Payload};
-use rasray_ads::{BruteForce, Counters, Geometry, QueueCounters, Ray, RayWork, Structure, TraceMode};
+use rasray_ads::{BruteForce, Counters, QueueCounters, Ray, RayWork, StructureKind, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::harness::Bench;
+use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
-use rasray_voxel::Voxels;
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 
-type Make = fn(&Bench, &Geometry, Counters) -> Box<dyn Structure>;
+const MODES: [TraceMode; 2] = [TraceMode::Closest, TraceMode::Occluded];
 
-/// Brute force, and both presets of the A-buffer and of voxels. Budgets are small, so that rays pause.
-const STRUCTURES: [(&str, Make); 5] = [
-    ("brute force", |bench, geometry, counters| {
-        Box::new(BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made"))
-    }),
-    ("robust", |bench, geometry, counters| abuffer(bench, geometry, Config::robust(64), counters)),
-    ("published", |bench, geometry, counters| {
-        // The quantised attributes need a scene; they have no part in a traversal.
-        let config = Config { payload: Payload::Index, ..Config::published(64) };
-        abuffer(bench, geometry, config, counters)
-    }),
-    ("voxels, robust", |bench, geometry, counters| {
-        voxels(bench, geometry, rasray_voxel::Config::robust(64), counters)
-    }),
-    ("voxels, published", |bench, geometry, counters| {
-        let payload = rasray_voxel::Payload::Index;
-        let config = rasray_voxel::Config { payload, ..rasray_voxel::Config::published_hu(64) };
-        voxels(bench, geometry, config, counters)
-    }),
-];
-
-fn voxels(
-    bench: &Bench,
-    geometry: &Geometry,
-    config: rasray_voxel::Config,
-    counters: Counters,
-) -> Box<dyn Structure> {
-    let config = rasray_voxel::Config { counters, work_budget: Some(40), ..config };
-    Box::new(Voxels::new(bench.device(), config, geometry, None).expect("the options are valid"))
-}
-
-fn abuffer(bench: &Bench, geometry: &Geometry, config: Config, counters: Counters) -> Box<dyn Structure> {
-    let config = Config { counters, work_budget: Some(40), ..config };
-    Box::new(ABuffer::new(bench.device(), config, geometry, None).expect("the options are valid"))
+/// Units of work a dispatch: so few that rays pause, and enough for their rounds.
+fn budget(kind: StructureKind) -> u32 {
+    if kind == StructureKind::Fragment { 40 } else { 5 }
 }
 
 fn scene() -> Vec<Triangle> {
@@ -65,13 +33,15 @@ fn rays(count: usize) -> Vec<Ray> {
     rays
 }
 
-fn trace(bench: &Bench, make: Make, counters: Counters, rays: &[Ray], mode: TraceMode) -> TraceOutcome {
+/// Both modes.
+fn trace(bench: &Bench, subject: &Subject, counters: Counters, rays: &[Ray]) -> [TraceOutcome; 2] {
     let geometry = bench.geometry(&scene());
-    let mut structure = make(bench, &geometry, counters);
+    let spec = subject.spec.clone().with_counters(counters).with_work_budget(budget(subject.kind));
+    let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
     build_until_complete(bench.device(), structure.as_mut(), EYE, Timing::None).expect("the build completes");
     // Smaller than the batch, so that slots are used again.
     let tracer = BatchTracer::new(bench.device(), 300).expect("a queue fits");
-    tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish")
+    MODES.map(|mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish"))
 }
 
 /// What is wrong with work against sums.
@@ -86,11 +56,12 @@ fn difference(work: &[RayWork], sums: &QueueCounters) -> Option<String> {
 fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     let bench = Bench::new();
     let rays = rays(1000);
-    for (name, make) in STRUCTURES {
-        for mode in [TraceMode::Closest, TraceMode::Occluded] {
-            let off = trace(&bench, make, Counters::Off, &rays, mode);
-            let sums = trace(&bench, make, Counters::Sums, &rays, mode);
-            let per_ray = trace(&bench, make, Counters::PerRay, &rays, mode);
+    for subject in Subject::all(&bench) {
+        let name = subject.name();
+        let [off, sums, per_ray] = [Counters::Off, Counters::Sums, Counters::PerRay]
+            .map(|counters| trace(&bench, &subject, counters, &rays));
+        for (place, mode) in MODES.into_iter().enumerate() {
+            let (off, sums, per_ray) = (&off[place], &sums[place], &per_ray[place]);
             assert!(off.work.is_empty() && sums.work.is_empty());
             assert_eq!(per_ray.work.len(), rays.len());
             assert_eq!(off.counters, QueueCounters::default());
@@ -100,14 +71,14 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(per_ray.work.iter().all(|work| work.rounds >= 1));
             let nothing = RayWork { rounds: 1, ..RayWork::default() };
             assert_eq!([per_ray.work[7], per_ray.work[8]], [nothing; 2], "{name}: rays that ask nothing");
-            if name != "brute force" {
+            if name != "brute-force robust" {
                 assert!(per_ray.work.iter().any(|work| work.rounds > 1), "{name}: no ray paused");
             }
             let hits = |outcome: &TraceOutcome| {
                 outcome.hits.iter().map(|hit| (hit.t.to_bits(), hit.primitive)).collect::<Vec<_>>()
             };
-            assert_eq!(hits(&off), hits(&per_ray), "{name}, {mode:?}");
-            assert_eq!(hits(&off), hits(&sums), "{name}, {mode:?}");
+            assert_eq!(hits(off), hits(per_ray), "{name}, {mode:?}");
+            assert_eq!(hits(off), hits(sums), "{name}, {mode:?}");
             // One unit more or less on any ray is noticed.
             let mut wrong = per_ray.work.clone();
             wrong[500].tests += 1;

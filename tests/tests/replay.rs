@@ -1,18 +1,16 @@
 //! The replay of one ray: its steps are the work that was counted, and they show where a hit was lost.
 
-use rasray_abuffer::{ABuffer, Config, Coverage, Payload};
+use rasray_abuffer::{ABuffer, Config, Payload};
 use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, TestVerdict, TraceMode};
-use rasray_ads_primitive::{PrimitiveLists, Storage};
-use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::Timing;
-use rasray_ldc::LayeredDepthCube;
 use rasray_reference::oracle::Verdict;
+use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
+use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tests::visits::{face_from_world, point};
 use rasray_tracer::{BatchTracer, Replay, TracerError, build_until_complete};
-use rasray_voxel::{Config as VoxelConfig, Voxels};
 
 const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 const RESOLUTION: u32 = 64;
@@ -39,114 +37,40 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
     Box::new(structure)
 }
 
-fn bvh(
-    bench: &Bench,
-    geometry: &Geometry,
-    builder: Builder,
-    counters: Counters,
-    work_budget: Option<u32>,
-) -> Box<dyn Structure> {
-    let config = rasray_bvh::Config { counters, work_budget, ..rasray_bvh::Config::new(builder) };
-    let mut structure = Bvh::new(bench.device(), config, geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
-    Box::new(structure)
+/// Storages and coverages beside those of presets, which make other walks of them.
+const MORE: [(&str, &str, &[(&str, &str)]); 7] = [
+    ("bvh", "robust", &[("builder", "lbvh")]),
+    ("dirt", "robust", &[("storage", "sb")]),
+    ("dirt", "robust", &[("storage", "llb")]),
+    ("mmrt", "robust", &[("coverage", "conservative")]),
+    ("mmrt", "robust", &[("march", "pyramid"), ("storage", "sb")]),
+    ("hu", "robust", &[("storage", "ll")]),
+    ("selective", "published", &[("march", "exact"), ("payload", "index")]),
+];
+
+/// Whether rays find what they meet in a few steps.
+fn is_short(structure: &str) -> bool {
+    ["bvh", "ads-primitive"].contains(&structure)
 }
 
-fn lists(
-    bench: &Bench,
-    geometry: &Geometry,
-    storage: Storage,
-    counters: Counters,
-    work_budget: Option<u32>,
-) -> Box<dyn Structure> {
-    let robust = rasray_ads_primitive::Config::robust(RESOLUTION);
-    let config = rasray_ads_primitive::Config { storage, counters, work_budget, ..robust };
-    let mut structure =
-        PrimitiveLists::new(bench.device(), config, geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
-    Box::new(structure)
-}
-
-fn voxels(bench: &Bench, geometry: &Geometry, config: VoxelConfig) -> Box<dyn Structure> {
-    let mut structure = Voxels::new(bench.device(), config, geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
-    Box::new(structure)
-}
-
-fn cube(bench: &Bench, geometry: &Geometry, config: rasray_ldc::Config) -> Box<dyn Structure> {
-    let mut structure =
-        LayeredDepthCube::new(bench.device(), config, geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
-    Box::new(structure)
-}
-
-/// Brute force, trees, lists of triangles and of fragments, voxels, with the work that is recorded; budgets
-/// are small, so that rays pause.
+/// Every preset of every system, and more of them; budgets are small, so that rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
-    let work_budget = Some(40);
-    let brute = BruteForce::new(bench.device(), geometry, None, counters).expect("pipelines can be made");
-    vec![
-        Box::new(brute),
-        bvh(bench, geometry, Builder::Sah, counters, Some(5)),
-        bvh(bench, geometry, Builder::Lbvh, counters, Some(5)),
-        lists(bench, geometry, Storage::Contiguous, counters, work_budget),
-        lists(bench, geometry, Storage::Linked, counters, work_budget),
-        lists(bench, geometry, Storage::Bricks, counters, Some(5)),
-        abuffer(bench, geometry, Config { counters, work_budget, ..Config::robust(RESOLUTION) }),
-        abuffer(bench, geometry, Config { counters, work_budget, ..published() }),
-        abuffer(
-            bench,
-            geometry,
-            Config { counters, work_budget, coverage: Coverage::Conservative, ..Config::robust(RESOLUTION) },
-        ),
-        voxels(bench, geometry, VoxelConfig { counters, work_budget, ..VoxelConfig::robust(RESOLUTION) }),
-        voxels(
-            bench,
-            geometry,
-            VoxelConfig {
-                counters,
-                work_budget,
-                payload: rasray_voxel::Payload::Index,
-                ..VoxelConfig::published_hu(RESOLUTION)
-            },
-        ),
-        voxels(
-            bench,
-            geometry,
-            VoxelConfig {
-                counters,
-                work_budget,
-                march: rasray_voxel::March::Exact,
-                payload: rasray_voxel::Payload::Index,
-                ..VoxelConfig::published_selective(RESOLUTION)
-            },
-        ),
-        voxels(
-            bench,
-            geometry,
-            VoxelConfig {
-                counters,
-                work_budget,
-                storage: rasray_voxel::Storage::Linked,
-                ..VoxelConfig::robust(RESOLUTION)
-            },
-        ),
-        cube(
-            bench,
-            geometry,
-            rasray_ldc::Config { counters, work_budget: Some(40), ..rasray_ldc::Config::robust(RESOLUTION) },
-        ),
-        cube(
-            bench,
-            geometry,
-            rasray_ldc::Config {
-                counters,
-                work_budget: Some(60),
-                payload: rasray_ldc::Payload::Index,
-                ..rasray_ldc::Config::published(RESOLUTION)
-            },
-        ),
-    ]
+    let more = MORE.map(|(system, preset, options)| {
+        let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Spec::new(system, preset, given).expect("the options are the system's")
+    });
+    let made = Subject::all(bench).into_iter().map(|subject| subject.spec).chain(more).map(|spec| {
+        let cells = ("resolution".to_owned(), RESOLUTION.to_string());
+        // Trees, brute force and bricks along the axes have no views with cells.
+        let spec = spec.with_options([cells]).unwrap_or(spec).with_counters(counters);
+        // What finds its triangle soon needs less to pause.
+        let spec = spec.clone().with_work_budget(if is_short(spec.structure()) { 5 } else { 60 });
+        let mut structure = spec.create(bench.device(), geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), structure.as_mut(), EYE, Timing::None)
+            .expect("the build completes");
+        structure
+    });
+    made.collect()
 }
 
 fn tracer(bench: &Bench) -> BatchTracer {

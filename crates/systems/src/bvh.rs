@@ -18,7 +18,9 @@ pub(crate) const SYSTEM: System = System {
 
 /// The configuration that a spec stands for.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
-    let mut config = Config { counters: spec.counters(), ..Config::new(Builder::Sah) };
+    let mut config = Config::new(Builder::Sah);
+    config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
     for given in Given::all(spec) {
         match given.name {
             "builder" => config.builder = given.choice(&[("sah", Builder::Sah), ("lbvh", Builder::Lbvh)])?,

@@ -60,6 +60,7 @@ fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
         Preset::Published => Config::published(PUBLISHED_RESOLUTION),
     };
     config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
     for given in Given::all(spec) {
         match given.name {
             "resolution" => config.resolution = given.number()?,

@@ -47,6 +47,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
 fn bricks(spec: &Spec) -> Result<BricksConfig, SystemsError> {
     let mut config = BricksConfig { views: Views::Axes, ..BricksConfig::robust(1) };
     config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
     for given in Given::all(spec) {
         match given.name {
             "storage" if spec.preset() == Preset::Robust => {}

@@ -52,6 +52,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         Preset::Published => Config::published(RESOLUTION),
     };
     config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
     for given in Given::all(spec) {
         match given.name {
             "resolution" => config.resolution = given.number()?,

@@ -68,6 +68,7 @@ pub struct Spec {
     preset: Preset,
     options: BTreeMap<String, String>,
     counters: Counters,
+    work_budget: Option<u32>,
 }
 
 impl Spec {
@@ -95,7 +96,7 @@ impl Spec {
         if let Some(option) = options.keys().find(|option| !row.options.contains(&option.as_str())) {
             return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
         }
-        let spec = Self { system: row, preset, options, counters: Counters::Off };
+        let spec = Self { system: row, preset, options, counters: Counters::Off, work_budget: None };
         spec.requirements()?;
         Ok(spec)
     }
@@ -106,13 +107,33 @@ impl Spec {
         Self { counters: counters.into(), ..self }
     }
 
+    /// The same with rays that spend this many units of work in a dispatch, from 2 on, and then wait for the
+    /// next. Changes no hit; rays that need more dispatches than they are given are counted as unfinished. Brute
+    /// force keeps the shared default.
+    #[must_use]
+    pub fn with_work_budget(self, units: u32) -> Self {
+        Self { work_budget: Some(units), ..self }
+    }
+
     /// The same with one more option over the preset.
     ///
     /// # Errors
     /// The system has no such option or value.
     pub fn with_option(&self, option: &str, value: &str) -> Result<Self, SystemsError> {
-        let given = self.options.clone().into_iter().chain([(option.to_owned(), value.to_owned())]);
-        Ok(Self::new(self.system.name, self.preset.name(), given)?.with_counters(self.counters))
+        self.with_options([(option.to_owned(), value.to_owned())])
+    }
+
+    /// The same with more options over the preset, looked at all at once: some go only beside others.
+    ///
+    /// # Errors
+    /// The system has no such option or value.
+    pub fn with_options(
+        &self,
+        options: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<Self, SystemsError> {
+        let given = self.options.clone().into_iter().chain(options);
+        let spec = Self::new(self.system.name, self.preset.name(), given)?;
+        Ok(Self { counters: self.counters, work_budget: self.work_budget, ..spec })
     }
 
     /// The registry's row.
@@ -138,6 +159,11 @@ impl Spec {
     /// How much of their work rays record.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// Units of work that a ray may spend in a dispatch; the shared default where absent.
+    pub fn work_budget(&self) -> Option<u32> {
+        self.work_budget
     }
 
     /// What a device must and may offer.

@@ -30,7 +30,9 @@ pub(crate) const RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for over a preset. `attributes` is the payload of the system's paper.
 pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result<Config, SystemsError> {
-    let mut config = Config { counters: spec.counters(), ..preset };
+    let mut config = preset;
+    config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
     for given in Given::all(spec) {
         match given.name {
             "resolution" => config.resolution = given.number()?,

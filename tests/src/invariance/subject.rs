@@ -109,10 +109,7 @@ impl Subject {
     /// structure of them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
-        let all = self.spec.options().clone().into_iter().chain(given);
-        // All at once: some go only beside others.
-        let spec = Spec::new(self.spec.system().name, self.spec.preset().name(), all).ok()?;
-        let spec = spec.with_counters(self.spec.counters());
+        let spec = self.spec.with_options(given).ok()?;
         (spec.structure() == self.spec.structure()).then_some(Self { spec, kind: self.kind })
     }
 
