@@ -6,7 +6,7 @@ use rasray_gpu::Timing;
 use rasray_reference::oracle::Verdict;
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
-use rasray_tests::invariance::Subject;
+use rasray_tests::invariance::{Row, Subject};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
 use rasray_tests::visits::{face_from_world, point};
@@ -38,7 +38,7 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
 }
 
 /// Storages and coverages beside those of presets, which make other walks of them.
-const MORE: [(&str, &str, &[(&str, &str)]); 7] = [
+const MORE: [Row; 7] = [
     ("bvh", "robust", &[("builder", "lbvh")]),
     ("dirt", "robust", &[("storage", "sb")]),
     ("dirt", "robust", &[("storage", "llb")]),

@@ -14,4 +14,4 @@ pub use choices::{choices, speed_options, takes};
 pub use laws::{LAWS, Law, Value, law};
 pub use pairs::{Pair, Pairs, pairwise};
 pub use scene::{EYE, assert_same, general_rays, ray_count, rays, scene};
-pub use subject::{Answers, SUBJECTS, Subject, first_difference};
+pub use subject::{Answers, Row, SUBJECTS, Subject, first_difference};

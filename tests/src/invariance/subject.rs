@@ -8,7 +8,7 @@ use crate::shapes::Triangle;
 use crate::tier::is_full;
 
 /// A system, a preset, and options over it by name and value.
-type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
+pub type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
 /// Options that a preset needs to be traced without a scene and in the time of a test. What a system
 /// does not have is left out.
