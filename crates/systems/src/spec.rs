@@ -211,6 +211,15 @@ mod tests {
     }
 
     #[test]
+    fn what_rays_record_and_spend_stays_with_more_options() {
+        let given = spec("mmrt", "robust", &[("resolution", "24")]).expect("it is valid");
+        let given = given.with_counters(Counters::PerRay).with_work_budget(40);
+        let more = given.with_option("buckets", "2").expect("it is valid");
+        assert_eq!((more.counters(), more.work_budget()), (Counters::PerRay, Some(40)));
+        assert_eq!(more.options().len(), 2);
+    }
+
+    #[test]
     fn what_is_not_registered_is_refused_by_name() {
         let message = |result: Result<Spec, SystemsError>| result.expect_err("refused").to_string();
         let known = message(spec("nobody", "robust", &[]));
