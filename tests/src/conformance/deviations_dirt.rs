@@ -28,6 +28,9 @@ pub(super) const PUBLISHED: &[Deviation] = &[
     deviation("X9", PASSED, 0.051, 0.079),
 ];
 
+/// The same in 16 x 16 tiles a face.
+pub(super) const PUBLISHED_16: &[Deviation] = &[];
+
 /// The same with the tiles whose centres the rasterizer covers, of a pixel each.
 pub(super) const HARDWARE: &[Deviation] = &[
     deviation("C2", GAPS, 0.064, 0.1),

@@ -11,6 +11,10 @@ const AT_SURFACE: &str =
 
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const LEANING: &str = "fragments of what leans by more than the tolerance over a cell have gaps, others are met up to the tolerance early";
+const CENTRE: &str =
+    "t is that of a fragment at its cell's centre: off by up to half a cell's rise of what leans";
+const BESIDE: &str =
+    "triangles of few cells, whose fragments are met where their cells end, not where they do";
 const SHELL: &str = "what lies closer together than the tolerance or the spacing of 16-bit depths is one";
 const LEAVING: &str = "a ray that leaves a surface meets the fragments beside its own";
 const DETAIL: &str = "detail smaller than a cell, most of which covers no cell's centre";
@@ -35,6 +39,29 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
     line("T4", BORDER, 1.4),
     line("P1", "spheres inside spheres, seen from outside, half of each at grazing angles", 11.0),
     line("P7", AT_SURFACE, 1.8),
+];
+
+/// Fragments' own depths in 64 x 64 cells a view.
+pub(super) const SLOPE_64: &[Deviation] = &[
+    deviation("G11", CENTRE, 0.342, 0.534),
+    deviation("G12", CENTRE, 0.069, 0.108),
+    deviation("V2-0", CENTRE, 0.37, 0.578),
+    deviation("V4", CENTRE, 0.54, 0.844),
+    deviation("V15-near", AT_SURFACE, 0.504, 0.787),
+    deviation("V15-vertex", AT_SURFACE, 0.509, 0.796),
+    deviation("X2", CENTRE, 0.18, 0.281),
+    deviation("X10", CENTRE, 0.08, 0.125),
+    deviation("X12", CENTRE, 0.454, 0.71),
+    deviation("X15", CENTRE, 0.463, 0.724),
+    deviation("C4", BESIDE, 0.209, 0.326),
+    deviation("C5", BESIDE, 0.245, 0.383),
+    deviation("P5", LEAVING, 0.478, 0.747),
+    deviation("P1", LEAVING, 0.552, 0.862),
+    deviation("P7", LEAVING, 0.508, 0.794),
+    deviation("V8", CENTRE, 0.032, 0.05),
+    deviation("Z2-6", COARSE, 0.038, 0.061),
+    deviation("T1", CENTRE, 0.033, 0.053),
+    deviation("T4", CENTRE, 0.047, 0.074),
 ];
 
 /// Tolerance, 16-bit depths and the rasterizer's coverage in 16 x 16 cells a view.

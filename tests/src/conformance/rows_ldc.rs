@@ -28,6 +28,15 @@ pub(super) const ROWS: &[Row] = &[
         tier: Tier::Full,
         ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
     },
+    // Fragments met by their own depth, give or take what their triangles lean over half a cell.
+    ldc(
+        "ldc-slope-64",
+        Preset::Robust,
+        &[("resolution", "64"), ("accept", "slope")],
+        Cases::Shallow,
+        published_law(64),
+        deviations_ldc::SLOPE_64,
+    ),
     // Triangle ids instead of attributes, which need a scene.
     ldc(
         "ldc-published-16",

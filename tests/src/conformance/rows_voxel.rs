@@ -46,6 +46,15 @@ pub(super) const ROWS: &[Row] = &[
         voxel_law(128),
         deviations_voxel::ROBUST_128,
     ),
+    // As published, but every cell is walked, with crossings counted where the ray enters and leaves it.
+    voxel(
+        "hu-published-exact-128",
+        ("hu", Preset::Published),
+        &[("resolution", "128"), ("payload", "index"), ("march", "exact")],
+        Cases::Shallow,
+        published_law(128),
+        deviations_voxel::PARITY_128,
+    ),
     // What reaches into a cell is kept there: hits are those of triangles.
     Row::exact(
         "hu-conservative-16",

@@ -25,6 +25,7 @@ pub const SUBJECTS: &[Row] = &[
 /// Presets with options that make another structure, or one in which other options decide.
 const MORE: &[Row] = &[
     ("dirt", "robust", &[("views", "axes"), ("grid", "24")]),
+    ("dirt", "robust", &[("storage", "llb"), ("resolution", "24")]),
     ("hu", "robust", &[("storage", "bricks"), ("grid", "24")]),
 ];
 
