@@ -71,10 +71,6 @@ layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     TraceStep queue_steps[];
 };
 
-uint queue_capacity() {
-    return queue_header.capacity;
-}
-
 Ray queue_ray(uint slot) {
     return queue_rays[slot];
 }
@@ -97,11 +93,6 @@ Surface queue_surface(uint slot) {
 
 void queue_set_surface(uint slot, Surface surface) {
     queue_surfaces[slot] = surface;
-}
-
-// A ray that asks nothing.
-Ray queue_inactive_ray() {
-    return Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0, PRIMITIVE_NONE, 0u, 0.0, 0.0);
 }
 
 #endif

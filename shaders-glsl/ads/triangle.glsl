@@ -72,8 +72,8 @@ void triangle_plane_t(vec3 along, vec3 against, vec3 p, vec3 d, out float t, out
 // products that `edges` are the difference of.
 //
 // Edges that are off by delta each move t by sum(delta |depth - t|) / |sum of the true edges|: mixing equal
-// depths gives that depth whatever the weights. Of rounding, depths, products, sums and the quotient take 18
-// u of sum(|edges depths|), and depth - t itself is off by 24 u of the largest.
+// depths gives that depth whatever the weights. Of rounding, depths, products, sums and the quotient take
+// 18 u of sum(|edges depths|), and depth - t itself is off by 24 u of the largest.
 float triangle_mixing_error(vec3 x, vec3 y, vec3 dx, vec3 dy, vec3 first, vec3 second, vec3 edges, vec3 depths, float det,
     float t, float max_depth) {
     const float gamma2 = 1.1920930e-7;

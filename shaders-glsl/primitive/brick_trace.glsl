@@ -5,8 +5,14 @@
 // no near box. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
 // axis of that exit gets the next index exactly, the others are found from the point there and kept between
 // where they were and the end of what was empty. So indices only go forwards, and a cell is missed by no more
-// than rounding, which what it lists allows for. cursor: 0 flags and face, 1 t, 3 column and row, 4 slice, 6
-// next entry, 7 place in what is tested one by one.
+// than rounding, which what it lists allows for.
+//
+// cursor: 0 flags and face
+//         1 t
+//         3 column and row
+//         4 slice
+//         6 next entry
+//         7 place in what is tested one by one
 #ifndef PRIMITIVE_BRICK_TRACE_GLSL
 #define PRIMITIVE_BRICK_TRACE_GLSL
 

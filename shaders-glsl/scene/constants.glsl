@@ -4,8 +4,7 @@
 #ifndef SCENE_CONSTANTS_GLSL
 #define SCENE_CONSTANTS_GLSL
 
-// Descriptor set and bindings of scene/accessors.glsl.
-#define SCENE_SET_DEFAULT 3u
+// Bindings of scene/accessors.glsl.
 #define SCENE_BINDING_FRAME 0u
 #define SCENE_BINDING_DRAW_SHADINGS 1u
 #define SCENE_BINDING_TRIANGLE_DRAWS 2u

@@ -1,8 +1,8 @@
 // What: the pools of voxels with axis A-buffers, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity. A list
-// is a cell of a view: its word is that of voxel/lists.glsl. A place is the number of a fragment, of pages
-// that of a slot.
+// Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
+// A list is a cell of a view: its word is that of voxel/lists.glsl.
+// A place is the number of a fragment, of pages that of a slot.
 #ifndef VOXEL_ACCESSORS_GLSL
 #define VOXEL_ACCESSORS_GLSL
 

@@ -2,9 +2,10 @@
 // Reads: the scene, when packing. Writes: nothing.
 // Source: Hu et al. section 3.1, depth, normal and BRDF; Frid Kastrati and Goswami section 3.2, colour,
 // depth, reflectivity, normal and triangle.
-// Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is
-// the reflectivity. Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the
-// triangle.
+//
+// Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the triangle.
+// Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is the
+// reflectivity.
 #ifndef VOXEL_ATTRIBUTES_GLSL
 #define VOXEL_ATTRIBUTES_GLSL
 

@@ -2,9 +2,14 @@
 // it is read.
 // Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
 // Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of
-// several. The word of a list, contiguous: first its length, then where the next fragment goes, and once all
-// is stored where its fragments end; they begin where those of the list before it end. Linked: a link to the
-// newest. Paged: the word that leads to the newest page. A link is a place + 1; 0 names none.
+// several.
+//
+// The word of a list:
+// - contiguous: first its length, then where the next fragment goes, and once all is stored where its fragments
+//   end; they begin where those of the list before it end
+// - linked: a link to the newest
+// - paged: the word that leads to the newest page
+// A link is a place + 1; 0 names none.
 #ifndef VOXEL_LISTS_GLSL
 #define VOXEL_LISTS_GLSL
 

@@ -1,8 +1,16 @@
 // What: a ray's way through the voxels, and through the cells of a view within a voxel, able to stop and go on.
 // Reads: header. Writes: nothing.
 // Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells
-// (ads/march_grid.glsl). cursor: 0 flags and small numbers, 1 voxel, 2 its entry, 3 its neighbours, 4 cell
-// and step, 5 its entry, 6 place in the list that is being read, 7 a fragment of it.
+// (ads/march_grid.glsl).
+//
+// cursor: 0 flags and small numbers
+//         1 voxel
+//         2 its entry
+//         3 its neighbours
+//         4 cell and step
+//         5 its entry
+//         6 place in the list that is being read
+//         7 a fragment of it
 #ifndef VOXEL_WALK_GLSL
 #define VOXEL_WALK_GLSL
 

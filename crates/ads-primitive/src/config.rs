@@ -324,7 +324,7 @@ impl Config {
             let lower = |rule: &dyn std::fmt::Debug| format!("{rule:?}").to_lowercase();
             options.extend([
                 ("buckets", self.buckets.to_string()),
-                ("pyramid", switch(self.pyramid)),
+                ("pyramid", switch(self.has_pyramid())),
                 ("coverage", lower(&self.coverage)),
                 ("accept", lower(&self.accept)),
                 ("stop", lower(&self.stop)),

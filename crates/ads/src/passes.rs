@@ -204,21 +204,9 @@ impl BuildTarget<'_> {
         recorder.end_rendering();
     }
 
-    /// A labelled pass that draws every triangle once a view onto a square of `side` cells, visible to compute
-    /// and fragment shaders after it.
-    pub fn raster_pass(
-        &self,
-        recorder: &mut Recorder<'_>,
-        label: &str,
-        pipeline: &RasterPipeline,
-        side: u32,
-        views: u32,
-    ) {
-        self.raster_views(recorder, label, pipeline, &[ViewDraw { side, views, first: 0 }]);
-    }
-
-    /// The same for views of several sizes. Passes learn the number of a draw's first view where others learn
-    /// their step.
+    /// A labelled pass that draws every triangle once a view, onto squares of several sizes, visible to compute
+    /// and fragment shaders after it. Passes learn the number of a draw's first view where others learn their
+    /// step.
     pub fn raster_views(
         &self,
         recorder: &mut Recorder<'_>,

@@ -20,7 +20,7 @@ pub enum StepKind {
     Round,
     /// A view was entered.
     View,
-    /// A cell was searched.
+    /// A cell was come to, to be searched or passed over.
     Cell,
     /// A node of a hierarchy was visited.
     Node,

@@ -67,7 +67,8 @@ impl Sizes {
 pub struct PoolStatus {
     /// Name of the pool.
     pub name: &'static str,
-    /// Elements the build asked for; exact also beyond the capacity.
+    /// Elements the build asked for; exact also beyond the capacity. Of pages it is what this build began, or
+    /// would have begun: that depends a little on which threads meet, and `check` leaves room for it.
     pub demand: u64,
     /// Elements the pool holds.
     pub capacity: u64,

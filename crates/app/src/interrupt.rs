@@ -45,11 +45,6 @@ impl Interrupt {
         self.requested.load(Ordering::SeqCst)
     }
 
-    /// Asks for an early end, as the first signal does.
-    pub fn request(&self) {
-        self.requested.store(true, Ordering::SeqCst);
-    }
-
     /// Marks a file as unfinished until the guard is dropped: an end at once removes it.
     pub(crate) fn unfinished(&self, path: &Path) -> Unfinished<'_> {
         locked(&self.unfinished).push(path.to_owned());

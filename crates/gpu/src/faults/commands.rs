@@ -24,6 +24,9 @@ pub(super) fn entry() -> std::result::Result<ash::Entry, String> {
 }
 
 /// What the loader has under a name.
+///
+/// # Safety
+/// `instance` is null or an instance that is not destroyed.
 unsafe fn original(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
     let loader = LOADER.get()?.as_ref().ok()?;
     // SAFETY: the caller vouches for the instance, and the name is NUL-terminated.
@@ -36,6 +39,9 @@ fn kind_of<T>(_: *const T) -> &'static str {
 }
 
 /// Notes objects that a call made; the call may leave null behind.
+///
+/// # Safety
+/// `made` points to `count` handles, all of them written.
 unsafe fn note_made<T: Handle + Copy>(made: *mut T, count: u32) {
     for index in 0..count as usize {
         // SAFETY: the caller vouches for `count` handles that the call has written.
@@ -46,6 +52,9 @@ unsafe fn note_made<T: Handle + Copy>(made: *mut T, count: u32) {
 }
 
 /// Leaves null behind for what was not made, as Vulkan demands of pipelines.
+///
+/// # Safety
+/// `made` points to room for `count` handles, to which nothing else has access.
 unsafe fn leave_none<T: Handle>(made: *mut T, count: u32) {
     for index in 0..count as usize {
         // SAFETY: the caller vouches for room for `count` handles.
@@ -259,6 +268,9 @@ fn known(name: &CStr) -> Option<(&'static AtomicPtr<c_void>, vk::PFN_vkVoidFunct
 }
 
 /// The function of a name with the schedule around it; `None` for those that this module does not know.
+///
+/// # Safety
+/// As [`original`].
 unsafe fn wrapped(instance: vk::Instance, name: &CStr) -> vk::PFN_vkVoidFunction {
     // SAFETY: the caller vouches for the instance.
     let own = unsafe { original(instance, name) }?;
