@@ -46,7 +46,8 @@
 #define STEP_ROUND 1u
 // A view (or the near box) is entered; a: the view, t: its stretch of the ray.
 #define STEP_VIEW 2u
-// A cell is come to, to be searched or passed over; a: the view, b and c: column and row (signed), t: its stretch of the ray, widened.
+// A cell is come to, to be searched or passed over; a: the view, b and c: column and row (signed), t: its stretch of
+// the ray, widened.
 #define STEP_CELL 3u
 // A node of a hierarchy is visited; a: the node, b: its first child or entry, t: its stretch of the ray.
 #define STEP_NODE 4u

@@ -1,6 +1,6 @@
 //! Bounding volume hierarchies: the yardstick.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Config};
+use rasray_bvh::{Builder, Bvh, Config};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -25,10 +25,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         match given.name {
             "builder" => config.builder = given.choice(&[("sah", Builder::Sah), ("lbvh", Builder::Lbvh)])?,
             "leaf" => config.leaf = given.number()?,
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => return Err(given.unknown()),
         }
     }

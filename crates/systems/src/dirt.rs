@@ -1,8 +1,7 @@
 //! DIRT: primitive lists with the paper's presets.
 
 use rasray_ads_primitive::{
-    Accept, Addressing, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
-    Views,
+    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
 };
 
 use crate::option::Given;
@@ -100,10 +99,7 @@ fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
                 config.views = given.choice(&[Views::Cube, Views::Axes].map(|views| (views.name(), views)))?
             }
             "grid" => config.grid = Some(given.number()?),
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => return Err(given.unknown()),
         }
     }

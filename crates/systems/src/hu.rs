@@ -1,6 +1,6 @@
 //! Hu et al.: voxels with axis A-buffers, with the paper's presets; and bricks of triangles in their place.
 
-use rasray_ads_primitive::{Addressing, Config as BricksConfig, PrimitiveLists, Views};
+use rasray_ads_primitive::{Config as BricksConfig, PrimitiveLists, Views};
 use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::option::Given;
@@ -54,10 +54,7 @@ fn bricks(spec: &Spec) -> Result<BricksConfig, SystemsError> {
             "storage" => return Err(given.refused("the paper stores fragments: take the preset robust")),
             "grid" => config.grid = Some(given.number()?),
             "capacity" => config.entries = Some(given.number()?.into()),
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => {
                 return Err(given.refused(
                     "with storage bricks triangles are kept, not fragments, and only grid, capacity and addressing are chosen",

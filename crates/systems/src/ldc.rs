@@ -1,8 +1,6 @@
 //! LDC: the layered depth cube with the paper's presets.
 
-use rasray_ldc::{
-    Accept, Addressing, Builder, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload,
-};
+use rasray_ldc::{Accept, Builder, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -93,10 +91,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
                     ("conservative", Coverage::Conservative),
                 ])?;
             }
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => return Err(given.unknown()),
         }
     }

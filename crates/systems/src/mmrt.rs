@@ -1,8 +1,6 @@
 //! MMRT: the A-buffer with the paper's presets.
 
-use rasray_abuffer::{
-    ABuffer, Accept, Addressing, Builder, Config, Coverage, March, Payload, Storage, Views,
-};
+use rasray_abuffer::{ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, Views};
 
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError};
@@ -98,10 +96,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "coverage" => {
                 config.coverage = given.choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))?;
             }
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => return Err(given.unknown()),
         }
     }

@@ -1,5 +1,7 @@
 //! What is given for one option, and how it is read.
 
+use rasray_ads::Addressing;
+
 use crate::{Spec, SystemsError};
 
 /// An option of a spec with its value.
@@ -49,6 +51,13 @@ impl<'a> Given<'a> {
             let known: Vec<_> = words.iter().map(|(word, _)| *word).collect();
             self.refused(&format!("it is one of: {}", known.join(", ")))
         })
+    }
+
+    /// How shaders reach the pools.
+    pub(crate) fn addressing(&self) -> Result<Addressing, SystemsError> {
+        self.choice(
+            &[Addressing::Descriptor, Addressing::Address].map(|addressing| (addressing.name(), addressing)),
+        )
     }
 
     /// An option that the system does not have.

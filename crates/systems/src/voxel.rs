@@ -1,6 +1,6 @@
 //! Options of the systems that trace voxels with axis A-buffers.
 
-use rasray_voxel::{Accept, Addressing, Axes, Builder, Config, Coverage, March, Marking, Payload, Storage};
+use rasray_voxel::{Accept, Axes, Builder, Config, Coverage, March, Marking, Payload, Storage};
 
 use crate::option::Given;
 use crate::{Spec, SystemsError};
@@ -76,10 +76,7 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
             "storage" => {
                 config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
             }
-            "addressing" => {
-                config.addressing = given
-                    .choice(&[("descriptor", Addressing::Descriptor), ("address", Addressing::Address)])?;
-            }
+            "addressing" => config.addressing = given.addressing()?,
             _ => return Err(given.unknown()),
         }
     }

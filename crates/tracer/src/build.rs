@@ -7,8 +7,9 @@ use rasray_gpu::{Device, PassTiming, Timing};
 
 use crate::TracerError;
 
-/// Rebuilds after which a structure counts as unstable. Demand is exact, but a later pool's demand may
-/// only be known once an earlier pool sufficed.
+/// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a later
+/// pool's demand may only be known once an earlier pool sufficed, and that for pages differs a little from build to
+/// build, for which [`Structure::check`] leaves room.
 const REBUILDS: u32 = 4;
 
 /// What a build cost.
@@ -54,7 +55,7 @@ pub fn build_until_complete(
                 tracing::debug!(
                     structure = structure.name(),
                     bytes = sizes.bytes(),
-                    "grows to its exact demand"
+                    "grows to what the build asked for"
                 );
                 structure.resize(device, &sizes)?;
                 outcome.regrows += 1;

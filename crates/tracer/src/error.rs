@@ -13,7 +13,7 @@ pub enum TracerError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build still asked for more after its exact demand had been met.
+    /// A build still asked for more after it had been given what earlier ones asked for.
     #[error("{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable")]
     Unstable {
         /// Name of the structure.

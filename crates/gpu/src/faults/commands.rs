@@ -231,6 +231,9 @@ fn harmless(name: &CStr) -> bool {
 }
 
 /// Stands for `vkGetInstanceProcAddr`.
+///
+/// # Safety
+/// `instance` is null or an instance that is not destroyed, and `name` points to a NUL-terminated string.
 unsafe extern "system" fn instance_function(
     instance: vk::Instance,
     name: *const c_char,
@@ -246,6 +249,9 @@ static DEVICE_LOOKUP: AtomicPtr<c_void> = AtomicPtr::new(std::ptr::null_mut());
 
 /// Stands for `vkGetDeviceProcAddr`. Functions with a schedule forward to the loader's own, which find the device by
 /// the handle they are called with: they serve every device, with layers or without.
+///
+/// # Safety
+/// `device` is a device that is not destroyed, and `name` points to a NUL-terminated string.
 unsafe extern "system" fn device_function(device: vk::Device, name: *const c_char) -> vk::PFN_vkVoidFunction {
     // SAFETY: this function is handed out only once the loader's is stored, which has this type.
     let lookup = unsafe {
