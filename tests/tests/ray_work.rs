@@ -1,6 +1,6 @@
 //! Work counted per ray: it adds up to the sums, and counting changes no hit.
 
-use rasray_ads::{BruteForce, Counters, QueueCounters, Ray, RayWork, StructureKind, TraceMode};
+use rasray_ads::{BruteForce, Counters, Hit, QueueCounters, Ray, RayWork, StructureKind, TraceMode};
 use rasray_gpu::Timing;
 use rasray_tests::harness::Bench;
 use rasray_tests::invariance::Subject;
@@ -65,7 +65,11 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(off.work.is_empty() && sums.work.is_empty());
             assert_eq!(per_ray.work.len(), rays.len());
             assert_eq!(off.counters, QueueCounters::default());
-            assert_eq!(sums.counters, per_ray.counters, "{name}, {mode:?}");
+            // Threads fill lists in another order in each build, and any hit ends at the first that is met.
+            if mode == TraceMode::Closest {
+                assert_eq!(sums.counters, per_ray.counters, "{name}, {mode:?}");
+            }
+            assert!(sums.counters.cells + sums.counters.tests > 2000, "{:?}", sums.counters);
             assert_eq!(difference(&per_ray.work, &per_ray.counters), None, "{name}, {mode:?}");
             assert!(per_ray.counters.cells + per_ray.counters.tests > 2000, "{:?}", per_ray.counters);
             assert!(per_ray.work.iter().all(|work| work.rounds >= 1));
@@ -75,7 +79,11 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
                 assert!(per_ray.work.iter().any(|work| work.rounds > 1), "{name}: no ray paused");
             }
             let hits = |outcome: &TraceOutcome| {
-                outcome.hits.iter().map(|hit| (hit.t.to_bits(), hit.primitive)).collect::<Vec<_>>()
+                let key = |hit: &Hit| match mode {
+                    TraceMode::Closest => (hit.t.to_bits(), hit.primitive),
+                    TraceMode::Occluded => (0, u32::from(hit.is_hit())),
+                };
+                outcome.hits.iter().map(key).collect::<Vec<_>>()
             };
             assert_eq!(hits(off), hits(per_ray), "{name}, {mode:?}");
             assert_eq!(hits(off), hits(sums), "{name}, {mode:?}");

@@ -90,7 +90,9 @@ fn key(hit: &Hit) -> (u32, u32) {
 fn the_steps_are_the_work_and_end_in_the_hit() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
-    let rays = rays(0x7265_706C_6179, 40);
+    let mut rays = rays(0x7265_706C_6179, 40);
+    // Some end before they meet anything.
+    rays.iter_mut().step_by(2).for_each(|ray| ray.t_max = 2.0);
     let tracer = tracer(&bench);
     let counted = structures(&bench, &geometry, Counters::PerRay);
     let logged = structures(&bench, &geometry, Counters::Steps);
@@ -98,15 +100,20 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let expected =
                 tracer.trace(counted.as_ref(), &rays, mode, Timing::None).expect("all rays finish");
-            let mut paused = false;
+            let (mut paused, mut missed, mut noticed) = (false, 0, 0);
             for (index, ray) in rays.iter().enumerate() {
                 let replay = tracer.replay(logged.as_ref(), ray, mode).expect("the structure logs steps");
                 let context = format!("{} {mode:?} ray {index}\n{replay}", logged.name());
                 assert_eq!(replay.omitted, 0);
-                assert_eq!(replay.work, expected.work[index], "{context}");
-                assert_eq!(replay.logged_work(), expected.work[index], "{context}");
+                assert_eq!(replay.logged_work(), replay.work, "{context}");
                 let hit = replay.hit.expect("the ray finishes");
-                assert_eq!(key(&hit), key(&expected.hits[index]), "{context}");
+                assert_eq!(hit.is_hit(), expected.hits[index].is_hit(), "{context}");
+                missed += usize::from(!hit.is_hit());
+                // Threads fill lists in another order in each build, and any hit ends at the first that is met.
+                if mode == TraceMode::Closest || !hit.is_hit() {
+                    assert_eq!(replay.work, expected.work[index], "{context}");
+                    assert_eq!(key(&hit), key(&expected.hits[index]), "{context}");
+                }
                 let best = replay.steps.iter().rev().find(|step| step.kind() == StepKind::Best);
                 // Fragments that keep a plane alone do not say which triangle they are of.
                 let found = hit.is_hit() && hit.primitive != PRIMITIVE_UNKNOWN;
@@ -121,10 +128,16 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
                 let counts = |step: &rasray_ads::TraceStep| {
                     matches!(step.kind(), StepKind::Cell | StepKind::Entry | StepKind::Test)
                 };
-                let place = wrong.steps.iter().position(counts).expect("something is done for every ray");
-                wrong.steps.remove(place);
-                assert_ne!(wrong.logged_work(), expected.work[index]);
+                if let Some(place) = wrong.steps.iter().position(counts) {
+                    wrong.steps.remove(place);
+                    assert_ne!(wrong.logged_work(), replay.work);
+                    noticed += 1;
+                }
             }
+            let name = logged.name();
+            assert!((5..30).contains(&missed), "{name} {mode:?}: {missed} of {} rays miss", rays.len());
+            let meet = rays.len() - missed;
+            assert!(noticed >= meet, "{name} {mode:?}: work for {noticed} rays, {meet} meet something");
             let is_bounded = logged.name() != "brute-force";
             assert_eq!(paused, is_bounded, "{}: a small budget makes rays pause", logged.name());
         }
