@@ -2,6 +2,7 @@
 
 use super::exact::{self, Point};
 use super::ray::Ray;
+use super::t_bound::SeenTriangle;
 
 /// Unit roundoff of single precision.
 const U: f64 = 1.0 / (1_u64 << 24) as f64;
@@ -23,7 +24,7 @@ pub(super) struct Contact {
     pub hit: bool,
     /// Single precision must report it as well.
     pub certain: bool,
-    /// The whole interval lies inside the ray's range.
+    /// The whole interval lies inside the ray's range, and above the bound of its error.
     pub in_range: bool,
     pub t: f64,
     /// Interval of what single precision may report.
@@ -122,13 +123,20 @@ impl ContactTest {
         let t = if inside { self.plane_t(&points) } else { self.plane_t_rounded(&points) };
         let t = if t.is_nan() { 0.5 * (t_first + t_last) } else { t.clamp(t_first, t_last) };
 
-        // A test that mixes the vertices' t with weights that are off by the edges' errors.
+        let seen = SeenTriangle {
+            corners: std::array::from_fn(|vertex| self.along_axis(points[vertex], self.origin)),
+            direction: self.along_axis(self.direction, [0.0; 3]),
+            sheared: vertices.map(|v| [v.x, v.y]),
+            depths: vertices.map(|v| v.z),
+        };
+        // A test that mixes the vertices' t with weights that are off by the edges' errors, whatever else it knows.
         let mixing: f64 =
             (0..3).map(|i| SINGLE_ERROR * edges[i].scale * (vertices[i].z - t).abs()).sum::<f64>()
                 / sum.abs();
         let weighted: f64 = (0..3).map(|i| (edges[i].value * vertices[i].z).abs()).sum::<f64>() / sum.abs();
         let margin = |z: f64| 2.0 * SINGLE_ERROR * z.abs();
-        let error = mixing + margin(t) + margin(weighted);
+        let bound = seen.t_bound(t);
+        let error = (mixing + margin(t) + margin(weighted)).max(bound);
         let error = if error.is_nan() { f64::INFINITY } else { error };
         let t_low = (t - error).max(t_first - margin(t_first));
         let t_high = (t + error).min(t_last + margin(t_last));
@@ -136,7 +144,8 @@ impl ContactTest {
             return None;
         }
         let hit = inside && self.t_min < t && t < self.t_max;
-        let in_range = self.t_min < t_low && t_high < self.t_max;
+        // The device answers no hit nearer than its own bound: it could be the surface that the ray starts on.
+        let in_range = self.t_min.max(bound) < t_low && t_high < self.t_max;
         Some(Contact {
             hit,
             certain: hit && in_range && !near.contains(&true),
@@ -157,9 +166,16 @@ impl ContactTest {
         })
     }
 
+    /// `point - from` with the axes in the order in which the direction's longest component comes last.
+    fn along_axis(&self, point: Point, from: Point) -> Point {
+        [1, 2, 3].map(|step| {
+            let axis = (self.axis_z + step) % 3;
+            point[axis] - from[axis]
+        })
+    }
+
     fn shear(&self, vertex: [f32; 3]) -> Sheared {
-        let relative: Point = std::array::from_fn(|axis| f64::from(vertex[axis]) - self.origin[axis]);
-        let [x, y, z] = [1, 2, 3].map(|step| relative[(self.axis_z + step) % 3]);
+        let [x, y, z] = self.along_axis(vertex.map(f64::from), self.origin);
         let (x_shift, y_shift) = (self.shear[0] * z, self.shear[1] * z);
         Sheared {
             x: x - x_shift,

@@ -16,6 +16,7 @@ mod error;
 pub mod exact;
 mod ray;
 mod replay;
+mod t_bound;
 mod verdict;
 
 #[cfg(test)]

@@ -385,3 +385,24 @@ fn bad_input_is_refused_or_dropped() {
     let empty = Oracle::new(&[], &[], None).expect("a scene may be empty");
     assert_eq!(empty.closest(&ray).outcome, Outcome::Miss);
 }
+
+#[test]
+fn a_hit_nearer_than_the_devices_bound_may_be_missed() {
+    // The device bounds the error of this t by 1.1e-8 m and takes the hit for the surface that the ray starts on.
+    let triangle = [
+        [-0.246_709_5, -0.341_158_4, -0.676_100_1],
+        [-0.234_160_1, -0.349_085, -0.668_141_3],
+        [-0.234_160_1, -0.352_709, -0.673_127_9],
+    ];
+    let oracle = Oracle::new(&triangle, &[0, 1, 2], None).expect("one triangle");
+    let ray =
+        Ray::new([-0.236_933_11, -0.349_243_1, -0.672_527_55], [0.387_222_74, 0.706_959, -0.591_834_07]);
+    let verdict = oracle.closest(&ray);
+    let t = verdict.outcome.hit().expect("in exact arithmetic").1;
+    assert!((1.06e-8..1.07e-8).contains(&t), "{t}");
+    assert!(verdict.ambiguous && verdict.miss_allowed, "{verdict:?}");
+    // Ten times as far away nothing is uncertain.
+    let before: [f32; 3] = std::array::from_fn(|axis| ray.origin[axis] - 1.0e-6 * ray.direction[axis]);
+    let verdict = oracle.closest(&Ray::new(before, ray.direction));
+    assert!(verdict.outcome != Outcome::Miss && !verdict.ambiguous, "{verdict:?}");
+}
