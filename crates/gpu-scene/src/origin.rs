@@ -5,6 +5,14 @@ use glam::DVec3;
 /// Share of the scene's diagonal that the default grid of frame origins is spaced by.
 const CELLS_PER_DIAGONAL: f64 = 8.0;
 
+/// As many cells of that grid away from the world's origin the eye may stand before the frame origin follows it: four to
+/// eight diagonals of the scene. Nearer, moving the origin would round positions that files state exactly once more, and
+/// gain at most three of their 24 bits.
+const CELLS_OF_WORLD: f64 = 64.0;
+
+/// Metres beyond which the frame origin follows the eye in any scene: f32 resolves a millimetre there.
+const FARTHEST_FROM_WORLD: f64 = 16_384.0;
+
 /// Smallest and largest binary exponent of the grid: finer than any scene needs, and far from the
 /// largest coordinate a mesh may have.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -40..=60;
@@ -20,14 +28,18 @@ pub fn frame_origin_spacing(diagonal: f64) -> f64 {
     exponent.exp2()
 }
 
-/// The default frame origin: the eye (world, metres) snapped to the nearest point of a grid of
-/// `spacing` metres. With a power-of-two spacing the result is exact, and it changes only when the
+/// The default frame origin: the world's, unless a coordinate of the eye (world, metres) is more than 64 times `spacing`
+/// or 16,384 m; then the eye snapped to the nearest point of a grid of `spacing` metres. With a power-of-two spacing the result is exact, and it changes only when the
 /// eye leaves a cell, so a moving camera rarely forces a rebuild. Coordinates of an eye that are
 /// not finite count as 0.
 ///
 /// The farther a point lies from the frame origin, the coarser its f32 position: points within one
 /// cell of the eye keep about 24 bits of a cell.
 pub fn snap_frame_origin(eye: DVec3, spacing: f64) -> DVec3 {
+    let farthest = FARTHEST_FROM_WORLD.min(CELLS_OF_WORLD * spacing);
+    if !eye.to_array().iter().any(|x| x.is_finite() && x.abs() > farthest) {
+        return DVec3::ZERO;
+    }
     let snap = |x: f64| if x.is_finite() { (x / spacing).round() * spacing + 0.0 } else { 0.0 };
     DVec3::new(snap(eye.x), snap(eye.y), snap(eye.z))
 }
@@ -59,7 +71,10 @@ mod tests {
 
     #[test]
     fn an_eye_near_the_world_origin_keeps_it() {
-        let origin = snap_frame_origin(DVec3::new(-0.4, 0.3, f64::NAN), 1.0);
-        assert_eq!(origin.to_array().map(f64::to_bits), [0, 0, 0]);
+        for eye in [DVec3::new(-0.4, 0.3, f64::NAN), DVec3::new(0.31, -64.0, 63.9), DVec3::INFINITY] {
+            let origin = snap_frame_origin(eye, 1.0);
+            assert_eq!(origin.to_array().map(f64::to_bits), [0, 0, 0], "{eye}");
+        }
+        assert_eq!(snap_frame_origin(DVec3::new(0.3, 64.6, 0.0), 1.0), DVec3::new(0.0, 65.0, 0.0));
     }
 }

@@ -1,6 +1,6 @@
 //! Positions and indices of every instance, in the coordinates that structures build from.
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rasray_scene::Scene;
 
 use crate::{GpuSceneError, layout::Draw};
@@ -37,7 +37,7 @@ pub struct Posed {
 
 impl Posed {
     /// Poses every instance of `scene` in f64, takes `frame_origin` (world, metres) off and rounds
-    /// once to f32. `flags` gives the draw flags of an instance from its index.
+    /// once to f32; what is neither moved nor shifted keeps every bit. `flags` gives the draw flags of an instance from its index.
     ///
     /// # Errors
     /// `TooManyVertices` where vertices or indices exceed what u32 can number, `Malformed` where a
@@ -56,9 +56,15 @@ impl Posed {
             let first_vertex = index_u32(posed.positions.len(), mesh.positions.len())?;
             index_u32(posed.indices.len(), mesh.indices.len())?;
             posed.first_vertex.push(first_vertex);
-            for position in &mesh.positions {
-                let world = instance.world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
-                posed.positions.push((world - frame_origin).as_vec3().to_array());
+            if instance.world_from_mesh == DAffine3::IDENTITY && frame_origin == DVec3::ZERO {
+                // To the bit: arithmetic would turn -0 into +0.
+                posed.positions.extend_from_slice(&mesh.positions);
+            } else {
+                posed.positions.extend(mesh.positions.iter().map(|position| {
+                    let world =
+                        instance.world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
+                    (world - frame_origin).as_vec3().to_array()
+                }));
             }
             posed.append_triangles(first_vertex, mesh, number, flags(number))?;
         }

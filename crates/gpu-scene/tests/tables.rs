@@ -239,8 +239,8 @@ fn a_scene_without_triangles_has_an_environment_and_nothing_else() {
     assert_eq!((frame.width, frame.height, frame.seed), (8, 4, 3));
     assert_eq!(tables.posed.lower, [0.0; 3]);
     assert_eq!(
-        SceneTables::default_frame_origin(&scene, DVec3::new(3.4, 0.0, 0.0)),
-        DVec3::new(3.0, 0.0, 0.0)
+        SceneTables::default_frame_origin(&scene, DVec3::new(3.4, 0.0, 70.4)),
+        DVec3::new(3.0, 0.0, 70.0)
     );
 }
 
@@ -252,6 +252,28 @@ fn the_default_frame_origin_is_near_the_eye_and_stays_on_its_grid() {
     let origin = SceneTables::default_frame_origin(&scene, eye);
     assert_eq!(origin, DVec3::new(14.0 * 65_536.0, 0.0, -65_536.0));
     assert_eq!(SceneTables::default_frame_origin(&scene, eye + DVec3::splat(3.0)), origin);
+    // Nearer to the world's origin nothing is gained by another one.
+    assert_eq!(SceneTables::default_frame_origin(&scene, DVec3::new(16_000.0, 10.0, -900.0)), DVec3::ZERO);
+}
+
+#[test]
+fn a_small_model_keeps_the_bits_of_its_file() {
+    let mut scene = scene();
+    for (mesh, scale) in scene.meshes.iter_mut().zip([0.1, 0.01].into_iter().cycle()) {
+        for position in &mut mesh.positions {
+            *position = position.map(|x| x * scale);
+        }
+    }
+    scene.meshes[0].positions[0] = [-0.0, 0.1, 1e-40];
+    for instance in &mut scene.instances {
+        instance.world_from_mesh = DAffine3::IDENTITY;
+    }
+    let origin = SceneTables::default_frame_origin(&scene, DVec3::new(0.31, 0.25, 0.625));
+    assert_eq!(origin, DVec3::ZERO);
+    let tables = pack(&scene, origin, &Parts::ALL);
+    let files = scene.instances.iter().flat_map(|instance| &scene.meshes[instance.mesh].positions);
+    let bits = |position: &[f32; 3]| position.map(f32::to_bits);
+    assert!(tables.posed.positions.iter().map(bits).eq(files.map(bits)));
 }
 
 #[test]
