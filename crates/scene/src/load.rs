@@ -35,12 +35,17 @@ pub(crate) fn scene_name(path: &Path) -> String {
 }
 
 /// Reads a whole file of at most `limit` bytes. The length is asked for first; what grows while it
-/// is read, or has no length (a pipe), is cut off by the same limit.
+/// is read is cut off by the same limit. Only regular files are opened: a pipe or a device could
+/// keep its reader waiting for ever.
 ///
 /// # Errors
 /// [`SceneError::Read`], or [`SceneError::TooLarge`] naming `file_bytes`.
 pub(crate) fn read_file(path: &Path, limit: u64) -> Result<Vec<u8>, SceneError> {
     let failed = |source| SceneError::Read { path: path.to_owned(), source };
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        let reason = "it is not a regular file but a folder, a pipe, a socket or a device";
+        return Err(failed(std::io::Error::new(std::io::ErrorKind::InvalidInput, reason)));
+    }
     let file = File::open(path).map_err(failed)?;
     let length = file.metadata().map_err(failed)?.len();
     crate::Limits::check(path, "the size in bytes", length, limit, "file_bytes")?;

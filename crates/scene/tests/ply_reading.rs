@@ -292,3 +292,37 @@ proptest! {
         let _ = read("damaged", &bytes);
     }
 }
+
+/// Corners close triangles with the two before them, all facing one way; -1 ends a strip.
+#[test]
+fn strips_become_triangles_that_face_one_way() {
+    let header = "element vertex 5\nproperty float x\nproperty float y\nproperty float z\n\
+                  element tristrips 1\nproperty list int int vertex_indices\n";
+    for encoding in ENCODINGS {
+        let mut writer = Writer::new(encoding, header);
+        for place in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [0.0, 2.0_f32]] {
+            writer.f32(place[0]).f32(place[1]).f32(0.0);
+        }
+        for index in [9, 0, 1, 2, 3, 4, -1, 0, 1, 3] {
+            writer.i32(index);
+        }
+        let scene = read(&format!("strips-{encoding:?}"), &writer.bytes).expect("a good file");
+        assert_eq!(scene.meshes[0].indices, [0, 1, 2, 2, 1, 3, 2, 3, 4, 0, 1, 3], "{encoding:?}");
+    }
+}
+
+/// Nothing writes to the pipe: whoever opened it would wait.
+#[cfg(unix)]
+#[test]
+fn a_pipe_or_a_folder_is_an_error_at_once() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("ply_reading");
+    let (pipe, below) = (folder.join("pipe.ply"), folder.join("folder.ply"));
+    fs::create_dir_all(&below).expect("a folder");
+    let _ = fs::remove_file(&pipe);
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
+    assert!(made.success());
+    for path in [pipe, below] {
+        let error = load(&path).expect_err("not a file").to_string();
+        assert!(error.contains("not a regular file") && error.contains(".ply"), "{error}");
+    }
+}

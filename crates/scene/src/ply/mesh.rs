@@ -33,13 +33,8 @@ pub(super) fn read(
                 read_vertices(path, &mut body, element, &mut mesh)?;
             }
             "face" => faces.read(path, &mut body, element, limits, &mut mesh)?,
-            name => {
-                if name == "tristrips" {
-                    warnings.push(Warning {
-                        kind: "triangle-strips",
-                        message: "triangle strips are not supported and were skipped; write faces".to_owned(),
-                    });
-                }
+            "tristrips" => faces.read_strips(path, &mut body, element, limits, &mut mesh)?,
+            _ => {
                 for _ in 0..element.count {
                     skip(&mut body, &element.properties)?;
                 }
@@ -47,7 +42,8 @@ pub(super) fn read(
         }
     }
     if faces.short > 0 {
-        let message = format!("{} faces have fewer than three corners and were dropped", faces.short);
+        let message =
+            format!("{} faces or strips have fewer than three corners and were dropped", faces.short);
         warnings.push(Warning { kind: "short-faces", message });
     }
     Ok(mesh)
@@ -171,6 +167,21 @@ fn color(value: f64, scalar: Scalar, is_alpha: bool) -> f32 {
     linear as f32
 }
 
+/// Which property of faces or strips lists the indices of vertices.
+fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
+    let is_list = |property: &Property| {
+        property.length.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
+    };
+    let Some(list) = element.properties.iter().position(is_list) else {
+        let message = format!("element {} lacks the list vertex_indices", element.name);
+        return Err(SceneError::syntax(path, message));
+    };
+    if element.properties[list].scalar.is_float() {
+        return Err(SceneError::syntax(path, "vertex_indices must have a type of whole numbers"));
+    }
+    Ok(list)
+}
+
 /// What was found in faces.
 #[derive(Default)]
 struct Faces {
@@ -187,15 +198,7 @@ impl Faces {
         limits: &Limits,
         mesh: &mut Mesh,
     ) -> Result<(), SceneError> {
-        let is_list = |property: &Property| {
-            property.length.is_some() && matches!(property.name.as_str(), "vertex_indices" | "vertex_index")
-        };
-        let Some(list) = element.properties.iter().position(is_list) else {
-            return Err(SceneError::syntax(path, "element face lacks the list vertex_indices"));
-        };
-        if element.properties[list].scalar.is_float() {
-            return Err(SceneError::syntax(path, "vertex_indices must have a type of whole numbers"));
-        }
+        let list = index_list(path, element)?;
         let mut corners = Vec::new();
         for _ in 0..element.count {
             skip(body, &element.properties[..list])?;
@@ -212,6 +215,42 @@ impl Faces {
             }
             skip(body, &element.properties[list + 1..])?;
             self.add(path, &corners, limits, mesh)?;
+        }
+        Ok(())
+    }
+
+    /// Reads triangle strips: each corner closes a triangle with the two before it, every second one
+    /// turned over so that all face one way. A negative index ends a strip, and the next begins.
+    fn read_strips(
+        &mut self,
+        path: &Path,
+        body: &mut Body<'_>,
+        element: &Element,
+        limits: &Limits,
+        mesh: &mut Mesh,
+    ) -> Result<(), SceneError> {
+        let list = index_list(path, element)?;
+        let Property { scalar, length, .. } = element.properties[list];
+        for _ in 0..element.count {
+            skip(body, &element.properties[..list])?;
+            let count = body.length(length.unwrap_or(Scalar::U8))?;
+            let mut strip = Strip::default();
+            for _ in 0..count {
+                let index = body.number(scalar)?;
+                if index < 0.0 {
+                    self.short += u64::from(std::mem::take(&mut strip).is_short());
+                    continue;
+                }
+                // Strips may stand before the vertices: the finished mesh is checked for the upper end.
+                if index >= f64::from(u32::MAX) {
+                    return Err(body.error(&format!("a strip cannot have the vertex index {index}")));
+                }
+                if let Some(corners) = strip.next(index as u32) {
+                    self.add(path, &corners, limits, mesh)?;
+                }
+            }
+            self.short += u64::from(strip.is_short());
+            skip(body, &element.properties[list + 1..])?;
         }
         Ok(())
     }
@@ -233,5 +272,32 @@ impl Faces {
         }
         let triangles = mesh.indices.len() as u64 / 3;
         Limits::check(path, "the number of triangles", triangles, limits.triangles, "triangles")
+    }
+}
+
+/// A triangle strip that is being read.
+#[derive(Default)]
+struct Strip {
+    /// The last two corners.
+    last: [u32; 2],
+    /// Corners so far.
+    corners: usize,
+}
+
+impl Strip {
+    /// Takes the next corner; the triangle it closes, if it closes one that has an area. A corner
+    /// that repeats one of the last two is how strips are joined, and shows nothing.
+    fn next(&mut self, corner: u32) -> Option<[u32; 3]> {
+        let [a, b] = self.last;
+        let turned = self.corners % 2 == 1;
+        self.last = [b, corner];
+        self.corners += 1;
+        let joins = a == b || b == corner || a == corner;
+        (self.corners >= 3 && !joins).then_some(if turned { [b, a, corner] } else { [a, b, corner] })
+    }
+
+    /// Whether it began and has too few corners for a triangle.
+    fn is_short(&self) -> bool {
+        (1..3).contains(&self.corners)
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Of the element `vertex` are read `x y z`, `nx ny nz`, `s t` or `u v` or `texture_u texture_v`, and
 //! `red green blue alpha`; of `face` the list `vertex_indices` or `vertex_index`. Any scalar type
-//! will do. Polygons become fans from their first corner. Everything else is skipped.
+//! will do. Polygons become fans from their first corner. The same lists of `tristrips` are triangle
+//! strips, which a negative index ends. Everything else is skipped.
 //!
 //! The v coordinate is turned over, as for OBJ. Colours in whole numbers are sRGB and become linear,
 //! colours in floating point are taken as linear; alpha is linear either way.
