@@ -6,6 +6,9 @@ use rasray_voxel::{Config, Payload, Voxels};
 use crate::option::Given;
 use crate::{Preset, Spec, System, SystemsError, voxel};
 
+/// Cells a side of a view in the paper.
+const PUBLISHED_RESOLUTION: u32 = 1280;
+
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "hu",
@@ -38,7 +41,7 @@ fn keeps_triangles(spec: &Spec) -> bool {
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
         Preset::Robust => Config::robust(voxel::RESOLUTION),
-        Preset::Published => Config::published_hu(voxel::RESOLUTION),
+        Preset::Published => voxel::of_the_paper(spec, Config::published_hu(PUBLISHED_RESOLUTION)),
     };
     voxel::config(spec, preset, Payload::Material)
 }
@@ -64,4 +67,21 @@ fn bricks(spec: &Spec) -> Result<BricksConfig, SystemsError> {
     }
     config.validate()?;
     Ok(config)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_has_the_papers_sizes() {
+        let of = |options: &[(&str, &str)]| {
+            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            let spec = Spec::new("hu", "published", options).expect("the options are valid");
+            let config = config(&spec).expect("the options are valid");
+            (config.resolution, config.grid())
+        };
+        assert_eq!(of(&[]), (1280, 64));
+        assert_eq!(of(&[("resolution", "512")]), (512, 39));
+    }
 }

@@ -43,11 +43,14 @@ const OPTIONS: [&str; 18] = [
 /// Cells a side of a view where nothing else is asked for.
 const RESOLUTION: u32 = 512;
 
+/// The larger of the two sizes of the paper's table.
+const PUBLISHED_RESOLUTION: u32 = 1024;
+
 /// The configuration that a spec stands for.
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
-        Preset::Published => Config::published(RESOLUTION),
+        Preset::Published => Config::published(PUBLISHED_RESOLUTION),
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
@@ -97,4 +100,21 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
     }
     config.validate()?;
     Ok(config)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_has_the_papers_sizes() {
+        let of = |options: &[(&str, &str)]| {
+            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            let spec = Spec::new("ldc", "published", options).expect("the options are valid");
+            let config = config(&spec).expect("the options are valid");
+            config.resolution
+        };
+        assert_eq!(of(&[]), 1024);
+        assert_eq!(of(&[("resolution", "512")]), 512);
+    }
 }

@@ -4,6 +4,9 @@ use rasray_voxel::{Config, Payload, Storage, Voxels};
 
 use crate::{Preset, Spec, System, SystemsError, voxel};
 
+/// Cells a side of a view in the paper.
+const PUBLISHED_RESOLUTION: u32 = 1024;
+
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "selective",
@@ -21,7 +24,24 @@ pub(crate) const SYSTEM: System = System {
 fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
         Preset::Robust => Config { storage: Storage::Paged, ..Config::robust(voxel::RESOLUTION) },
-        Preset::Published => Config::published_selective(voxel::RESOLUTION),
+        Preset::Published => voxel::of_the_paper(spec, Config::published_selective(PUBLISHED_RESOLUTION)),
     };
     voxel::config(spec, preset, Payload::Mirror)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_has_the_papers_sizes() {
+        let of = |options: &[(&str, &str)]| {
+            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            let spec = Spec::new("selective", "published", options).expect("the options are valid");
+            let config = config(&spec).expect("the options are valid");
+            (config.resolution, config.grid())
+        };
+        assert_eq!(of(&[]), (1024, 64));
+        assert_eq!(of(&[("resolution", "512")]), (512, 39));
+    }
 }

@@ -25,8 +25,17 @@ pub(crate) const OPTIONS: [&str; 16] = [
     "capacity",
 ];
 
-/// Cells a side of a view where nothing else is asked for.
+/// Cells a side of a view of the repaired structure where nothing else is asked for.
 pub(crate) const RESOLUTION: u32 = 512;
+
+/// Voxels a side of both papers. With another resolution than theirs the first one's rule follows it.
+pub(crate) const PUBLISHED_GRID: u32 = 64;
+
+/// A preset with its paper's voxels, where the resolution is the paper's as well.
+pub(crate) fn of_the_paper(spec: &Spec, preset: Config) -> Config {
+    let given = Given::all(spec).any(|given| given.name == "resolution");
+    Config { grid: (!given).then_some(PUBLISHED_GRID), ..preset }
+}
 
 /// The configuration that a spec stands for over a preset. `attributes` is the payload of the system's paper.
 pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result<Config, SystemsError> {
