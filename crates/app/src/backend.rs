@@ -94,6 +94,8 @@ pub struct RenderJob<'a> {
     pub aovs: AovSelection,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
     pub needs: Needs,
+    /// Builds that are timed after the first; with none there is no [`Times::build_ms`].
+    pub repetitions: u32,
 }
 
 /// Where rays of a comparison come from.

@@ -1,4 +1,5 @@
-//! SIGINT and SIGTERM: the first asks for an early end with a valid result, the second ends at once.
+//! SIGINT and SIGTERM: the first asks for an early end with a valid result, the second ends at once. Where nothing is
+//! finished that could be kept, the first ends as well, after [`GRACE`]: a build, a compiler or a wave may take long.
 
 use crate::error::EXIT_INTERRUPTED;
 use crate::terminal;
@@ -6,11 +7,17 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// From the first signal to the end, where nothing is finished by then.
+const GRACE: Duration = Duration::from_millis(1500);
 
 /// Whether a signal asked for an early end, and which files are unfinished.
 #[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     requested: Arc<AtomicBool>,
+    /// Whether something is finished that an early end keeps.
+    keeps: Arc<AtomicBool>,
     unfinished: Arc<Mutex<Vec<PathBuf>>>,
 }
 
@@ -32,12 +39,32 @@ impl Interrupt {
                 if watched.requested.swap(true, Ordering::SeqCst) {
                     watched.leave();
                 }
-                terminal::complain(
-                    "stopping after the current wave; a second signal stops at once, without a result\n",
-                );
+                let stopping = watched.clone();
+                // This thread stays free for the second signal. Without another, the work ends between waves.
+                _ = std::thread::Builder::new().name("stopping".to_owned()).spawn(move || stopping.stop());
             }
         })?;
         Ok(interrupt)
+    }
+
+    /// Ends the process after a while, unless something is finished that the work will write.
+    fn stop(&self) {
+        let keeps = || self.keeps.load(Ordering::SeqCst);
+        terminal::complain(if keeps() {
+            "stopping after the current wave; a second signal stops at once, without a result\n"
+        } else {
+            "stopping; nothing is finished yet\n"
+        });
+        std::thread::sleep(GRACE);
+        if !keeps() {
+            terminal::complain("interrupted: stopped before anything was finished; nothing was written\n");
+            self.leave();
+        }
+    }
+
+    /// From now on something is finished: an early end waits for it to be written.
+    pub(crate) fn keep(&self) {
+        self.keeps.store(true, Ordering::SeqCst);
     }
 
     /// Whether an early end was asked for.
@@ -51,14 +78,15 @@ impl Interrupt {
         Unfinished { interrupt: self, path: path.to_owned() }
     }
 
-    /// Ends the process. The lock is kept to the end, so that no further file can be begun.
+    /// Ends the process without destructors, which would wait for the device. The lock is kept to the end, so that no
+    /// further file can be begun.
     fn leave(&self) -> ! {
         let files = locked(&self.unfinished);
         for path in files.iter() {
             // A file that is not there yet, or not there any more, needs no removal.
             _ = std::fs::remove_file(path);
         }
-        std::process::exit(EXIT_INTERRUPTED.into())
+        signal_hook::low_level::exit(EXIT_INTERRUPTED.into())
     }
 }
 

@@ -70,6 +70,21 @@ fn one_signal_makes_a_valid_image_of_the_samples_so_far() {
     }
 }
 
+/// A build, a compiler or a first wave that takes long is not waited for.
+#[test]
+fn one_signal_ends_within_two_seconds_where_nothing_is_finished() {
+    for signal in ["INT", "TERM"] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let started = Instant::now();
+        let line = "render cornell --size 8x8 --device stuck -o a.exr --report r.json";
+        let output = interrupted(folder.path(), line, &[signal]);
+        assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+        assert!(started.elapsed() < Duration::from_secs(15), "{:?}", started.elapsed());
+        assert!(stderr(&output).contains("nothing was written"), "{}", stderr(&output));
+        assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
+    }
+}
+
 #[test]
 fn two_signals_leave_nothing() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -184,6 +184,13 @@ pub struct Times {
     /// The host's part of the build.
     #[serde(default, skip_serializing_if = "absent")]
     pub build_host_ms: Option<f64>,
+    /// The first build, until complete: what the driver compiles on first use and builds that had to grow included.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub first_build_ms: Option<f64>,
+    /// The first dispatch of every kernel of an image, with one pixel: what the driver compiles on first use. In no
+    /// other figure but `frame_ms`.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub first_use_ms: Option<f64>,
     /// Rays in to hits out.
     #[serde(default, skip_serializing_if = "absent")]
     pub trace_ms: Option<f64>,

@@ -3,7 +3,9 @@
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
 use super::values;
 use crate::backend::AovSelection;
-use crate::structure::{Preset, StructureOptions, SystemName};
+use crate::error::AppError;
+use crate::structure::{Preset, Storage, StructureOptions, SystemName};
+use crate::systems::{self, SystemConfig};
 use clap::{Args, ValueEnum};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -16,13 +18,13 @@ Examples:
   rasray render scene.obj --eye 0,1.6,4 --target 0,1,0 --fov 60 --environment 1,1,1 --output view.png
   rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
 
-PNG holds 8-bit sRGB: colours times 2^exposure, clamped to [0, 1], then the sRGB curve; no other tone
+PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
 Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id (triangle, 4294967295:
 miss). Files are written beside their place and renamed, so a file there is always whole.
 
-SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130. A second one stops at
-once and writes nothing.";
+SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command
+ends within two seconds and writes nothing. A second one stops at once and writes nothing.";
 
 /// Options of `rasray render`.
 #[derive(Debug, Args)]
@@ -31,9 +33,9 @@ pub struct RenderArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// What rays are traced through
-    #[arg(long, value_enum, default_value_t = SystemName::Mmrt)]
-    pub system: SystemName,
+    /// What rays are traced through [default: hu with --storage bricks, whose hits are exact]
+    #[arg(long, value_enum)]
+    pub system: Option<SystemName>,
     /// How closely the system follows its paper
     #[arg(long, value_enum, default_value_t = Preset::Robust)]
     pub preset: Preset,
@@ -49,6 +51,9 @@ pub struct RenderArguments {
     /// JSON with times, bytes and counts
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
+    /// Builds that are timed after the first, for the medians of a report [default: none]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub repetitions: Option<u32>,
     /// The image and what light does.
     #[command(flatten)]
     pub frame: FrameArguments,
@@ -78,6 +83,33 @@ pub enum Aov {
 }
 
 impl RenderArguments {
+    /// The system with its options: the one that was named, or the exact structure.
+    ///
+    /// # Errors
+    /// What no system takes, and options of a paper's structure without the system that they belong to.
+    pub fn system(&self) -> Result<SystemConfig, AppError> {
+        let Some(name) = self.system else {
+            let help = "name the --system that is meant; without one it is hu with --storage bricks";
+            if self.preset == Preset::Published {
+                return Err(AppError::usage(
+                    "--preset published follows a paper, and no --system is named",
+                    help,
+                ));
+            }
+            let bricks = StructureOptions { storage: Some(Storage::Bricks), ..StructureOptions::default() };
+            let options = bricks.overlaid(&self.structure);
+            if options.storage != bricks.storage {
+                return Err(AppError::usage(
+                    "--storage is an option of several systems, and none is named",
+                    help,
+                ));
+            }
+            return systems::single(SystemName::Hu, self.preset, &options)
+                .map_err(|error| AppError::usage(error.to_string(), help));
+        };
+        systems::single(name, self.preset, &self.structure)
+    }
+
     /// The images wanted beside the colours.
     pub fn aovs(&self) -> AovSelection {
         AovSelection {

@@ -30,8 +30,9 @@ impl IntegratorName {
     }
 }
 
-/// Bounces of a path unless told.
-const DEFAULT_BOUNCES: u32 = 3;
+/// Bounces of a path unless told: light that enters and leaves a glass with two walls has scattered four times
+/// before it is seen on what stands behind, eight times where two such glasses stand in a row.
+const DEFAULT_BOUNCES: u32 = 8;
 
 /// The image and what light does.
 #[derive(Debug, Args)]
@@ -46,7 +47,8 @@ pub struct FrameArguments {
     /// Samples per pixel
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
     pub spp: u32,
-    /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light) [default: 3]
+    /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light; through
+    /// glass each surface is one) [default: 8]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
     pub bounces: Option<u32>,
     /// With --integrator ao: metres within which something occludes [default: any distance]

@@ -39,9 +39,11 @@ fn the_list_of_commands_is_whole() {
 fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
     let frame = given.frame.frame().expect("defaults fit together");
-    assert_eq!((given.system, given.preset), (SystemName::Mmrt, Preset::Robust));
+    let system = given.system().expect("the exact structure");
+    assert_eq!((system.name, system.preset), (SystemName::Hu, Preset::Robust));
+    assert_eq!(system.spec().expect("known").structure(), "ads-primitive");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
-    assert_eq!(frame.integrator, Integrator::Path { bounces: 3 });
+    assert_eq!(frame.integrator, Integrator::Path { bounces: 8 });
     assert_eq!(given.structure, StructureOptions::default());
 }
 
@@ -108,5 +110,15 @@ fn help_and_version_are_text() {
             matches!(parse(arguments(line)), Err(Refusal::Text(text)) if text.contains("rasray")),
             "{line}"
         );
+    }
+}
+
+#[test]
+fn without_a_system_only_options_of_the_exact_structure_are_taken() {
+    assert!(render("render cornell -o a.png --grid 64").system().is_ok());
+    assert!(render("render cornell -o a.png --system mmrt --resolution 64").system().is_ok());
+    for line in ["--preset published", "--storage llb", "--resolution 64", "--buckets 4"] {
+        let error = render(&format!("render cornell -o a.png {line}")).system().expect_err(line);
+        assert!(error.exit_code() == 2 && error.help().contains("--system"), "{line}: {error}");
     }
 }

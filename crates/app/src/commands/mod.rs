@@ -61,8 +61,12 @@ fn with_progress<T>(
     let mut line = ProgressLine::new();
     let result = work(&mut |progress| {
         line.show(progress);
+        if progress.done > 0 {
+            interrupt.keep();
+        }
         if interrupt.requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
+    interrupt.keep();
     line.finish();
     result
 }

@@ -9,7 +9,7 @@ use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
 use crate::report::{Report, Run, origin, table};
-use crate::systems::{self, SystemConfig, word};
+use crate::systems::{SystemConfig, word};
 use crate::{camera, scene_source, terminal};
 
 /// Renders a scene and writes what was asked for; `line` is the command as it was typed.
@@ -24,7 +24,7 @@ pub(crate) fn render(
 ) -> Result<(), AppError> {
     let frame = given.frame.frame()?;
     let aovs = given.aovs();
-    let system = systems::single(given.system, given.preset, &given.structure)?.serving(frame.workload());
+    let system = given.system()?.serving(frame.workload());
     let image = image_target(given, aovs)?;
     let report_target = destination(given.report.as_deref())?;
     if let (Some((place, _)), Some(report)) = (&image, &report_target)
@@ -42,7 +42,15 @@ pub(crate) fn render(
     let mut backend = open(&given.device.choice())?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
-    let job = RenderJob { scene: &loaded.scene, camera, system: system.clone(), frame, aovs, needs };
+    let job = RenderJob {
+        scene: &loaded.scene,
+        camera,
+        system: system.clone(),
+        frame,
+        aovs,
+        needs,
+        repetitions: given.repetitions.unwrap_or(0),
+    };
     let output = with_progress(interrupt, |progress| backend.render(&job, progress))?;
     if output.samples_done == 0 {
         return Err(AppError::interrupted(

@@ -96,7 +96,10 @@ pub(super) fn compare_images(
     for contestant in contestants {
         // Images are taken as renders are: from a structure built around the camera.
         let spec = spec_of(contestant.config)?;
-        let built = Built::timed(device, &spec, &stage.scene, stage.scene.eye())?;
+        let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+        for _ in 0..job.repetitions {
+            built.build_again(device)?;
+        }
         let task = format!("image {}", word(&contestant.config.name));
         let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
         if pixels.samples_done < frame.spp {
@@ -106,6 +109,7 @@ pub(super) fn compare_images(
         let mut run = of_camera.run(device)?;
         run.seed = Some(frame.seed);
         run.times.timer = pixels.passes.timer();
+        run.times.first_use_ms = Some(pixels.first_use_ms);
         run.times.trace_ms = Some(pixels.passes.total(|label| label.contains("/trace_")));
         run.passes.extend(pixels.passes.report());
         run.counters = Some(pixels.counters);

@@ -41,6 +41,8 @@ pub(super) struct Pixels {
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
+    /// Of the first dispatch of every kernel, milliseconds.
+    pub(super) first_use_ms: f64,
 }
 
 /// Renders all samples of a frame through a built structure.
@@ -59,7 +61,8 @@ pub(super) fn render_pixels(
         desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
     }
     let integrator = integrator(frame, &desc)?;
-    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
+    _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
+    let first_use_ms = use_once(device, integrator.as_ref(), built)?;
     let timing = device.best_timing();
     let pixels = film.pixel_count();
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
@@ -98,7 +101,26 @@ pub(super) fn render_pixels(
     }
     let mut counters = built.counters()?;
     counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
-    Ok(Pixels { beauty: film.read(device).map_err(device_error)?, samples_done, passes, counters })
+    let beauty = film.read(device).map_err(device_error)?;
+    Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
+}
+
+/// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
+/// Returns milliseconds. Film and counters start at 0 after it.
+fn use_once(
+    device: &Device,
+    integrator: &dyn rasray_integrators::Integrator,
+    built: &Built,
+) -> Result<f64, AppError> {
+    let started = Instant::now();
+    let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
+    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
+    let submitted = device
+        .submit(|recorder| integrator.record_wave(recorder, built.structure.as_ref(), one))
+        .map_err(device_error)?;
+    submitted.value.map_err(device_error)?;
+    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
+    Ok(started.elapsed().as_secs_f64() * 1.0e3)
 }
 
 /// Rays without an answer in any queue; rays that met an unbuilt structure count as well.
@@ -123,7 +145,14 @@ pub(super) fn render(
     let spec = spec_of(&job.system)?;
     let stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
-    let built = Built::timed(device, &spec, &stage.scene, stage.scene.eye())?;
+    _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
+    let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+    for _ in 0..job.repetitions {
+        if progress(Progress { task: "build", done: 0, total: 0, unit: "timed builds" }).is_break() {
+            break;
+        }
+        built.build_again(device)?;
+    }
     let pixels = render_pixels(device, &stage, &built, &frame, &job.needs, "render", progress)?;
     let (options, paths) = built.resolved()?;
     let mut memory = built.memory(device)?;
@@ -146,6 +175,7 @@ pub(super) fn render(
         passes,
         times: Times {
             timer: pixels.passes.timer(),
+            first_use_ms: Some(pixels.first_use_ms),
             trace_ms: Some(pixels.passes.total(is_trace)),
             ..Times::default()
         },

@@ -1,6 +1,7 @@
 //! A scene on the device, and a structure built for it.
 
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 use glam::DVec3;
 use rasray_ads::{AdsError, Structure, Viewpoint};
@@ -15,9 +16,6 @@ use serde_json::Value;
 use super::passes::{Passes, median, spread};
 use crate::error::AppError;
 use crate::report::{Counters, Memory, Spread, Times};
-
-/// Builds after the first complete one, for the medians of an image.
-const REPEATED_BUILDS: usize = 3;
 
 /// What a device error is about.
 pub(super) fn device_error(error: impl std::fmt::Display) -> AppError {
@@ -155,6 +153,8 @@ pub(super) struct Built {
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
+    /// From nothing to complete, milliseconds.
+    first_ms: f64,
     /// Of each repeated build, as the host saw it, milliseconds.
     whole: Vec<f64>,
     /// The host's own part of each, milliseconds.
@@ -171,6 +171,7 @@ impl Built {
         scene: &GpuScene,
         eye: [f32; 3],
     ) -> Result<Self, AppError> {
+        let started = Instant::now();
         let timing = device.best_timing();
         let viewpoint = scene.viewpoint().at(eye);
         let (structure, outcome) = match first_build(device, spec, scene, viewpoint, timing) {
@@ -186,28 +187,17 @@ impl Built {
             }
             other => other.map_err(AppError::from)?,
         };
+        let mut passes = Passes::default();
+        passes.add(&outcome.passes);
         Ok(Self {
             structure,
             outcome,
-            passes: Passes::default(),
+            passes,
             viewpoint,
+            first_ms: started.elapsed().as_secs_f64() * 1.0e3,
             whole: Vec::new(),
             prepare: Vec::new(),
         })
-    }
-
-    /// As [`Built::new`], with builds repeated for medians.
-    pub(super) fn timed(
-        device: &Device,
-        spec: &Spec,
-        scene: &GpuScene,
-        eye: [f32; 3],
-    ) -> Result<Self, AppError> {
-        let mut built = Self::new(device, spec, scene, eye)?;
-        for _ in 0..REPEATED_BUILDS {
-            built.build_again(device)?;
-        }
-        Ok(built)
     }
 
     /// Builds once more and keeps the times.
@@ -217,6 +207,10 @@ impl Built {
         self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
             .map_err(|e| tracer_error(&e))?;
         self.outcome.regrows += regrows;
+        if self.whole.is_empty() {
+            // Passes of the first build hold what the driver compiled.
+            self.passes = Passes::default();
+        }
         self.passes.add(&self.outcome.passes);
         self.whole.push(self.outcome.host_milliseconds);
         self.prepare.push(self.outcome.prepare_milliseconds);
@@ -225,8 +219,11 @@ impl Built {
 
     /// Sets the times of the build in a run.
     pub(super) fn write_times(&self, times: &mut Times) {
-        times.build_ms = Some(median(&self.whole));
-        times.build_host_ms = Some(median(&self.prepare));
+        times.first_build_ms = Some(self.first_ms);
+        if !self.whole.is_empty() {
+            times.build_ms = Some(median(&self.whole));
+            times.build_host_ms = Some(median(&self.prepare));
+        }
     }
 
     /// How far the times of repeated builds lie apart, by the names of a report.

@@ -70,6 +70,8 @@ fn run_text(run: &Run) -> String {
         ("pose", "pose_ms", times.pose_ms),
         ("build", "build_ms", times.build_ms),
         ("build, host", "build_host_ms", times.build_host_ms),
+        ("first build", "first_build_ms", times.first_build_ms),
+        ("first use", "first_use_ms", times.first_use_ms),
         ("trace", "trace_ms", times.trace_ms),
         ("frame", "frame_ms", times.frame_ms),
     ];

@@ -20,7 +20,7 @@ const ARGUMENTS: &str = "RASRAY_TEST_ARGUMENTS";
 pub const READY: &str = "RASRAY_TEST_READY";
 
 /// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample,
-/// `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `absent` cannot be opened.
+/// `stuck` takes a minute before the first, `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `absent` cannot be opened.
 pub struct Scripted {
     device: String,
 }
@@ -41,6 +41,9 @@ impl Backend for Scripted {
         let (width, height) = (job.frame.width, job.frame.height);
         let pixels = width as usize * height as usize;
         say_ready();
+        if self.device == "stuck" {
+            std::thread::sleep(Duration::from_secs(60));
+        }
         let mut samples_done = 0;
         while samples_done < job.frame.spp {
             let (done, total) = (samples_done.into(), job.frame.spp.into());
