@@ -1,6 +1,7 @@
 //! Descriptor sets of storage buffers.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use ash::vk;
 
@@ -9,19 +10,39 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
+/// Bindings of one set at most: a bit of a [`Mask`] each.
+const MOST_BINDINGS: u32 = u64::BITS;
+
+/// Some of a set's bindings, one bit each.
+pub(crate) type Mask = u64;
+
 /// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders.
-/// Clones are handles to the same layout.
+/// Clones are handles to the same layout, and so are layouts of the same number of buffers of one device.
+///
+/// A pipeline is made with those bindings alone that its modules use, so that what a device lets a stage see is
+/// compared with what a stage does see.
 #[derive(Clone)]
 pub struct SetLayout {
     pub(crate) inner: Arc<SetLayoutInner>,
+    name: Arc<str>,
 }
 
 pub(crate) struct SetLayoutInner {
     pub(crate) core: Arc<Core>,
-    pub(crate) raw: vk::DescriptorSetLayout,
-    pub(crate) name: String,
     pub(crate) storage_buffers: u32,
+    parts: Mutex<Parts>,
 }
+
+/// The parts of a layout that something was made of.
+struct Parts {
+    /// Of all bindings, and of those that pipelines use.
+    layouts: BTreeMap<Mask, vk::DescriptorSetLayout>,
+    /// Sets of the layout: each has a Vulkan set a part.
+    sets: Vec<Weak<BindingSetInner>>,
+}
+
+/// The layouts of a device that something has a handle to, by their number of buffers.
+pub(crate) type SetLayouts = Mutex<BTreeMap<u32, Weak<SetLayoutInner>>>;
 
 /// A part of a buffer to be bound.
 #[derive(Debug, Clone, Copy)]
@@ -41,18 +62,30 @@ pub struct BindingSet {
 }
 
 pub(crate) struct BindingSetInner {
+    layout: SetLayout,
+    name: String,
+    buffers: Vec<BoundBuffer>,
+    /// A set a part of the layout.
+    parts: Mutex<BTreeMap<Mask, Part>>,
+}
+
+/// What is bound, as long as the set is there.
+struct BoundBuffer {
+    buffer: Buffer,
+    offset: u64,
+    size: u64,
+}
+
+#[derive(Clone, Copy)]
+struct Part {
     /// One pool a set: sets are few, and each can be dropped by itself.
     pool: vk::DescriptorPool,
-    pub(crate) raw: vk::DescriptorSet,
-    pub(crate) layout: SetLayout,
-    name: String,
-    /// Dropped after the set.
-    _buffers: Vec<Buffer>,
+    raw: vk::DescriptorSet,
 }
 
 impl std::fmt::Debug for SetLayout {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_tuple("SetLayout").field(&self.inner.name).finish()
+        formatter.debug_tuple("SetLayout").field(&self.name).finish()
     }
 }
 
@@ -68,9 +101,38 @@ impl SetLayout {
         self.inner.storage_buffers
     }
 
-    /// The Vulkan layout.
+    /// The Vulkan layout of all bindings.
     pub fn raw(&self) -> vk::DescriptorSetLayout {
-        self.inner.raw
+        self.inner.parts().layouts[&all(self.inner.storage_buffers)]
+    }
+
+    /// Name for errors and tools.
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+impl SetLayoutInner {
+    fn parts(&self) -> MutexGuard<'_, Parts> {
+        self.parts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The Vulkan layout of some bindings. Every set of this layout, of now and of later, has that part from here on.
+    pub(crate) fn part(&self, name: &str, mask: Mask) -> Result<vk::DescriptorSetLayout> {
+        let mut parts = self.parts();
+        if let Some(layout) = parts.layouts.get(&mask) {
+            return Ok(*layout);
+        }
+        let layout = create_layout(&self.core, name, mask)?;
+        let sets: Vec<_> = parts.sets.iter().filter_map(Weak::upgrade).collect();
+        if let Err(error) = sets.iter().try_for_each(|set| set.add_part(mask, layout)) {
+            // Sets that have the part keep it: those of the same bindings are alike.
+            // SAFETY: a layout may go before the sets made with it, which are updated no more.
+            unsafe { self.core.device.destroy_descriptor_set_layout(layout, None) };
+            return Err(error);
+        }
+        parts.layouts.insert(mask, layout);
+        Ok(layout)
     }
 }
 
@@ -80,10 +142,120 @@ impl BindingSet {
         &self.inner.name
     }
 
-    /// The Vulkan set.
+    /// The Vulkan set of all bindings.
     pub fn raw(&self) -> vk::DescriptorSet {
-        self.inner.raw
+        self.inner.part(all(self.inner.layout.inner.storage_buffers))
     }
+}
+
+impl BindingSetInner {
+    pub(crate) fn layout(&self) -> &SetLayout {
+        &self.layout
+    }
+
+    fn parts(&self) -> MutexGuard<'_, BTreeMap<Mask, Part>> {
+        self.parts.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The Vulkan set of some bindings: those of a pipeline that was made with this layout.
+    ///
+    /// # Panics
+    /// No part of the layout has them.
+    pub(crate) fn part(&self, mask: Mask) -> vk::DescriptorSet {
+        self.parts()[&mask].raw
+    }
+
+    fn add_part(&self, mask: Mask, layout: vk::DescriptorSetLayout) -> Result<()> {
+        let mut parts = self.parts();
+        if parts.contains_key(&mask) {
+            return Ok(());
+        }
+        let (core, name) = (&self.layout.inner.core, self.name.as_str());
+        let sizes = [vk::DescriptorPoolSize::default()
+            .ty(vk::DescriptorType::STORAGE_BUFFER)
+            // A pool without descriptors is not allowed; a set without them is.
+            .descriptor_count(mask.count_ones().max(1))];
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        // SAFETY: one set of a known type.
+        let pool = unsafe { core.device.create_descriptor_pool(&info, None) }
+            .during("vkCreateDescriptorPool", name)?;
+        let layouts = [layout];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
+        // SAFETY: the pool is fresh and holds what one set of this layout needs.
+        let allocated =
+            unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
+        let raw = match allocated.as_deref() {
+            Ok([raw, ..]) => *raw,
+            other => {
+                // SAFETY: nothing was allocated from the pool.
+                unsafe { core.device.destroy_descriptor_pool(pool, None) };
+                return Err(match other {
+                    Err(error) => error.clone(),
+                    Ok(_) => GpuError::InvalidUse {
+                        name: name.to_owned(),
+                        reason: "the driver returned no descriptor set".to_owned(),
+                    },
+                });
+            }
+        };
+        core.name_object(raw, name);
+        let infos: Vec<_> = bindings(mask)
+            .zip(self.buffers.iter().enumerate().filter(|(binding, _)| mask >> binding & 1 != 0))
+            .map(|(binding, (_, bound))| {
+                let info = vk::DescriptorBufferInfo::default()
+                    .buffer(bound.buffer.raw())
+                    .offset(bound.offset)
+                    .range(bound.size);
+                (binding, [info])
+            })
+            .collect();
+        let writes: Vec<_> = infos
+            .iter()
+            .map(|(binding, info)| {
+                vk::WriteDescriptorSet::default()
+                    .dst_set(raw)
+                    .dst_binding(*binding)
+                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                    .buffer_info(info)
+            })
+            .collect();
+        // SAFETY: the set is fresh, the buffers are storage buffers of this device, and the ranges were checked.
+        unsafe { core.device.update_descriptor_sets(&writes, &[]) };
+        parts.insert(mask, Part { pool, raw });
+        Ok(())
+    }
+}
+
+/// The bindings of a mask, in order.
+fn bindings(mask: Mask) -> impl Iterator<Item = u32> {
+    (0..MOST_BINDINGS).filter(move |binding| mask >> binding & 1 != 0)
+}
+
+/// The mask of the first `count` bindings.
+fn all(count: u32) -> Mask {
+    Mask::MAX.checked_shr(MOST_BINDINGS - count).unwrap_or(0)
+}
+
+fn create_layout(core: &Core, name: &str, mask: Mask) -> Result<vk::DescriptorSetLayout> {
+    let mut stages = vk::ShaderStageFlags::COMPUTE;
+    if core.graphics {
+        stages |= vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT;
+    }
+    let bindings: Vec<_> = bindings(mask)
+        .map(|binding| {
+            vk::DescriptorSetLayoutBinding::default()
+                .binding(binding)
+                .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                .descriptor_count(1)
+                .stage_flags(stages)
+        })
+        .collect();
+    let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+    // SAFETY: distinct bindings of a type every device has, within its limit.
+    let raw = unsafe { core.device.create_descriptor_set_layout(&info, None) }
+        .during("vkCreateDescriptorSetLayout", name)?;
+    core.name_object(raw, name);
+    Ok(raw)
 }
 
 impl Device {
@@ -93,7 +265,8 @@ impl Device {
     /// [`GpuError::LimitExceeded`] if a shader stage cannot reach that many, or what the driver reports.
     pub fn create_set_layout(&self, name: &str, storage_buffers: u32) -> Result<SetLayout> {
         let core = &self.core;
-        let limit = core.limits.max_storage_buffers_per_stage;
+        // A pipeline may use few bindings of each set, but some pipeline uses every binding.
+        let limit = core.limits.max_storage_buffers_per_stage.min(MOST_BINDINGS);
         if storage_buffers > limit {
             return Err(GpuError::LimitExceeded {
                 name: name.to_owned(),
@@ -102,26 +275,20 @@ impl Device {
                 limit: limit.into(),
             });
         }
-        let mut stages = vk::ShaderStageFlags::COMPUTE;
-        if core.graphics {
-            stages |= vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT;
-        }
-        let bindings: Vec<_> = (0..storage_buffers)
-            .map(|binding| {
-                vk::DescriptorSetLayoutBinding::default()
-                    .binding(binding)
-                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
-                    .descriptor_count(1)
-                    .stage_flags(stages)
-            })
-            .collect();
-        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
-        // SAFETY: distinct bindings of a type every device has, within its limit.
-        let raw = unsafe { core.device.create_descriptor_set_layout(&info, None) }
-            .during("vkCreateDescriptorSetLayout", name)?;
-        core.name_object(raw, name);
-        let inner = SetLayoutInner { core: core.clone(), raw, name: name.to_owned(), storage_buffers };
-        Ok(SetLayout { inner: Arc::new(inner) })
+        let mut known = core.set_layouts.lock().unwrap_or_else(PoisonError::into_inner);
+        let inner = match known.get(&storage_buffers).and_then(Weak::upgrade) {
+            Some(inner) => inner,
+            None => {
+                let mask = all(storage_buffers);
+                let raw = create_layout(core, name, mask)?;
+                let parts = Parts { layouts: BTreeMap::from([(mask, raw)]), sets: Vec::new() };
+                let inner =
+                    Arc::new(SetLayoutInner { core: core.clone(), storage_buffers, parts: Mutex::new(parts) });
+                known.insert(storage_buffers, Arc::downgrade(&inner));
+                inner
+            }
+        };
+        Ok(SetLayout { inner, name: name.into() })
     }
 
     /// Binds whole buffers, in the order of the bindings.
@@ -151,66 +318,25 @@ impl Device {
         name: &str,
         ranges: &[BufferRange<'_>],
     ) -> Result<BindingSet> {
-        let core = &self.core;
         self.check_ranges(layout, name, ranges)?;
-        let count = layout.inner.storage_buffers;
-        let sizes = [vk::DescriptorPoolSize::default()
-            .ty(vk::DescriptorType::STORAGE_BUFFER)
-            // A pool without descriptors is not allowed; a set without them is.
-            .descriptor_count(count.max(1))];
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
-        // SAFETY: one set of a known type.
-        let pool = unsafe { core.device.create_descriptor_pool(&info, None) }
-            .during("vkCreateDescriptorPool", name)?;
-        let layouts = [layout.inner.raw];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
-        // SAFETY: the pool is fresh and holds what one set of this layout needs.
-        let allocated =
-            unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
-        let raw = match allocated.as_deref() {
-            Ok([raw, ..]) => *raw,
-            other => {
-                // SAFETY: nothing was allocated from the pool.
-                unsafe { core.device.destroy_descriptor_pool(pool, None) };
-                return Err(match other {
-                    Err(error) => error.clone(),
-                    Ok(_) => GpuError::InvalidUse {
-                        name: name.to_owned(),
-                        reason: "the driver returned no descriptor set".to_owned(),
-                    },
-                });
-            }
+        let bound = |range: &BufferRange<'_>| BoundBuffer {
+            buffer: range.buffer.clone(),
+            offset: range.offset,
+            size: range.size,
         };
-        core.name_object(raw, name);
-        let infos: Vec<_> = ranges
-            .iter()
-            .map(|range| {
-                [vk::DescriptorBufferInfo::default()
-                    .buffer(range.buffer.raw())
-                    .offset(range.offset)
-                    .range(range.size)]
-            })
-            .collect();
-        let writes: Vec<_> = (0..count)
-            .zip(&infos)
-            .map(|(binding, info)| {
-                vk::WriteDescriptorSet::default()
-                    .dst_set(raw)
-                    .dst_binding(binding)
-                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
-                    .buffer_info(info)
-            })
-            .collect();
-        // SAFETY: the set is fresh, the buffers are storage buffers of this device, and the ranges were checked.
-        unsafe { core.device.update_descriptor_sets(&writes, &[]) };
-        let inner = BindingSetInner {
-            pool,
-            raw,
+        let inner = Arc::new(BindingSetInner {
             layout: layout.clone(),
             name: name.to_owned(),
-            _buffers: ranges.iter().map(|range| range.buffer.clone()).collect(),
-        };
-        Ok(BindingSet { inner: Arc::new(inner) })
+            buffers: ranges.iter().map(bound).collect(),
+            parts: Mutex::default(),
+        });
+        let mut parts = layout.inner.parts();
+        let made = parts.layouts.iter().try_for_each(|(mask, layout)| inner.add_part(*mask, *layout));
+        made?;
+        parts.sets.retain(|set| set.strong_count() > 0);
+        parts.sets.push(Arc::downgrade(&inner));
+        drop(parts);
+        Ok(BindingSet { inner })
     }
 
     fn check_ranges(&self, layout: &SetLayout, name: &str, ranges: &[BufferRange<'_>]) -> Result<()> {
@@ -223,7 +349,7 @@ impl Device {
             return Err(invalid(format!(
                 "{} buffers are given, but the layout `{}` has {expected} bindings",
                 ranges.len(),
-                layout.inner.name
+                layout.name
             )));
         }
         let limits = self.limits();
@@ -258,9 +384,13 @@ impl Device {
 
 impl Drop for SetLayoutInner {
     fn drop(&mut self) {
-        if self.core.is_usable() {
+        if !self.core.is_usable() {
+            return;
+        }
+        let parts = self.parts.get_mut().unwrap_or_else(PoisonError::into_inner);
+        for layout in parts.layouts.values() {
             // SAFETY: sets and pipelines of this layout hold handles to it, so none is left.
-            unsafe { self.core.device.destroy_descriptor_set_layout(self.raw, None) };
+            unsafe { self.core.device.destroy_descriptor_set_layout(*layout, None) };
         }
     }
 }
@@ -268,10 +398,14 @@ impl Drop for SetLayoutInner {
 impl Drop for BindingSetInner {
     fn drop(&mut self) {
         let core = &self.layout.inner.core;
-        if core.is_usable() {
+        if !core.is_usable() {
+            return;
+        }
+        let parts = self.parts.get_mut().unwrap_or_else(PoisonError::into_inner);
+        for part in parts.values() {
             // SAFETY: submissions that use the set hold a handle to it, so none is pending; embedders keep what
             // they record alive.
-            unsafe { core.device.destroy_descriptor_pool(self.pool, None) };
+            unsafe { core.device.destroy_descriptor_pool(part.pool, None) };
         }
     }
 }

@@ -165,6 +165,7 @@ impl Device {
             labels,
             pipeline_cache: parts.pipeline_cache,
             pipelines: PipelineStore::default(),
+            set_layouts: Default::default(),
             enabled: parts.enabled,
             identity: Identity {
                 name: candidate.name.clone(),

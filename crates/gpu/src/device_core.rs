@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 
+use crate::binding::SetLayouts;
 use crate::error::{GpuError, Result};
 use crate::features::Feature;
 use crate::instance::Instance;
@@ -74,6 +75,7 @@ pub(crate) struct Core {
     pub(crate) labels: Option<ash::ext::debug_utils::Device>,
     pub(crate) pipeline_cache: vk::PipelineCache,
     pub(crate) pipelines: PipelineStore,
+    pub(crate) set_layouts: SetLayouts,
     pub(crate) enabled: BTreeSet<Feature>,
     pub(crate) limits: Limits,
     pub(crate) identity: Identity,

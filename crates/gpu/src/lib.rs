@@ -73,6 +73,7 @@ mod queue;
 mod raw;
 mod recorder;
 mod shader_stage;
+mod spirv;
 mod timers;
 mod transfer;
 

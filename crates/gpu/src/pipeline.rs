@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::binding::SetLayout;
+use crate::binding::{Mask, SetLayout};
 use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
 use crate::pipeline_store::{Made, Recipe};
 use crate::shader_stage::{Module, Specialisation};
+use crate::spirv::used_bindings;
 
 /// A compute pipeline to be made. The entry point is `main`.
 #[derive(Debug, Clone, Copy)]
@@ -73,6 +74,8 @@ pub(crate) struct PipelineInner {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
     pub(crate) sets: Vec<SetLayout>,
+    /// The bindings of each set that the layout has.
+    pub(crate) used: Arc<[Mask]>,
     pub(crate) push_constant_bytes: u32,
     pub(crate) stages: vk::ShaderStageFlags,
     pub(crate) bind_point: vk::PipelineBindPoint,
@@ -245,24 +248,57 @@ impl Device {
         let (recipe, made) = match core.pipelines.find(&recipe) {
             Some(found) => found,
             None => {
-                let layout = Layout::create(core, asked)?;
+                let used = self.used_bindings(asked, &recipe)?;
+                let layout = Layout::create(core, asked, &used)?;
                 let raw = compile(layout.raw)?;
                 core.name_object(raw, asked.name);
-                core.pipelines.insert(core, recipe, Made { raw, layout: layout.into_raw() })
+                core.pipelines.insert(core, recipe, Made { raw, layout: layout.into_raw(), used })
             }
         };
-        Ok(Arc::new(PipelineInner {
+        let inner = PipelineInner {
             core: core.clone(),
             recipe,
             raw: made.raw,
             layout: made.layout,
             sets: asked.sets.iter().map(|set| (*set).clone()).collect(),
+            used: made.used,
             push_constant_bytes: asked.push_constant_bytes,
             stages: asked.stages,
             bind_point: asked.bind_point,
             name: asked.name.to_owned(),
             view_mask,
-        }))
+        };
+        // Also for a pipeline that was found: layouts that it was made with may be gone.
+        for (set, used) in inner.sets.iter().zip(inner.used.iter()) {
+            set.inner.part(set.name(), *used)?;
+        }
+        Ok(Arc::new(inner))
+    }
+
+    /// What the modules of a pipeline use of each of its sets.
+    fn used_bindings(&self, asked: &Asked<'_>, recipe: &Recipe) -> Result<Arc<[Mask]>> {
+        let name = asked.name;
+        let mut used = vec![0; asked.sets.len()];
+        for module in &recipe.modules {
+            let of_module = used_bindings(name, module)?;
+            for (set, mask) in of_module.into_iter().enumerate().filter(|(_, mask)| *mask != 0) {
+                let known = asked.sets.get(set).map_or(0, |layout| layout.inner.storage_buffers);
+                let binding = Mask::BITS - 1 - mask.leading_zeros();
+                if binding >= known {
+                    let reason =
+                        format!("its shader uses binding {binding} of set {set}, whose layout has {known}");
+                    return Err(GpuError::InvalidUse { name: name.to_owned(), reason });
+                }
+                used[set] |= mask;
+            }
+        }
+        let asked = used.iter().map(|mask: &Mask| u64::from(mask.count_ones())).sum();
+        let limit = self.core.limits.max_storage_buffers_per_stage.into();
+        if asked > limit {
+            let what = "the number of storage buffers that its shader uses";
+            return Err(GpuError::LimitExceeded { name: name.to_owned(), what, asked, limit });
+        }
+        Ok(used.into())
     }
 
     /// Checks what both kinds share.
@@ -270,14 +306,8 @@ impl Device {
         let Asked { name, sets, push_constant_bytes, .. } = *asked;
         let core = &self.core;
         let limits = &core.limits;
-        let buffers: u64 = sets.iter().map(|set| u64::from(set.inner.storage_buffers)).sum();
-        let checks: [(&'static str, u64, u64); 3] = [
+        let checks: [(&'static str, u64, u64); 2] = [
             ("the number of sets", sets.len() as u64, limits.max_bound_sets.into()),
-            (
-                "the number of storage buffers of all sets",
-                buffers,
-                limits.max_storage_buffers_per_stage.into(),
-            ),
             ("the size of the push constants", push_constant_bytes.into(), limits.max_push_constants.into()),
         ];
         if let Some((what, asked, limit)) = checks.into_iter().find(|(_, asked, limit)| asked > limit) {
@@ -323,8 +353,10 @@ struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    fn create(core: &'a Core, asked: &Asked<'_>) -> Result<Self> {
-        let layouts: Vec<_> = asked.sets.iter().map(|set| set.inner.raw).collect();
+    /// The layout of the bindings that are used.
+    fn create(core: &'a Core, asked: &Asked<'_>, used: &[Mask]) -> Result<Self> {
+        let parts = asked.sets.iter().zip(used).map(|(set, used)| set.inner.part(set.name(), *used));
+        let layouts = parts.collect::<Result<Vec<_>>>()?;
         let range =
             vk::PushConstantRange::default().stage_flags(asked.stages).size(asked.push_constant_bytes);
         let ranges = if asked.push_constant_bytes == 0 { &[][..] } else { std::slice::from_ref(&range) };

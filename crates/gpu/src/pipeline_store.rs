@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
+use crate::binding::Mask;
 use crate::device_core::Core;
 use crate::pipeline::RasterOptions;
 
@@ -24,16 +25,18 @@ pub(crate) struct Recipe {
 }
 
 /// What Vulkan made.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Made {
     pub(crate) raw: vk::Pipeline,
     pub(crate) layout: vk::PipelineLayout,
+    /// The bindings of each set that its layout has.
+    pub(crate) used: Arc<[Mask]>,
 }
 
 impl Made {
     /// # Safety
     /// Nothing uses the pipeline any more, and it is destroyed once.
-    unsafe fn destroy(self, core: &Core) {
+    unsafe fn destroy(&self, core: &Core) {
         // SAFETY: the caller vouches for it.
         unsafe {
             core.device.destroy_pipeline(self.raw, None);
@@ -88,7 +91,7 @@ impl PipelineStore {
             return found;
         }
         let recipe = Arc::new(recipe);
-        books.entries.insert(recipe.clone(), Entry { made, handles: 1, since: 0 });
+        books.entries.insert(recipe.clone(), Entry { made: made.clone(), handles: 1, since: 0 });
         (recipe, made)
     }
 
@@ -127,7 +130,7 @@ impl Books {
             self.idle.remove(&entry.since);
         }
         entry.handles += 1;
-        Some((recipe, entry.made))
+        Some((recipe, entry.made.clone()))
     }
 
     fn trim(&mut self, core: &Core) {

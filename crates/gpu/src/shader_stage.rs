@@ -3,7 +3,8 @@
 use ash::vk;
 
 use crate::device_core::Core;
-use crate::error::{During, GpuError, Result};
+use crate::error::{During, Result};
+use crate::spirv::check_header;
 
 /// A shader module, needed only until its pipeline is made.
 pub(crate) struct Module<'a> {
@@ -13,17 +14,7 @@ pub(crate) struct Module<'a> {
 
 impl<'a> Module<'a> {
     pub(crate) fn create(core: &'a Core, name: &str, spirv: &[u32]) -> Result<Self> {
-        const MAGIC: u32 = 0x0723_0203;
-        const HEADER_WORDS: usize = 5;
-        let reason = match spirv {
-            [MAGIC, ..] if spirv.len() > HEADER_WORDS => None,
-            [MAGIC, ..] => Some("it ends within its header"),
-            [first, ..] if first.swap_bytes() == MAGIC => Some("its byte order is reversed"),
-            _ => Some("its first word is not the SPIR-V number"),
-        };
-        if let Some(reason) = reason {
-            return Err(GpuError::InvalidShader { name: name.to_owned(), reason });
-        }
+        check_header(name, spirv)?;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the words are a module at least by their header; the shader compiler vouches for the rest.
         let raw =

@@ -48,6 +48,47 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
     finish(device);
 }
 
+/// A set has what a pipeline uses, whichever was made first, and beside it what others use.
+#[test]
+fn a_pipeline_has_the_bindings_that_its_shader_uses() {
+    let device = device();
+    let scale = Scale::new(&device, 64);
+    let other = storage(&device, "other", 256);
+    let layout = device.create_set_layout("three", 3).expect("set layout");
+    let set = |name| {
+        device.create_binding_set(&layout, name, &[&scale.buffer, &other, &other]).expect("binding set")
+    };
+    let before = set("before");
+    // Sets 1 to 3 are not used at all.
+    let desc = ComputePipelineDesc {
+        name: "scale of three",
+        spirv: common::shaders::SCALE,
+        sets: &[&layout; 4],
+        push_constant_bytes: 8,
+        constants: &[],
+    };
+    let pipeline = device.create_compute_pipeline(&desc).expect("pipeline");
+    let after = set("after");
+    for set in [&before, &after] {
+        device
+            .submit(|recorder| {
+                recorder.bind_compute(&pipeline);
+                recorder.bind_sets(0, &[set, set]);
+                recorder.push_constants(bytes_of(&[64, 2]));
+                scale.dispatch(recorder);
+            })
+            .expect("submission");
+    }
+    let expected: Vec<u32> = scale.values(&device);
+    assert!(expected.windows(2).all(|pair| pair[1] == pair[0] + 4), "{expected:?}");
+    let none = device.create_set_layout("none", 0).expect("set layout");
+    let error = device.create_compute_pipeline(&ComputePipelineDesc { sets: &[&none], ..desc });
+    let error = error.expect_err("a binding that the layout lacks").to_string();
+    assert!(error.contains("binding 0 of set 0, whose layout has 0"), "{error}");
+    drop((scale, other, layout, before, after, pipeline, none));
+    finish(device);
+}
+
 /// The pipeline of [`common::shaders::SCALE`] with a bias.
 fn pipeline(device: &Device, name: &str, bias: u32) -> ComputePipeline {
     let layout = device.create_set_layout(name, 1).expect("set layout");

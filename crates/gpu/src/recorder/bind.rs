@@ -48,12 +48,8 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
         };
         for (set, layout) in sets.iter().zip(layouts) {
-            // Layouts of the same content are compatible, even if made twice.
-            let inner = &set.inner.layout.inner;
-            let compatible = inner.storage_buffers == layout.inner.storage_buffers
-                && Arc::ptr_eq(&inner.core, &layout.inner.core);
-            if !compatible {
-                let reason = format!("set `{}` has another layout than `{}`", set.name(), layout.inner.name);
+            if !Arc::ptr_eq(&set.inner.layout().inner, &layout.inner) {
+                let reason = format!("set `{}` has another layout than `{}`", set.name(), layout.name());
                 return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
             }
         }
@@ -66,7 +62,9 @@ impl Recorder<'_> {
         for set in sets {
             self.keep(set.inner.clone());
         }
-        self.emit_sets(&pipeline, first, &sets.iter().map(|set| set.inner.raw).collect::<Vec<_>>());
+        let used = pipeline.used[start..].iter();
+        let parts: Vec<_> = sets.iter().zip(used).map(|(set, used)| set.inner.part(*used)).collect();
+        self.emit_sets(&pipeline, first, &parts);
     }
 
     /// Sets the push constants of the bound pipeline, from byte 0 on.
@@ -132,11 +130,12 @@ impl Recorder<'_> {
         let Some(pipeline) = &self.state.pipeline else { return };
         // SAFETY: recording; a pipeline of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
-        for (number, (set, layout)) in (0_u32..).zip(self.state.sets.iter().zip(&pipeline.sets)) {
+        let wanted = pipeline.sets.iter().zip(pipeline.used.iter());
+        for (number, (set, (layout, used))) in (0_u32..).zip(self.state.sets.iter().zip(wanted)) {
             if let Some(set) = set
-                && set.inner.layout.inner.storage_buffers == layout.inner.storage_buffers
+                && Arc::ptr_eq(&set.inner.layout().inner, &layout.inner)
             {
-                self.emit_sets(pipeline, number, &[set.inner.raw]);
+                self.emit_sets(pipeline, number, &[set.inner.part(*used)]);
             }
         }
         if !self.state.constants.is_empty() {

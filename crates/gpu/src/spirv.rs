@@ -1,0 +1,118 @@
+//! What of its descriptor sets a SPIR-V module uses.
+
+use std::collections::HashMap;
+
+use crate::error::{GpuError, Result};
+
+const MAGIC: u32 = 0x0723_0203;
+const HEADER_WORDS: usize = 5;
+const OP_FUNCTION: u32 = 54;
+const OP_FUNCTION_END: u32 = 56;
+const OP_DECORATE: u32 = 71;
+const DECORATION_BINDING: u32 = 33;
+const DECORATION_DESCRIPTOR_SET: u32 = 34;
+
+/// The bindings of each set, from set 0 up, that the functions of a module name: one bit a binding. A set layout of
+/// these alone is enough for it, which counts where a device lets a stage see few buffers.
+///
+/// # Errors
+/// [`GpuError::InvalidShader`] for words that are no module, and for bindings beyond 63.
+pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
+    let invalid = |reason| GpuError::InvalidShader { name: name.to_owned(), reason };
+    check_header(name, spirv)?;
+    let mut places: HashMap<u32, [Option<u32>; 2]> = HashMap::new();
+    let mut used = Vec::new();
+    let mut in_function = false;
+    let mut rest = &spirv[HEADER_WORDS..];
+    while let [first, ..] = rest {
+        let (operation, length) = (first & 0xffff, (first >> 16) as usize);
+        if length == 0 || length > rest.len() {
+            return Err(invalid("an instruction does not end within it"));
+        }
+        let (instruction, after) = rest.split_at(length);
+        rest = after;
+        match (operation, instruction) {
+            (OP_FUNCTION, _) => in_function = true,
+            (OP_FUNCTION_END, _) => in_function = false,
+            (OP_DECORATE, [_, variable, DECORATION_DESCRIPTOR_SET, set]) => {
+                places.entry(*variable).or_default()[0] = Some(*set);
+            }
+            (OP_DECORATE, [_, variable, DECORATION_BINDING, binding]) => {
+                places.entry(*variable).or_default()[1] = Some(*binding);
+            }
+            // Decorations come before functions. A literal that equals an id only makes the answer larger.
+            _ if in_function => {
+                for word in &instruction[1..] {
+                    let Some([Some(set), Some(binding)]) = places.get(word) else { continue };
+                    if *binding >= u64::BITS || *set >= u64::BITS {
+                        return Err(invalid("it names a set or a binding beyond 63"));
+                    }
+                    let set = *set as usize;
+                    if used.len() <= set {
+                        used.resize(set + 1, 0);
+                    }
+                    used[set] |= 1 << binding;
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(used)
+}
+
+/// Whether the words begin as a module does.
+///
+/// # Errors
+/// [`GpuError::InvalidShader`].
+pub(crate) fn check_header(name: &str, spirv: &[u32]) -> Result<()> {
+    let reason = match spirv {
+        [MAGIC, ..] if spirv.len() > HEADER_WORDS => return Ok(()),
+        [MAGIC, ..] => "it ends within its header",
+        [first, ..] if first.swap_bytes() == MAGIC => "its byte order is reversed",
+        _ => "its first word is not the SPIR-V number",
+    };
+    Err(GpuError::InvalidShader { name: name.to_owned(), reason })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn op(length: u32, operation: u32) -> u32 {
+        length << 16 | operation
+    }
+
+    /// Buffers 10 to 12 at (0, 1), (2, 0) and (2, 3); a function whose one instruction has `operands`.
+    fn module(operands: &[u32]) -> Vec<u32> {
+        let mut words = vec![MAGIC, 0x0001_0500, 0, 20, 0];
+        for (id, set, binding) in [(10, 0, 1), (11, 2, 0), (12, 2, 3)] {
+            words.extend([op(4, OP_DECORATE), id, DECORATION_DESCRIPTOR_SET, set]);
+            words.extend([op(4, OP_DECORATE), id, DECORATION_BINDING, binding]);
+        }
+        words.extend([op(5, OP_FUNCTION), 1, 2, 0, 3, op(1 + operands.len() as u32, 65)]);
+        words.extend(operands);
+        words.push(op(1, OP_FUNCTION_END));
+        words
+    }
+
+    #[test]
+    fn only_what_functions_name_is_used() {
+        let of = |operands: &[u32]| used_bindings("a", &module(operands)).expect("a module");
+        assert_eq!(of(&[7, 8]), []);
+        assert_eq!(of(&[10]), [0b10]);
+        assert_eq!(of(&[12, 10, 11]), [0b10, 0, 0b1001]);
+    }
+
+    #[test]
+    fn what_is_no_module_is_an_error() {
+        let mut cut = module(&[10, 11, 12]);
+        cut.truncate(cut.len() - 2);
+        let mut endless = module(&[]);
+        endless[HEADER_WORDS] = op(0, OP_DECORATE);
+        let mut beyond = module(&[10]);
+        beyond[HEADER_WORDS + 7] = 64;
+        for words in [&[][..], &[MAGIC], &cut, &endless, &beyond] {
+            assert!(matches!(used_bindings("a", words), Err(GpuError::InvalidShader { .. })), "{words:x?}");
+        }
+    }
+}
