@@ -1,5 +1,9 @@
 //! Compiles every module of `permutations.txt` whose features are on, and writes the Rust side: one
 //! `Shader` per module and the constants of the shared GLSL number files.
+//!
+//! Names and source text stay in the modules with the feature `debug-shaders`, and are left out without it: they are
+//! more than half of all bytes. `RASRAY_SHADER_CACHE` names a folder that builds of several profiles share, so that a
+//! module is compiled once for all of them.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -97,21 +101,78 @@ fn take<'a>(permutations: &'a [Permutation], next: &AtomicUsize) -> Option<(usiz
     permutations.get(place).map(|permutation| (place, permutation))
 }
 
-/// Compiles a module, unless its text, includes and macros expanded, is that of the build before: a change of one file
-/// then costs the modules that use it.
+/// Writes a module's SPIR-V, compiled unless the cache has it.
 fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(), String> {
     let module = Module { entry: &permutation.entry, defines: &permutation.defines };
+    let text = preprocess(root, &module).map_err(|e| e.to_string())?;
+    let cache = std::env::var_os("RASRAY_SHADER_CACHE").map_or_else(|| out.join("cache"), PathBuf::from);
+    let kept = cache.join(format!("{:016x}", hash(&text)));
+    let words = match read_kept(&kept, &text) {
+        Some(words) => words,
+        None => {
+            let words = compile(root, &module).map_err(|e| e.to_string())?;
+            keep(&kept, &text, &words)?;
+            words
+        }
+    };
+    let words = if feature_is_on("debug-shaders") { words } else { without_debug_text(&words) };
     let spirv = out.join(file_of(permutation));
-    let before = spirv.with_extension("txt");
-    let now = preprocess(root, &module).map_err(|e| e.to_string())?;
-    if spirv.exists() && std::fs::read_to_string(&before).is_ok_and(|before| before == now) {
+    let bytes = bytes_of(&words);
+    if std::fs::read(&spirv).is_ok_and(|before| before == bytes) {
         return Ok(());
     }
-    let words = compile(root, &module).map_err(|e| e.to_string())?;
-    let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-    std::fs::write(&spirv, bytes).map_err(|e| format!("{}: {e}", spirv.display()))?;
-    // Last: a build that ends before this compiles the module again.
-    std::fs::write(&before, now).map_err(|e| format!("{}: {e}", before.display()))
+    std::fs::write(&spirv, bytes).map_err(|e| format!("{}: {e}", spirv.display()))
+}
+
+/// FNV-1a: only a name for a file whose text is compared as a whole.
+fn hash(text: &str) -> u64 {
+    text.bytes()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+fn bytes_of(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+/// The words that are kept for a text, includes and macros expanded; none where another text is, or nothing.
+fn read_kept(kept: &Path, text: &str) -> Option<Vec<u32>> {
+    if std::fs::read_to_string(kept.with_extension("txt")).ok()? != text {
+        return None;
+    }
+    let bytes = std::fs::read(kept.with_extension("spv")).ok()?;
+    let (words, rest) = bytes.as_chunks::<4>();
+    rest.is_empty().then(|| words.iter().map(|word| u32::from_le_bytes(*word)).collect())
+}
+
+/// Keeps words for a text. Files appear whole, as other builds may look for them; the text last, as it vouches for both.
+fn keep(kept: &Path, text: &str, words: &[u32]) -> Result<(), String> {
+    let put = |extension: &str, bytes: &[u8]| {
+        let path = kept.with_extension(extension);
+        let begun = kept.with_extension(format!("{extension}.{}", std::process::id()));
+        std::fs::create_dir_all(kept.parent().unwrap_or(kept))
+            .and_then(|()| std::fs::write(&begun, bytes))
+            .and_then(|()| std::fs::rename(&begun, &path))
+            .map_err(|e| format!("{}: {e}", path.display()))
+    };
+    put("spv", &bytes_of(words))?;
+    put("txt", text.as_bytes())
+}
+
+/// A module without names, source text and lines, none of which changes what it does.
+fn without_debug_text(words: &[u32]) -> Vec<u32> {
+    const HEADER_WORDS: usize = 5;
+    // OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString, OpLine, OpNoLine, OpModuleProcessed.
+    const DEBUG: [u32; 9] = [2, 3, 4, 5, 6, 7, 8, 317, 330];
+    let mut kept = words[..HEADER_WORDS].to_vec();
+    let mut rest = &words[HEADER_WORDS..];
+    while let [first, ..] = rest {
+        let (instruction, after) = rest.split_at(((first >> 16) as usize).clamp(1, rest.len()));
+        if !DEBUG.contains(&(first & 0xffff)) {
+            kept.extend_from_slice(instruction);
+        }
+        rest = after;
+    }
+    kept
 }
 
 fn read(path: &Path) -> Result<String, String> {
@@ -126,6 +187,7 @@ fn feature_is_on(feature: &str) -> bool {
 fn watch(root: &Path) -> Result<(), String> {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=permutations.txt");
+    println!("cargo:rerun-if-env-changed=RASRAY_SHADER_CACHE");
     for entry in std::fs::read_dir(root).map_err(|e| e.to_string())? {
         let path = entry.map_err(|e| e.to_string())?.path();
         let name = path.file_name().and_then(|n| n.to_str()).unwrap_or_default().to_owned();

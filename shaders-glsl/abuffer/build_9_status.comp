@@ -2,7 +2,7 @@
 // Reads: header, geometry. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/geometry.glsl"
+#include "ads/build_status.glsl"
 #include "abuffer/accessors.glsl"
 
 layout(local_size_x = 1) in;
@@ -18,6 +18,6 @@ void main() {
         && ABUFFER_HEADER(abuffer_built).fringe_demand <= ABUFFER_HEADER(abuffer_built).fringe_capacity
         && ABUFFER_HEADER(abuffer_built).pairs <= ABUFFER_HEADER(abuffer_built).pair_capacity
         && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
-    uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    uint status = build_status(fits);
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

@@ -1,5 +1,5 @@
 // What: posed triangles, the one input all structures are built from.
-// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing.
+// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, unless GEOMETRY_CHECKED is defined.
 // Positions are metres relative to the frame origin.
 #ifndef ADS_GEOMETRY_GLSL
 #define ADS_GEOMETRY_GLSL
@@ -14,9 +14,17 @@ struct GeometryHeader {
     uint vertex_count;
     uint triangle_count;
     uint draw_count;
+    uint outside;        // triangles that the last check found outside of the bounds or with a vertex that there is not
+    vec3 lower;          // of all positions
+    vec3 upper;
 };
 
-layout(set = GEOMETRY_SET, binding = 0, scalar) readonly buffer GeometryHeaderBuffer {
+#ifdef GEOMETRY_CHECKED
+#define GEOMETRY_HEADER_ACCESS
+#else
+#define GEOMETRY_HEADER_ACCESS readonly
+#endif
+layout(set = GEOMETRY_SET, binding = 0, scalar) GEOMETRY_HEADER_ACCESS buffer GeometryHeaderBuffer {
     GeometryHeader geometry_header;
 };
 layout(set = GEOMETRY_SET, binding = 1, scalar) readonly buffer GeometryPositionBuffer {
@@ -31,6 +39,11 @@ layout(set = GEOMETRY_SET, binding = 3, scalar) readonly buffer GeometryDrawBuff
 
 uint geometry_triangle_count() {
     return geometry_header.triangle_count;
+}
+
+// Whether the build may be called complete: what it stored is true of the triangles only then.
+bool geometry_is_sound() {
+    return geometry_header.outside == 0u;
 }
 
 // Posed position of a vertex; the origin where the index is out of range.

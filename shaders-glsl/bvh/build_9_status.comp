@@ -2,6 +2,7 @@
 // Reads: header. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/build_status.glsl"
 #include "bvh/build.glsl"
 
 layout(local_size_x = 1) in;
@@ -10,5 +11,5 @@ void main() {
     uint triangles = BVH_HEADER(bvh_built).triangle_count;
     bool fits = triangles <= BVH_HEADER(bvh_built).record_capacity && triangles <= BVH_HEADER(bvh_built).node_capacity + 1u
         && triangles == geometry_triangle_count();
-    BVH_HEADER(bvh_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    BVH_HEADER(bvh_built).status = build_status(fits);
 }

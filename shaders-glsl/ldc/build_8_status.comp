@@ -2,6 +2,7 @@
 // Reads: header. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/build_status.glsl"
 #include "ldc/accessors.glsl"
 
 layout(local_size_x = 1) in;
@@ -15,6 +16,6 @@ void main() {
         && LDC_HEADER(ldc_built).long_demand <= LDC_HEADER(ldc_built).long_capacity
         && LDC_HEADER(ldc_built).layer_demand <= LDC_HEADER(ldc_built).layer_capacity
         && LDC_HEADER(ldc_built).pairs <= LDC_HEADER(ldc_built).pair_capacity;
-    uint status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    uint status = build_status(fits);
     LDC_HEADER(ldc_built).status = status | (LDC_HEADER(ldc_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

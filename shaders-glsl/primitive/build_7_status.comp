@@ -3,7 +3,7 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/header.glsl"
-#include "ads/geometry.glsl"
+#include "ads/build_status.glsl"
 
 layout(local_size_x = 1) in;
 
@@ -18,5 +18,5 @@ void main() {
         && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity
         && PRIMITIVE_HEADER(primitive_built).pairs <= PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(primitive_built).triangle_capacity
         && (PRIMITIVE_STORAGE != PRIMITIVE_STORAGE_BRICKS || geometry_triangle_count() <= PRIMITIVE_HEADER(primitive_built).triangle_capacity);
-    PRIMITIVE_HEADER(primitive_built).status = fits ? STATUS_COMPLETE : STATUS_OVERFLOW;
+    PRIMITIVE_HEADER(primitive_built).status = build_status(fits);
 }

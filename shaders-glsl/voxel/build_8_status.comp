@@ -2,6 +2,7 @@
 // Reads: header. Writes: header.status, header.fragments.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/build_status.glsl"
 #include "voxel/header.glsl"
 
 layout(local_size_x = 1) in;
@@ -15,7 +16,7 @@ void main() {
         && VOXEL_HEADER(voxel_built).long_demand <= VOXEL_HEADER(voxel_built).long_capacity
         && VOXEL_HEADER(voxel_built).pairs <= VOXEL_HEADER(voxel_built).pair_capacity;
     bool unsorted = VOXEL_HEADER(voxel_built).unsorted > 0u;
-    VOXEL_HEADER(voxel_built).status = (fits ? STATUS_COMPLETE : STATUS_OVERFLOW) | (unsorted ? STATUS_UNSORTED : 0u);
+    VOXEL_HEADER(voxel_built).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
     // Of pages the fragments have been counted, of others they are the demand.
     if (VOXEL_STORAGE != VOXEL_STORAGE_PAGED) {
         VOXEL_HEADER(voxel_built).fragments = VOXEL_HEADER(voxel_built).demand;

@@ -58,7 +58,7 @@ pub fn check_capacities<T: PartialEq>(
         let status = bench.build_once(structure, viewpoint);
         let answers = status.complete.then(|| answers(structure));
         let found = status.demand(counted.demand).expect("it is counted");
-        (structure.check(&status), found, answers)
+        (structure.check(&status, 0).expect("sizes that do"), found, answers)
     };
     let (check, demand, expected) = built(structure, &sizes(1 << 16));
     assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} in ample room");

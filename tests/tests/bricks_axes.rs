@@ -267,7 +267,9 @@ fn missing_room_for_bricks_is_noticed() {
         structure.resize(bench.device(), &plan(&axes(Some(32)), &few).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(!status.complete, "{grid:?}: {status:?}");
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+            panic!("{status:?} does not grow")
+        };
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(bench.build_once(&mut structure, [0.0; 3]).complete, "{grid:?}");
         assert_eq!(bench.trace(&structure, &rays).hits, expected);

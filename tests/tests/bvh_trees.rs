@@ -226,7 +226,7 @@ fn every_edge_capacity() {
                 bvh.resize(device, &sizes).expect("it fits");
                 let status = bench.build_once(&mut bvh, [0.0; 3]);
                 assert_eq!(status.complete, room == n, "{what}");
-                if let Check::Grow(sizes) = bvh.check(&status) {
+                if let Check::Grow(sizes) = bvh.check(&status, 0).expect("sizes that do") {
                     let (hits, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
                     assert_eq!(counters.not_ready as usize, rays.len(), "{what}");
                     assert!(hits.iter().all(|hit| !hit.is_hit()), "{what}: a partial answer");

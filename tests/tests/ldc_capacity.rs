@@ -97,7 +97,7 @@ fn every_edge_capacity(config: Config) {
             }
         }
         let mut regrows = 0;
-        while let Check::Grow(sizes) = structure.check(&status) {
+        while let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") {
             regrows += 1;
             assert!(regrows <= 2, "fragments grow first, then the fringe");
             structure.resize(bench.device(), &sizes).expect("it fits");

@@ -114,7 +114,9 @@ fn layers_beyond_the_maximum_are_counted_and_refused() {
     let rays = [Ray::new([0.1, 0.2, 0.3], [0.3, -0.5, 0.8])];
     let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
     assert_eq!(counters.not_ready, 1, "no partial answer");
-    let Check::Grow(sizes) = structure.check(&status) else { panic!("more layers are asked for") };
+    let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+        panic!("more layers are asked for")
+    };
     let refused = structure.resize(bench.device(), &sizes).expect_err("more layers than may be").to_string();
     assert!(
         refused.contains(&format!("{deepest} fragments")) && refused.contains("build=single"),

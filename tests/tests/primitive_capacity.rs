@@ -101,7 +101,7 @@ fn every_edge_capacity_of(config: Config) {
         assert_eq!(status.complete, fits, "room for {room} and {near_room}");
         assert_eq!((demand(&status, "entries"), demand(&status, "near")), (entries, near), "room for {room}");
         if fits {
-            assert_eq!(structure.check(&status), Check::Complete);
+            assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
             assert_eq!(trace(&bench, &structure, &rays), expected);
             continue;
         }
@@ -110,7 +110,9 @@ fn every_edge_capacity_of(config: Config) {
             assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {near_room}, {mode:?}");
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
         }
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {room} does not grow") };
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+            panic!("room for {room} does not grow")
+        };
         assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(bench.build_once(&mut structure, EYE).complete, "a build completes with its exact demand");
@@ -188,7 +190,9 @@ fn bricks_grow(config: Config) {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
             assert_eq!(counters.not_ready as usize, rays.len());
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer");
-            let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
+            let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+                panic!("{status:?} does not grow")
+            };
             structure.resize(bench.device(), &sizes).expect("it fits");
             status = bench.build_once(&mut structure, EYE);
             assert!(status.complete, "grown from room for {records_room} records and {cells_room} lists");
@@ -217,7 +221,9 @@ fn missing_room_for_triangles(config: Config) {
     structure.resize(bench.device(), &plan(&config, &few).expect("in range")).expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(!status.complete, "{status:?}");
-    let Check::Grow(sizes) = structure.check(&status) else { panic!("{status:?} does not grow") };
+    let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+        panic!("{status:?} does not grow")
+    };
     structure.resize(bench.device(), &sizes).expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     assert!(trace(&bench, &structure, &rays).iter().all(Hit::is_hit));
@@ -265,7 +271,7 @@ fn bytes_are_those_of_the_formula() {
         for _ in 0..if bricks { 2 } else { 1 } {
             structure.resize(bench.device(), &sizes).expect("it fits");
             let status = bench.build_once(&mut structure, EYE);
-            sizes = match structure.check(&status) {
+            sizes = match structure.check(&status, 0).expect("sizes that do") {
                 Check::Grow(sizes) => sizes,
                 Check::Complete => {
                     let (records, cells) = (demand(&status, "records"), demand(&status, "lists"));

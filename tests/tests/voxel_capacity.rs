@@ -58,7 +58,7 @@ fn every_edge_capacity(config: Config) {
         assert_eq!(status.complete, entries == demand, "room for {entries}");
         assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, entries));
         if entries == demand {
-            assert_eq!(structure.check(&status), Check::Complete);
+            assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
             assert_eq!(trace(&bench, &structure, &rays), expected);
             continue;
         }
@@ -67,7 +67,9 @@ fn every_edge_capacity(config: Config) {
             assert_eq!(counters.not_ready as usize, rays.len(), "room for {entries}, {mode:?}");
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {entries}");
         }
-        let Check::Grow(sizes) = structure.check(&status) else { panic!("room for {entries} does not grow") };
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+            panic!("room for {entries} does not grow")
+        };
         // Pages come with a little more room: how many are begun depends on which threads meet.
         let extra = if config.storage == Storage::Paged { demand / 64 } else { 0 };
         assert_eq!(sizes.elements("fragments"), demand + extra);
@@ -135,7 +137,10 @@ fn bytes_are_those_of_the_formula() {
         let mut structure = made(&bench, config, &triangles);
         structure.resize(bench.device(), &plan(&config, room(0)).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
-        assert!(matches!(structure.check(&status), Check::Grow(_)), "there is no room for anything");
+        assert!(
+            matches!(structure.check(&status, 0).expect("sizes that do"), Check::Grow(_)),
+            "there is no room for anything"
+        );
         let sizes = plan(&config, room(status.pools[0].demand)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
@@ -187,7 +192,7 @@ fn lists_of_ten_thousand_are_searched() {
         if config.sorts() {
             let long = status.demand("long").expect("the pool is counted");
             assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
-            let Check::Grow(sizes) = structure.check(&status) else {
+            let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
                 panic!("there is no room for long lists")
             };
             structure.resize(bench.device(), &sizes).expect("it fits");

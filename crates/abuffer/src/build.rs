@@ -108,7 +108,7 @@ impl Build {
             &["bounds", "lists"]
         };
         let readers = shaders | Access::VERTEX_READ;
-        target.pools.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
+        target.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
         if let Some(pairs) = &self.pairs {

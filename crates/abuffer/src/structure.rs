@@ -241,7 +241,7 @@ impl Structure for ABuffer {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header(viewpoint)?)?;
+        self.pools.set_header(&self.first_header(viewpoint)?);
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
         self.build.record(recorder, &self.config, target);
         Ok(())
@@ -275,32 +275,31 @@ impl Structure for ABuffer {
                 },
             ],
             unsorted: header.unsorted.into(),
+            outside: self.pools.outside()?,
             corrupted: header.corrupted.into(),
         })
     }
 
-    fn check(&self, status: &BuildStatus) -> Check {
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let demand = |name| status.demand(name).unwrap_or(0);
-        if status.complete {
-            return Check::Complete;
-        }
-        let grown = |name| demand(name).max(self.pools.sizes().elements(name));
-        let mut nodes = grown("nodes");
-        if self.config.storage == Storage::Paged && nodes > self.pools.sizes().elements("nodes") {
+        let sizes = self.pools.sizes();
+        let mut nodes = demand("nodes");
+        if self.config.storage == Storage::Paged && nodes > sizes.elements("nodes") {
             // How many pages are begun depends a little on which threads meet.
             nodes += nodes / 64;
         }
         let triangles = u64::from(self.geometry.triangle_count()).max(32 * self.mark_words());
-        let demand = Demand {
-            nodes,
-            near_triangles: grown("near"),
-            long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
-            triangles,
-            fringe: grown("fringe"),
-            pairs: demand("pairs").max(pair_capacity(&self.config, self.pools.sizes())),
-        };
-        // Demands are 32-bit counts, so planning them again cannot exceed what links can name.
-        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
+        status.check(headroom, |growth| {
+            let demand = Demand {
+                nodes: growth.of(nodes, sizes.elements("nodes")),
+                near_triangles: growth.of(demand("near"), sizes.elements("near")),
+                long_lists: growth.of(demand("long"), long_capacity(&self.config, sizes)),
+                triangles,
+                fringe: growth.of(demand("fringe"), sizes.elements("fringe")),
+                pairs: growth.of(demand("pairs"), pair_capacity(&self.config, sizes)),
+            };
+            plan(&self.config, demand)
+        })
     }
 
     fn rounds(&self) -> u32 {

@@ -78,7 +78,7 @@ impl BuildBricks {
         let compute = Access::COMPUTE;
 
         let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
-        target.pools.record_header(recorder, "primitive/bricks_0_clear", &["lists", "bricks"], readers);
+        target.record_header(recorder, "primitive/bricks_0_clear", &["lists", "bricks"], readers);
         if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
             pass(recorder, near_label, near, triangles, compute);
             pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);

@@ -245,7 +245,7 @@ impl Structure for PrimitiveLists {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header(viewpoint.eye))?;
+        self.pools.set_header(&self.first_header(viewpoint.eye));
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None };
         match &self.build {
             Passes::Lists(build) => build.record(recorder, &self.config, target),
@@ -276,26 +276,25 @@ impl Structure for PrimitiveLists {
             complete: header.status & STATUS_COMPLETE != 0,
             pools,
             unsorted: 0,
+            outside: self.pools.outside()?,
             corrupted: header.corrupted.into(),
         })
     }
 
-    fn check(&self, status: &BuildStatus) -> Check {
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let demand = |name| status.demand(name).unwrap_or(0);
-        if status.complete {
-            return Check::Complete;
-        }
         let allocated = self.allocated();
-        let demand = Demand {
-            entries: demand("entries").max(allocated.entries),
-            near: demand("near").max(allocated.near),
-            records: demand("records").max(allocated.records),
-            cells: demand("lists").max(allocated.cells),
-            triangles: allocated.triangles.max(self.geometry.triangle_count().into()),
-            grid: allocated.grid,
-        };
-        // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, &demand).map_or(Check::Complete, Check::Grow)
+        status.check(headroom, |growth| {
+            let demand = Demand {
+                entries: growth.of(demand("entries"), allocated.entries),
+                near: growth.of(demand("near"), allocated.near),
+                records: growth.of(demand("records"), allocated.records),
+                cells: growth.of(demand("lists"), allocated.cells),
+                triangles: allocated.triangles.max(self.geometry.triangle_count().into()),
+                grid: allocated.grid,
+            };
+            plan(&self.config, &demand)
+        })
     }
 
     fn rounds(&self) -> u32 {

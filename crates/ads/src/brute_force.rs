@@ -88,8 +88,9 @@ impl Structure for BruteForce {
         Ok(BuildStatus { complete: true, ..BuildStatus::default() })
     }
 
-    fn check(&self, _status: &BuildStatus) -> Check {
-        Check::Complete
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
+        // It has no pools.
+        status.check(headroom, |_| Ok(Sizes::default()))
     }
 
     fn rounds(&self) -> u32 {

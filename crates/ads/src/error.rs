@@ -37,6 +37,21 @@ pub enum AdsError {
         /// Name of the structure.
         structure: &'static str,
     },
+    /// A geometry's counts or bounds do not describe its buffers.
+    #[error("the geometry cannot be used: {reason}")]
+    Geometry {
+        /// What is wrong, and with which numbers.
+        reason: String,
+    },
+    /// A build met triangles that its geometry does not allow for.
+    #[error(
+        "{triangles} triangles have a corner outside of the bounds that the geometry states, or name a vertex that \
+         it does not have: state bounds that hold all positions, and indices below the number of vertices"
+    )]
+    OutsideBounds {
+        /// How many.
+        triangles: u32,
+    },
     /// A build was recorded without the host's part.
     #[error("{structure} is built by the host first: call prepare_build before every record_build")]
     NotPrepared {

@@ -155,6 +155,9 @@ impl TraceKernels {
         mode: TraceMode,
         rounds: u32,
     ) {
+        if refuses(recorder, queue, count) {
+            return;
+        }
         let kernel = match mode {
             TraceMode::Closest => &self.closest,
             TraceMode::Occluded => &self.occluded,
@@ -201,6 +204,9 @@ impl TraceKernels {
         let Some(kernel) = &self.surfaces else {
             return false;
         };
+        if refuses(recorder, queue, count) {
+            return true;
+        }
         let constants = TraceConstants { structure: [address as u32, (address >> 32) as u32], count };
         recorder.begin_pass(kernel.label);
         self.bind(recorder, kernel, geometry, structure, queue, constants);
@@ -209,4 +215,13 @@ impl TraceKernels {
         recorder.end_pass();
         true
     }
+}
+
+/// Refuses slots that the queue does not have, as a mistake of the recording.
+fn refuses(recorder: &mut Recorder<'_>, queue: &RayQueue, count: u32) -> bool {
+    let beyond = count > queue.capacity();
+    if beyond {
+        recorder.refuse(&format!("{count} slots of a queue of {} were asked for", queue.capacity()));
+    }
+    beyond
 }

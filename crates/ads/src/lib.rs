@@ -49,8 +49,8 @@ pub use queue::{QueueCounters, QueueParts, RayQueue};
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{
-    BuildStatus, Check, InlineTrace, PoolSize, PoolStatus, Sizes, Structure, StructureKind, StructureReport,
-    TraceMode,
+    BuildStatus, Check, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure, StructureKind,
+    StructureReport, TraceMode,
 };
 pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 pub use viewpoint::{CameraView, Viewpoint};

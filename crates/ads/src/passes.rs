@@ -11,6 +11,12 @@ use crate::{AdsError, Geometry, Modules, Pools, SceneBinding};
 /// Most workgroups along the first dimension; more go to the second, which shaders fold back.
 const MOST_GROUPS: u64 = 32_768;
 
+/// That many workgroups in two dimensions; none for none.
+pub(crate) fn folded(groups: u64) -> Option<[u32; 3]> {
+    let rows = groups.div_ceil(MOST_GROUPS);
+    (groups > 0).then(|| [groups.div_ceil(rows) as u32, rows as u32, 1])
+}
+
 /// Push constants of every build pass: address of the header (zero with descriptors), and a number whose meaning
 /// is the pass's, such as the digit of a sort.
 #[repr(C)]
@@ -117,15 +123,20 @@ impl BuildTarget<'_> {
         recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
     }
 
+    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, both
+    /// visible to `readers`, and the check of the triangles, whose result the pass of the status looks at.
+    pub fn record_header(&self, recorder: &mut Recorder<'_>, label: &str, cleared: &[&str], readers: Access) {
+        recorder.begin_pass(label);
+        self.pools.record_header(recorder, self.geometry, cleared, readers);
+        recorder.end_pass();
+    }
+
     /// Runs that many workgroups; nothing for none.
     pub fn dispatch(&self, recorder: &mut Recorder<'_>, pipeline: &ComputePipeline, groups: u64, step: u32) {
-        if groups == 0 {
-            return;
-        }
-        let rows = groups.div_ceil(MOST_GROUPS);
+        let Some(groups) = folded(groups) else { return };
         recorder.bind_compute(pipeline);
         self.bind(recorder, step);
-        recorder.dispatch([groups.div_ceil(rows) as u32, rows as u32, 1]);
+        recorder.dispatch(groups);
     }
 
     /// A labelled pass of as many workgroups as three u32 of the header say, at a byte of it that is a multiple of 4.

@@ -21,12 +21,12 @@ pub struct Pools {
     addressing: Addressing,
     layout: SetLayout,
     sizes: Sizes,
-    header_source: Buffer,
+    /// What the next build's header begins as.
+    header: Vec<u8>,
+    /// The header as a build or a trace left it, and behind it [`Pools::outside`].
     header_readback: Buffer,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
-    /// Whether a build was recorded since: until then device memory holds anything.
-    built: bool,
 }
 
 impl Pools {
@@ -55,26 +55,23 @@ impl Pools {
         layout: SetLayout,
         sizes: &Sizes,
     ) -> Result<Self, AdsError> {
+        // Headers may hold the arguments of dispatches.
+        let usage = BufferUsage::STORAGE
+            | BufferUsage::INDIRECT
+            | BufferUsage::TRANSFER_SRC
+            | BufferUsage::TRANSFER_DST;
         let buffer = |name: &str, size: u64, location| {
-            device.create_buffer(&BufferDesc {
-                name: &format!("{structure} {name}"),
-                size,
-                // Headers may hold the arguments of dispatches.
-                usage: BufferUsage::STORAGE
-                    | BufferUsage::INDIRECT
-                    | BufferUsage::TRANSFER_SRC
-                    | BufferUsage::TRANSFER_DST,
-                location,
-            })
+            device.create_buffer(&BufferDesc { name: &format!("{structure} {name}"), size, usage, location })
         };
         let header_bytes = bytes(sizes, HEADER);
-        let header_source = buffer("header source", header_bytes, MemoryLocation::Upload)?;
-        let header_readback = buffer("header readback", header_bytes, MemoryLocation::Readback)?;
-        let pools = sizes
-            .pools
-            .iter()
-            .map(|pool| buffer(pool.name, pool.elements * pool.element_bytes, MemoryLocation::Device))
-            .collect::<Result<Vec<_>, _>>()?;
+        // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
+        let header_readback = buffer("header readback", header_bytes + 4, MemoryLocation::Readback)?;
+        header_readback.write(0, &vec![0; header_bytes as usize + 4])?;
+        let mut pools =
+            vec![device.create_buffer_of_zeros(&format!("{structure} {HEADER}"), usage, header_bytes)?];
+        for pool in sizes.pools.iter().skip(1) {
+            pools.push(buffer(pool.name, pool.elements * pool.element_bytes, MemoryLocation::Device)?);
+        }
         let set = match addressing {
             Addressing::Descriptor => {
                 let bindings: Vec<&Buffer> = pools.iter().collect();
@@ -88,11 +85,10 @@ impl Pools {
             addressing,
             layout,
             sizes,
-            header_source,
+            header: vec![0; header_bytes as usize],
             header_readback,
             pools,
             set,
-            built: false,
         })
     }
 
@@ -151,37 +147,50 @@ impl Pools {
         [address as u32, (address >> 32) as u32]
     }
 
-    /// Writes the header that the next build starts from, for [`Pools::record_header`] to copy. Traces are
-    /// answered once that build is recorded.
+    /// Takes the header that the passes recorded next start from. Each recording has its own: builds that wait for
+    /// the device together do not share one.
     ///
-    /// # Errors
-    /// Host-visible memory could not be written.
-    pub fn begin_build<H: NoUninit>(&mut self, header: &H) -> Result<(), GpuError> {
-        self.write_header(header)?;
-        self.built = true;
-        Ok(())
+    /// # Panics
+    /// The header is not as long as its pool: a structure plans its own.
+    pub fn set_header<H: NoUninit>(&mut self, header: &H) {
+        self.header.copy_from_slice(bytemuck::bytes_of(header));
     }
 
-    /// The same for passes that run ahead of a build.
-    ///
-    /// # Errors
-    /// Host-visible memory could not be written.
-    pub fn write_header<H: NoUninit>(&self, header: &H) -> Result<(), GpuError> {
-        self.header_source.write(0, bytemuck::bytes_of(header))
-    }
-
-    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, both
-    /// visible to `readers`.
-    pub fn record_header(&self, recorder: &mut Recorder<'_>, label: &str, cleared: &[&str], readers: Access) {
-        recorder.begin_pass(label);
+    /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to `readers`.
+    pub(crate) fn record_header(
+        &self,
+        recorder: &mut Recorder<'_>,
+        geometry: &Geometry,
+        cleared: &[&str],
+        readers: Access,
+    ) {
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-        recorder.copy(&self.header_source, 0, &self.pools[0], 0, self.pools[0].size());
+        recorder.update(&self.pools[0], 0, &self.header);
         for name in cleared {
             let pool = self.pool(name);
             recorder.fill(pool, 0, pool.size(), 0);
         }
-        recorder.barrier(Access::TRANSFER_WRITE, readers);
-        recorder.end_pass();
+        geometry.record_check(recorder, &self.header_readback, self.header.len() as u64);
+        recorder.barrier(Access::TRANSFER_WRITE | Access::COMPUTE_WRITE, readers | Access::HOST_READ);
+        self.keep(recorder);
+    }
+
+    /// Keeps what is reached by address alive until the device is done; a set does so for what it binds.
+    fn keep(&self, recorder: &mut Recorder<'_>) {
+        if self.set.is_none() {
+            for pool in &self.pools {
+                recorder.keep_buffer(pool);
+            }
+        }
+    }
+
+    /// Triangles that the last build found outside of their geometry's bounds, or with a vertex that there is not. The
+    /// caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    pub fn outside(&self) -> Result<u32, GpuError> {
+        Ok(pod_read_unaligned(&self.header_readback.read(self.header.len() as u64, 4)?))
     }
 
     /// Records the copy of the header to the host, after compute shaders wrote it.
@@ -226,9 +235,8 @@ impl Pools {
         InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
     }
 
-    /// Records a trace of the first `count` slots. Where nothing was ever built, fresh memory may hold anything,
-    /// so the status is cleared first and rays are answered "not ready". Traces count list entries that name
-    /// nothing; the header is read back after them, so that [`crate::Structure::status`] tells.
+    /// Records a trace of the first `count` slots. Traces count list entries that name nothing; the header is read
+    /// back after them, so that [`crate::Structure::status`] tells.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -240,11 +248,7 @@ impl Pools {
         mode: TraceMode,
         rounds: u32,
     ) {
-        if !self.built {
-            recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-            recorder.fill(&self.pools[0], 0, size_of::<u32>() as u64, 0);
-            recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
-        }
+        self.keep(recorder);
         kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, count, mode, rounds);
         self.record_readback(recorder);
     }
@@ -261,6 +265,7 @@ impl Pools {
         queue: &RayQueue,
         count: u32,
     ) -> Result<(), AdsError> {
+        self.keep(recorder);
         if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, count) {
             Ok(())
         } else {

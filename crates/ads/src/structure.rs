@@ -83,6 +83,9 @@ pub struct BuildStatus {
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
     pub unsorted: u64,
+    /// Triangles with a corner outside of the bounds that their geometry states, or with a vertex that it does not have;
+    /// with any of them the build is not complete.
+    pub outside: u32,
     /// List entries that named no node, met by the build and by traces since; anything but 0 is a fault.
     pub corrupted: u64,
 }
@@ -101,6 +104,43 @@ pub enum Check {
     Complete,
     /// Resize to this and build again.
     Grow(Sizes),
+}
+
+impl BuildStatus {
+    /// What [`Structure::check`] answers: `plan` works out the sizes for demands that grow by so many percent.
+    ///
+    /// # Errors
+    /// As [`Structure::check`].
+    pub fn check(
+        &self,
+        headroom: u32,
+        plan: impl Fn(Growth) -> Result<Sizes, AdsError>,
+    ) -> Result<Check, AdsError> {
+        if self.outside > 0 {
+            return Err(AdsError::OutsideBounds { triangles: self.outside });
+        }
+        if self.complete {
+            return Ok(Check::Complete);
+        }
+        // Less headroom is better than no room.
+        plan(Growth { percent: headroom }).or_else(|_| plan(Growth { percent: 0 })).map(Check::Grow)
+    }
+}
+
+/// How much more than what was asked for a pool gets that has to grow.
+#[derive(Clone, Copy, Debug)]
+pub struct Growth {
+    percent: u32,
+}
+
+impl Growth {
+    /// Elements for a pool that was asked for `demand` and holds `capacity`: never less than it holds.
+    pub fn of(self, demand: u64, capacity: u64) -> u64 {
+        if demand <= capacity {
+            return capacity;
+        }
+        demand.saturating_add(demand.saturating_mul(self.percent.into()) / 100)
+    }
 }
 
 /// What a structure says of itself once built.
@@ -203,8 +243,13 @@ pub trait Structure {
     /// Host-visible memory could not be read.
     fn status(&self) -> Result<BuildStatus, GpuError>;
 
-    /// Whether the build is complete, or the sizes it needs.
-    fn check(&self, status: &BuildStatus) -> Check;
+    /// Whether the build is complete, or the sizes it needs. What has to grow gets `headroom` percent more than was
+    /// asked for, where there are indices for it: 0 for a scene that stands still; 50 where frames follow each other,
+    /// so that the next one that asks for a little more is complete at once.
+    ///
+    /// # Errors
+    /// No sizes would do: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError>;
 
     /// Rounds after which any ray through this structure should be finished.
     fn rounds(&self) -> u32;

@@ -175,7 +175,7 @@ pub struct Draw {
     pub flags: u32,
 }
 
-/// Counts of a [`crate::Geometry`].
+/// Counts and bounds of a [`crate::Geometry`].
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct GeometryHeader {
@@ -185,6 +185,12 @@ pub struct GeometryHeader {
     pub triangle_count: u32,
     /// Draws.
     pub draw_count: u32,
+    /// Triangles that the last check found outside of the bounds, or with a vertex that there is not.
+    pub outside: u32,
+    /// Lower corner of all positions, metres.
+    pub lower: [f32; 3],
+    /// Upper corner, metres.
+    pub upper: [f32; 3],
 }
 
 /// Book-keeping of a [`crate::RayQueue`].

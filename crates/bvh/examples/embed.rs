@@ -144,11 +144,12 @@ unsafe fn hits(
         structure.record_build(&mut recorder, [0.0; 3].into())?;
         let (count, rounds) = (rays.len() as u32, structure.rounds());
         structure.record_trace(&mut recorder, &queued, count, TraceMode::Closest, rounds);
-        recorder.finish()?;
+        let recorded = recorder.finish()?;
         device.end_command_buffer(commands[0])?;
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         device.queue_submit(queue, &[submit], vk::Fence::null())?;
         device.queue_wait_idle(queue)?;
+        drop(recorded);
     }
     assert!(structure.status()?.complete);
     Ok(adopted.download_as(queued.hits(), 0, rays.len())?)

@@ -116,5 +116,5 @@ fn pass(
 }
 
 fn record_header(recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
-    target.pools.record_header(recorder, "bvh/build_0_header", &[], Access::COMPUTE);
+    target.record_header(recorder, "bvh/build_0_header", &[], Access::COMPUTE);
 }

@@ -228,7 +228,7 @@ impl Structure for Bvh {
             self.prepared = Some(Self::on_device(triangles as u64));
             return Ok(());
         }
-        self.pools.write_header(&self.first_header(BVH_NONE))?;
+        self.pools.set_header(&self.first_header(BVH_NONE));
         device.submit(|recorder| self.build.record_boxes(recorder, self.target()))?;
         let boxes = device.download_as::<Box3>(self.pools.pool("scratch"), 0, triangles)?;
         let tree = host::build(&boxes, self.config.leaf);
@@ -246,7 +246,7 @@ impl Structure for Bvh {
             Builder::Lbvh => Self::on_device(self.geometry.triangle_count().into()),
         };
         self.nodes = prepared.nodes;
-        self.pools.begin_build(&self.first_header(prepared.root))?;
+        self.pools.set_header(&self.first_header(prepared.root));
         self.build.record(recorder, self.target());
         Ok(())
     }
@@ -264,16 +264,14 @@ impl Structure for Bvh {
             complete: header.status & STATUS_COMPLETE != 0,
             pools: pools.collect(),
             unsorted: 0,
+            outside: self.pools.outside()?,
             corrupted: header.corrupted.into(),
         })
     }
 
-    fn check(&self, status: &BuildStatus) -> Check {
-        if status.complete {
-            return Check::Complete;
-        }
-        // Only after a resize to other sizes than those of the triangles.
-        plan(&self.config, self.geometry.triangle_count().into()).map_or(Check::Complete, Check::Grow)
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
+        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it needs.
+        status.check(headroom, |_| plan(&self.config, self.geometry.triangle_count().into()))
     }
 
     fn rounds(&self) -> u32 {

@@ -23,26 +23,24 @@ pub(crate) type Mask = u64;
 /// compared with what a stage does see.
 #[derive(Clone)]
 pub struct SetLayout {
-    pub(crate) inner: Arc<SetLayoutInner>,
+    core: Arc<Core>,
+    storage_buffers: u32,
     name: Arc<str>,
 }
 
-pub(crate) struct SetLayoutInner {
-    pub(crate) core: Arc<Core>,
-    pub(crate) storage_buffers: u32,
-    parts: Mutex<Parts>,
-}
+/// The parts of the layouts of a device, by their number of buffers. They live as long as the device: pipelines that are
+/// kept without a handle to them are made of them.
+#[derive(Default)]
+pub(crate) struct SetLayouts(Mutex<BTreeMap<u32, Parts>>);
 
 /// The parts of a layout that something was made of.
+#[derive(Default)]
 struct Parts {
     /// Of all bindings, and of those that pipelines use.
     layouts: BTreeMap<Mask, vk::DescriptorSetLayout>,
     /// Sets of the layout: each has a Vulkan set a part.
     sets: Vec<Weak<BindingSetInner>>,
 }
-
-/// The layouts of a device that something has a handle to, by their number of buffers.
-pub(crate) type SetLayouts = Mutex<BTreeMap<u32, Weak<SetLayoutInner>>>;
 
 /// A part of a buffer to be bound.
 #[derive(Debug, Clone, Copy)]
@@ -98,32 +96,37 @@ impl std::fmt::Debug for BindingSet {
 impl SetLayout {
     /// Number of storage buffers.
     pub fn storage_buffers(&self) -> u32 {
-        self.inner.storage_buffers
+        self.storage_buffers
     }
 
     /// The Vulkan layout of all bindings.
     pub fn raw(&self) -> vk::DescriptorSetLayout {
-        self.inner.parts().layouts[&all(self.inner.storage_buffers)]
+        self.core.set_layouts.lock()[&self.storage_buffers].layouts[&all(self.storage_buffers)]
     }
 
     /// Name for errors and tools.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
-}
 
-impl SetLayoutInner {
-    fn parts(&self) -> MutexGuard<'_, Parts> {
-        self.parts.lock().unwrap_or_else(PoisonError::into_inner)
+    /// Whether it is of this device.
+    pub(crate) fn is_of(&self, core: &Arc<Core>) -> bool {
+        Arc::ptr_eq(&self.core, core)
+    }
+
+    /// Whether sets of the one can be bound as sets of the other.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.is_of(&other.core) && self.storage_buffers == other.storage_buffers
     }
 
     /// The Vulkan layout of some bindings. Every set of this layout, of now and of later, has that part from here on.
-    pub(crate) fn part(&self, name: &str, mask: Mask) -> Result<vk::DescriptorSetLayout> {
-        let mut parts = self.parts();
+    pub(crate) fn part(&self, mask: Mask) -> Result<vk::DescriptorSetLayout> {
+        let mut layouts = self.core.set_layouts.lock();
+        let parts = layouts.entry(self.storage_buffers).or_default();
         if let Some(layout) = parts.layouts.get(&mask) {
             return Ok(*layout);
         }
-        let layout = create_layout(&self.core, name, mask)?;
+        let layout = create_layout(&self.core, &self.name, mask)?;
         let sets: Vec<_> = parts.sets.iter().filter_map(Weak::upgrade).collect();
         if let Err(error) = sets.iter().try_for_each(|set| set.add_part(mask, layout)) {
             // Sets that have the part keep it: those of the same bindings are alike.
@@ -136,6 +139,25 @@ impl SetLayoutInner {
     }
 }
 
+impl SetLayouts {
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<u32, Parts>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Destroys all.
+    ///
+    /// # Safety
+    /// Nothing uses a layout any more: sets and pipelines are gone.
+    pub(crate) unsafe fn clear(&self, device: &ash::Device) {
+        for parts in std::mem::take(&mut *self.lock()).into_values() {
+            for layout in parts.layouts.into_values() {
+                // SAFETY: the caller vouches for it.
+                unsafe { device.destroy_descriptor_set_layout(layout, None) };
+            }
+        }
+    }
+}
+
 impl BindingSet {
     /// Name for errors and tools.
     pub fn name(&self) -> &str {
@@ -144,7 +166,7 @@ impl BindingSet {
 
     /// The Vulkan set of all bindings.
     pub fn raw(&self) -> vk::DescriptorSet {
-        self.inner.part(all(self.inner.layout.inner.storage_buffers))
+        self.inner.part(all(self.inner.layout.storage_buffers))
     }
 }
 
@@ -170,7 +192,7 @@ impl BindingSetInner {
         if parts.contains_key(&mask) {
             return Ok(());
         }
-        let (core, name) = (&self.layout.inner.core, self.name.as_str());
+        let (core, name) = (&self.layout.core, self.name.as_str());
         let sizes = [vk::DescriptorPoolSize::default()
             .ty(vk::DescriptorType::STORAGE_BUFFER)
             // A pool without descriptors is not allowed; a set without them is.
@@ -275,20 +297,9 @@ impl Device {
                 limit: limit.into(),
             });
         }
-        let mut known = core.set_layouts.lock().unwrap_or_else(PoisonError::into_inner);
-        let inner = match known.get(&storage_buffers).and_then(Weak::upgrade) {
-            Some(inner) => inner,
-            None => {
-                let mask = all(storage_buffers);
-                let raw = create_layout(core, name, mask)?;
-                let parts = Parts { layouts: BTreeMap::from([(mask, raw)]), sets: Vec::new() };
-                let inner =
-                    Arc::new(SetLayoutInner { core: core.clone(), storage_buffers, parts: Mutex::new(parts) });
-                known.insert(storage_buffers, Arc::downgrade(&inner));
-                inner
-            }
-        };
-        Ok(SetLayout { inner, name: name.into() })
+        let layout = SetLayout { core: core.clone(), storage_buffers, name: name.into() };
+        layout.part(all(storage_buffers))?;
+        Ok(layout)
     }
 
     /// Binds whole buffers, in the order of the bindings.
@@ -330,21 +341,22 @@ impl Device {
             buffers: ranges.iter().map(bound).collect(),
             parts: Mutex::default(),
         });
-        let mut parts = layout.inner.parts();
+        let mut layouts = self.core.set_layouts.lock();
+        let parts = layouts.entry(layout.storage_buffers).or_default();
         let made = parts.layouts.iter().try_for_each(|(mask, layout)| inner.add_part(*mask, *layout));
         made?;
         parts.sets.retain(|set| set.strong_count() > 0);
         parts.sets.push(Arc::downgrade(&inner));
-        drop(parts);
+        drop(layouts);
         Ok(BindingSet { inner })
     }
 
     fn check_ranges(&self, layout: &SetLayout, name: &str, ranges: &[BufferRange<'_>]) -> Result<()> {
         let invalid = |reason: String| GpuError::InvalidUse { name: name.to_owned(), reason };
-        if !Arc::ptr_eq(&self.core, &layout.inner.core) {
+        if !layout.is_of(&self.core) {
             return Err(invalid("the layout belongs to another device".to_owned()));
         }
-        let expected = layout.inner.storage_buffers;
+        let expected = layout.storage_buffers;
         if ranges.len() != expected as usize {
             return Err(invalid(format!(
                 "{} buffers are given, but the layout `{}` has {expected} bindings",
@@ -382,22 +394,9 @@ impl Device {
     }
 }
 
-impl Drop for SetLayoutInner {
-    fn drop(&mut self) {
-        if !self.core.is_usable() {
-            return;
-        }
-        let parts = self.parts.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for layout in parts.layouts.values() {
-            // SAFETY: sets and pipelines of this layout hold handles to it, so none is left.
-            unsafe { self.core.device.destroy_descriptor_set_layout(*layout, None) };
-        }
-    }
-}
-
 impl Drop for BindingSetInner {
     fn drop(&mut self) {
-        let core = &self.layout.inner.core;
+        let core = &self.layout.core;
         if !core.is_usable() {
             return;
         }

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 
+use crate::binding::SetLayouts;
 use crate::choose::{Candidate, DeviceSummary, candidates, choose};
 use crate::device_core::{Commands, Core, Identity};
 use crate::error::{During, GpuError, Result};
@@ -165,7 +166,7 @@ impl Device {
             labels,
             pipeline_cache: parts.pipeline_cache,
             pipelines: PipelineStore::default(),
-            set_layouts: Default::default(),
+            set_layouts: SetLayouts::default(),
             enabled: parts.enabled,
             identity: Identity {
                 name: candidate.name.clone(),

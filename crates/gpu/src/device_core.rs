@@ -161,6 +161,8 @@ impl Drop for Core {
             return;
         }
         self.pipelines.clear(self);
+        // SAFETY: pipelines are gone, and every set keeps this value alive.
+        unsafe { self.set_layouts.clear(&self.device) };
         drop(memory);
         if owned.is_some() {
             // SAFETY: every object made from the device keeps this value alive, so all are destroyed; every

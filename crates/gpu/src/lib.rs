@@ -92,5 +92,5 @@ pub use messages::ValidationLog;
 pub use pipeline::{ComputePipeline, ComputePipelineDesc, RasterOptions, RasterPipeline, RasterPipelineDesc};
 pub use queue::{SubmitOptions, Submitted};
 pub use raw::RawDevice;
-pub use recorder::{Recorder, RenderArea};
+pub use recorder::{Recorded, Recorder, RenderArea};
 pub use timers::{PassTiming, TimerKind, Timers, Timing};

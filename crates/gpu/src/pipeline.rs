@@ -255,7 +255,7 @@ impl Device {
                 core.pipelines.insert(core, recipe, Made { raw, layout: layout.into_raw(), used })
             }
         };
-        let inner = PipelineInner {
+        Ok(Arc::new(PipelineInner {
             core: core.clone(),
             recipe,
             raw: made.raw,
@@ -267,12 +267,7 @@ impl Device {
             bind_point: asked.bind_point,
             name: asked.name.to_owned(),
             view_mask,
-        };
-        // Also for a pipeline that was found: layouts that it was made with may be gone.
-        for (set, used) in inner.sets.iter().zip(inner.used.iter()) {
-            set.inner.part(set.name(), *used)?;
-        }
-        Ok(Arc::new(inner))
+        }))
     }
 
     /// What the modules of a pipeline use of each of its sets.
@@ -282,7 +277,7 @@ impl Device {
         for module in &recipe.modules {
             let of_module = used_bindings(name, module)?;
             for (set, mask) in of_module.into_iter().enumerate().filter(|(_, mask)| *mask != 0) {
-                let known = asked.sets.get(set).map_or(0, |layout| layout.inner.storage_buffers);
+                let known = asked.sets.get(set).map_or(0, |layout| layout.storage_buffers());
                 let binding = Mask::BITS - 1 - mask.leading_zeros();
                 if binding >= known {
                     let reason =
@@ -318,7 +313,7 @@ impl Device {
         if !push_constant_bytes.is_multiple_of(4) {
             return Err(invalid("the size of the push constants must be a multiple of 4"));
         }
-        if sets.iter().any(|set| !Arc::ptr_eq(core, &set.inner.core)) {
+        if sets.iter().any(|set| !set.is_of(core)) {
             return Err(invalid("a set layout belongs to another device"));
         }
         Ok(())
@@ -339,7 +334,7 @@ impl Asked<'_> {
         Recipe {
             modules: modules.iter().map(|words| Box::from(*words)).collect(),
             constants: constants.into(),
-            sets: self.sets.iter().map(|set| set.inner.storage_buffers).collect(),
+            sets: self.sets.iter().map(|set| set.storage_buffers()).collect(),
             push_constant_bytes: self.push_constant_bytes,
             options,
         }
@@ -355,7 +350,7 @@ struct Layout<'a> {
 impl<'a> Layout<'a> {
     /// The layout of the bindings that are used.
     fn create(core: &'a Core, asked: &Asked<'_>, used: &[Mask]) -> Result<Self> {
-        let parts = asked.sets.iter().zip(used).map(|(set, used)| set.inner.part(set.name(), *used));
+        let parts = asked.sets.iter().zip(used).map(|(set, used)| set.part(*used));
         let layouts = parts.collect::<Result<Vec<_>>>()?;
         let range =
             vk::PushConstantRange::default().stage_flags(asked.stages).size(asked.push_constant_bytes);

@@ -38,6 +38,11 @@ impl Device {
         Duration::from_secs(if self.is_software() { 600 } else { 60 })
     }
 
+    /// Whether this crate may submit: an adopted device may come without a queue.
+    pub fn has_queue(&self) -> bool {
+        *self.core.queue.lock().unwrap_or_else(PoisonError::into_inner) != vk::Queue::null()
+    }
+
     /// Records commands, submits them and waits up to [`Device::timeout`].
     ///
     /// # Errors

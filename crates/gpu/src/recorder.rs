@@ -25,6 +25,9 @@ pub use self::raster::RenderArea;
 ///
 /// Mistakes (a range beyond a buffer, a dispatch without a pipeline …) do not end the program: the first one
 /// is kept, nothing more is recorded, and [`Recorder::finish`] or the submission returns it.
+///
+/// What is recorded stays alive until the device is done, even if its owner drops or replaces it meanwhile: a
+/// submission of this crate sees to it, and for command buffers of a host [`Recorded`] does.
 pub struct Recorder<'a> {
     device: &'a Device,
     command: vk::CommandBuffer,
@@ -34,7 +37,22 @@ pub struct Recorder<'a> {
     rendering: Option<RenderArea>,
     state: State,
     timers: Option<Timers>,
+    /// What must live until the device is done.
+    kept: Vec<Arc<dyn Any + Send + Sync>>,
     submission: Option<Submission<'a>>,
+}
+
+/// What a command buffer of a host uses. Keep it until the device has executed the command buffer for the last time:
+/// then nothing that was recorded is destroyed too early, whatever happens to its owners.
+#[must_use = "what was recorded may be destroyed once this is dropped: keep it until the device is done"]
+pub struct Recorded {
+    kept: Vec<Arc<dyn Any + Send + Sync>>,
+}
+
+impl std::fmt::Debug for Recorded {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Recorded").field("kept", &self.kept.len()).finish()
+    }
 }
 
 /// What a recorder keeps for a submission of this crate.
@@ -42,8 +60,6 @@ struct Submission<'a> {
     work: &'a OneTime,
     /// Whether every pass is submitted by itself and timed by the host.
     split: bool,
-    /// What must live until the device is done.
-    kept: Vec<Arc<dyn Any + Send + Sync>>,
     labels: Vec<String>,
     timings: Vec<PassTiming>,
 }
@@ -54,7 +70,8 @@ impl<'a> Recorder<'a> {
     /// # Safety
     /// - The command buffer was made from this device for its queue family, is being recorded, is outside of a
     ///   render pass or rendering, and is not used elsewhere while this value lives.
-    /// - Every buffer, set, pipeline and timer recorded outlives the execution of the command buffer.
+    /// - The device has executed the command buffer, or it never will, when the [`Recorded`] that
+    ///   [`Recorder::finish`] returns is dropped; where `finish` was not called or failed, it is not submitted.
     /// - What is bound in the command buffer (pipelines, sets, push constants, viewport, scissor) may change.
     pub unsafe fn from_raw(device: &'a Device, command: vk::CommandBuffer) -> Recorder<'a> {
         Self {
@@ -65,6 +82,7 @@ impl<'a> Recorder<'a> {
             rendering: None,
             state: State::default(),
             timers: None,
+            kept: Vec::new(),
             submission: None,
         }
     }
@@ -76,8 +94,7 @@ impl<'a> Recorder<'a> {
         timers: Option<Timers>,
         split: bool,
     ) -> Recorder<'a> {
-        let submission =
-            Submission { work, split, kept: Vec::new(), labels: Vec::new(), timings: Vec::new() };
+        let submission = Submission { work, split, labels: Vec::new(), timings: Vec::new() };
         Self {
             device,
             command: work.command(),
@@ -86,6 +103,7 @@ impl<'a> Recorder<'a> {
             rendering: None,
             state: State::default(),
             timers,
+            kept: Vec::new(),
             submission: Some(submission),
         }
     }
@@ -110,9 +128,19 @@ impl<'a> Recorder<'a> {
     ///
     /// # Errors
     /// The first mistake of the recording, a pass or rendering left open included.
-    pub fn finish(mut self) -> Result<()> {
+    pub fn finish(mut self) -> Result<Recorded> {
         self.check_closed();
-        self.error.map_or(Ok(()), Err)
+        self.error.map_or(Ok(Recorded { kept: self.kept }), Err)
+    }
+
+    /// Keeps a buffer alive until the device is done, for one that shaders reach by its address.
+    pub fn keep_buffer(&mut self, buffer: &Buffer) {
+        self.keep(buffer.inner.clone());
+    }
+
+    /// Refuses what was asked for: as a mistake of the recording it is, nothing more is recorded.
+    pub fn refuse(&mut self, reason: &str) {
+        self.misuse(reason);
     }
 
     /// Begins a pass: a label in tools and a time in reports. Passes do not nest.
@@ -173,11 +201,11 @@ impl<'a> Recorder<'a> {
     /// Closes a recording for a submission: hands out what it collected, or the first mistake.
     pub(crate) fn complete(mut self) -> Completed {
         self.check_closed();
-        let (kept, labels, timings) = match self.submission.take() {
-            Some(submission) => (submission.kept, submission.labels, submission.timings),
+        let (labels, timings) = match self.submission.take() {
+            Some(submission) => (submission.labels, submission.timings),
             None => Default::default(),
         };
-        Completed { error: self.error, _kept: kept, labels, timings }
+        Completed { error: self.error, _kept: self.kept, labels, timings }
     }
 
     /// The device outlives the recorder, so this borrow is independent of it.
@@ -190,9 +218,7 @@ impl<'a> Recorder<'a> {
     }
 
     fn keep(&mut self, value: Arc<dyn Any + Send + Sync>) {
-        if let Some(submission) = &mut self.submission {
-            submission.kept.push(value);
-        }
+        self.kept.push(value);
     }
 
     fn is_recording(&self) -> bool {

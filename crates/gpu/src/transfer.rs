@@ -119,6 +119,25 @@ impl Device {
         self.upload(&buffer, 0, bytes)?;
         Ok(buffer)
     }
+
+    /// Makes a buffer that holds zeros before anything is recorded: for what shaders look at first. Device-local where
+    /// this device has a queue to clear it through, else host-visible.
+    ///
+    /// # Errors
+    /// As [`Device::create_buffer`] and [`Device::submit`].
+    pub fn create_buffer_of_zeros(&self, name: &str, usage: BufferUsage, size: u64) -> Result<Buffer> {
+        let usage = usage | BufferUsage::TRANSFER_DST;
+        if !self.has_queue() {
+            let buffer =
+                self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Upload })?;
+            buffer.write(0, &vec![0; size as usize])?;
+            return Ok(buffer);
+        }
+        let buffer =
+            self.create_buffer(&BufferDesc { name, size, usage, location: MemoryLocation::Device })?;
+        self.submit(|recorder| recorder.fill(&buffer, 0, size, 0))?;
+        Ok(buffer)
+    }
 }
 
 /// Checks the range before host memory is allocated for it.

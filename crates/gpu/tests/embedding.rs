@@ -165,12 +165,15 @@ fn a_command_buffer_of_the_host_is_recorded_into() {
         recorder.begin_pass("beyond the capacity");
         recorder.end_pass();
         recorder.barrier(Access::COMPUTE_WRITE, Access::TRANSFER_READ | Access::HOST_READ);
-        recorder.finish().expect("no mistake");
+        let recorded = recorder.finish().expect("no mistake");
+        // What was recorded stays until the device is done, whoever else lets go of it.
+        drop((set, buffer));
         raw.end_command_buffer(command).expect("end");
         let commands = [command];
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         raw.queue_submit(device.raw_queue(), &[submit], vk::Fence::null()).expect("submit");
         raw.queue_wait_idle(device.raw_queue()).expect("wait");
+        drop(recorded);
         raw.destroy_command_pool(pool, None);
     }
     let passes = timers.read().expect("waited for");

@@ -142,13 +142,14 @@ unsafe fn hits(
             queued.record_reset(&mut recorder);
             structure.record_build(&mut recorder, [0.5, 0.5, -0.5].into())?;
             structure.record_trace(&mut recorder, &queued, 1000, TraceMode::Closest, structure.rounds());
-            recorder.finish()?;
+            let recorded = recorder.finish()?;
             device.end_command_buffer(commands[0])?;
             let submit = vk::SubmitInfo::default().command_buffers(&commands);
             device.queue_submit(queue, &[submit], vk::Fence::null())?;
             device.queue_wait_idle(queue)?;
+            drop(recorded);
         }
-        match structure.check(&structure.status()?) {
+        match structure.check(&structure.status()?, 0)? {
             Check::Complete => return Ok(adopted.download_as(queued.hits(), 0, rays.len())?),
             Check::Grow(sizes) => structure.resize(adopted, &sizes)?,
         }

@@ -91,7 +91,7 @@ impl Build {
             (Making::Single, Depth::Bits32) => &["lists", "blocks", "heads"],
             (Making::Peel, _) => &["lists", "blocks", "heads", "scratch"],
         };
-        target.pools.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
+        target.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
             pairs.record(recorder, target);
         }

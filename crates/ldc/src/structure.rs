@@ -194,7 +194,7 @@ impl Structure for LayeredDepthCube {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header())?;
+        self.pools.set_header(&self.first_header());
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
         self.build.record(recorder, &self.config, target);
         Ok(())
@@ -232,25 +232,24 @@ impl Structure for LayeredDepthCube {
                 },
             ],
             unsorted: header.unsorted.into(),
+            outside: self.pools.outside()?,
             corrupted: header.corrupted.into(),
         })
     }
 
-    fn check(&self, status: &BuildStatus) -> Check {
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let demand = |name| status.demand(name).unwrap_or(0);
-        if status.complete {
-            return Check::Complete;
-        }
-        let room = |pool| self.pools.sizes().elements(pool);
-        let demand = Demand {
-            fragments: demand("fragments").max(room("payload")),
-            fringe: demand("fringe").max(room("fringe")),
-            long_lists: demand("long").max(long_capacity(&self.config, self.pools.sizes())),
-            layers: demand("layers").max(layer_capacity(&self.config, self.pools.sizes())),
-            pairs: demand("pairs").max(pair_capacity(&self.config, self.pools.sizes())),
-        };
-        // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
+        let sizes = self.pools.sizes();
+        status.check(headroom, |growth| {
+            let demand = Demand {
+                fragments: growth.of(demand("fragments"), sizes.elements("payload")),
+                fringe: growth.of(demand("fringe"), sizes.elements("fringe")),
+                long_lists: growth.of(demand("long"), long_capacity(&self.config, sizes)),
+                layers: growth.of(demand("layers"), layer_capacity(&self.config, sizes)),
+                pairs: growth.of(demand("pairs"), pair_capacity(&self.config, sizes)),
+            };
+            plan(&self.config, demand)
+        })
     }
 
     fn rounds(&self) -> u32 {

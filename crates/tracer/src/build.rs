@@ -49,7 +49,7 @@ pub fn build_until_complete(
         outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         outcome.passes = submitted.passes;
         outcome.status = structure.status()?;
-        match structure.check(&outcome.status) {
+        match structure.check(&outcome.status, 0)? {
             Check::Complete if outcome.status.complete => return Ok(outcome),
             Check::Grow(sizes) if outcome.regrows < REBUILDS => {
                 tracing::debug!(

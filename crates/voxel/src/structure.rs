@@ -176,7 +176,7 @@ impl Structure for Voxels {
     }
 
     fn record_build(&mut self, recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
-        self.pools.begin_build(&self.first_header())?;
+        self.pools.set_header(&self.first_header());
         let target = BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: self.scene.as_ref() };
         self.build.record(recorder, &self.config, target);
         Ok(())
@@ -204,29 +204,27 @@ impl Structure for Voxels {
                 },
             ],
             unsorted: header.unsorted.into(),
+            outside: self.pools.outside()?,
             corrupted: header.corrupted.into(),
         })
     }
 
-    fn check(&self, status: &BuildStatus) -> Check {
-        let short = status.pools.iter().any(|pool| pool.demand > pool.capacity);
-        if status.complete || !short {
-            return Check::Complete;
-        }
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let demand = |name| status.demand(name).unwrap_or(0);
         let sizes = self.pools.sizes();
-        let mut entries = demand("fragments").max(sizes.elements("fragments"));
+        let mut entries = demand("fragments");
         if self.config.storage == Storage::Paged && entries > sizes.elements("fragments") {
             // How many pages are begun depends a little on which threads meet.
             entries += entries / 64;
         }
-        let demand = Demand {
-            entries,
-            long_lists: demand("long").max(long_capacity(&self.config, sizes)),
-            pairs: demand("pairs").max(pair_capacity(&self.config, sizes)),
-        };
-        // Where the demand exceeds what 32 bits can name, nothing can be planned and the build stays incomplete.
-        plan(&self.config, demand).map_or(Check::Complete, Check::Grow)
+        status.check(headroom, |growth| {
+            let demand = Demand {
+                entries: growth.of(entries, sizes.elements("fragments")),
+                long_lists: growth.of(demand("long"), long_capacity(&self.config, sizes)),
+                pairs: growth.of(demand("pairs"), pair_capacity(&self.config, sizes)),
+            };
+            plan(&self.config, demand)
+        })
     }
 
     fn rounds(&self) -> u32 {

@@ -101,7 +101,7 @@ fn every_edge_capacity(config: Config) {
         );
         check_well_formed(&bench, &structure);
         if fits {
-            assert_eq!(structure.check(&status), Check::Complete);
+            assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
             assert_eq!(trace(&bench, &structure, &rays), expected);
             continue;
         }
@@ -114,7 +114,7 @@ fn every_edge_capacity(config: Config) {
             );
             assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {nodes_room}");
         }
-        let Check::Grow(sizes) = structure.check(&status) else {
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("room for {nodes_room} does not grow")
         };
         // Pages come with a little more room: how many are begun depends on which threads meet.
@@ -172,7 +172,7 @@ fn every_edge_capacity_of_the_fringe() {
             structure.resize(bench.device(), &sizes).expect("it fits");
             let status = bench.build_once(&mut structure, EYE);
             check_well_formed(&bench, &structure);
-            let grown = match structure.check(&status) {
+            let grown = match structure.check(&status, 0).expect("sizes that do") {
                 Check::Complete => None,
                 Check::Grow(sizes) => Some((sizes.elements("nodes"), sizes.elements("fringe"))),
             };

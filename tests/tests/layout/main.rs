@@ -52,7 +52,7 @@ fn records_of_queues_and_geometry() {
         cells_low, cells_high, entries_low, entries_high, tests_low, tests_high,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {
-        vertex_count, triangle_count, draw_count,
+        vertex_count, triangle_count, draw_count, outside, lower, upper,
     });
     // Wherever draws are read; a module that does not read them does not have the record.
     let readers = shaders::ALL.iter().copied().filter(|shader| read_by_us(shader).contains_key("Draw"));

@@ -48,7 +48,7 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
         };
         for (set, layout) in sets.iter().zip(layouts) {
-            if !Arc::ptr_eq(&set.inner.layout().inner, &layout.inner) {
+            if !set.inner.layout().is_like(layout) {
                 let reason = format!("set `{}` has another layout than `{}`", set.name(), layout.name());
                 return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
             }
@@ -133,7 +133,7 @@ impl Recorder<'_> {
         let wanted = pipeline.sets.iter().zip(pipeline.used.iter());
         for (number, (set, (layout, used))) in (0_u32..).zip(self.state.sets.iter().zip(wanted)) {
             if let Some(set) = set
-                && Arc::ptr_eq(&set.inner.layout().inner, &layout.inner)
+                && set.inner.layout().is_like(layout)
             {
                 self.emit_sets(pipeline, number, &[set.inner.part(*used)]);
             }

@@ -1,4 +1,4 @@
-//! Fills and copies.
+//! Fills, updates and copies.
 
 use ash::vk;
 
@@ -24,6 +24,29 @@ impl Recorder<'_> {
         self.keep(buffer.inner.clone());
         // SAFETY: recording, outside of rendering; range, alignment and usage were checked.
         unsafe { self.raw_device().cmd_fill_buffer(self.command, buffer.raw(), offset, size, value) };
+    }
+
+    /// Writes bytes to a buffer. They travel within the command buffer, so that each recording has its own; offset and
+    /// length are multiples of 4, and at most 65,536 bytes go at a time.
+    pub fn update(&mut self, buffer: &Buffer, offset: u64, bytes: &[u8]) {
+        const MOST: usize = 65_536;
+        if !self.outside_rendering("update") || bytes.is_empty() {
+            return;
+        }
+        let usage = buffer.check_usage(BufferUsage::TRANSFER_DST, "being written by commands");
+        if let Err(error) = usage.and_then(|()| buffer.check_range(offset, bytes.len() as u64)) {
+            return self.fail(error);
+        }
+        if bytes.len() > MOST || !bytes.len().is_multiple_of(4) || !offset.is_multiple_of(4) {
+            let reason = format!(
+                "{} bytes at offset {offset} cannot be written by commands: multiples of 4, and at most {MOST}",
+                bytes.len()
+            );
+            return self.fail(GpuError::InvalidUse { name: buffer.name().to_owned(), reason });
+        }
+        self.keep(buffer.inner.clone());
+        // SAFETY: recording, outside of rendering; range, alignment, length and usage were checked.
+        unsafe { self.raw_device().cmd_update_buffer(self.command, buffer.raw(), offset, bytes) };
     }
 
     /// Copies bytes between buffers, or within one if the ranges do not overlap.

@@ -1,0 +1,14 @@
+// What: the status word of a build that has ended.
+// Reads: the geometry's header. Writes: nothing.
+#ifndef ADS_BUILD_STATUS_GLSL
+#define ADS_BUILD_STATUS_GLSL
+
+#include "ads/geometry.glsl"
+#include "contract/constants.glsl"
+
+// Traces answer only where everything fitted and every triangle is where the geometry says.
+uint build_status(bool fits) {
+    return fits && geometry_is_sound() ? STATUS_COMPLETE : STATUS_OVERFLOW;
+}
+
+#endif
