@@ -19,7 +19,7 @@ fn create(requirements: &Requirements) -> Result<Device, GpuError> {
 
 /// The floor and one more.
 fn floor_and(feature: Feature) -> Requirements {
-    let required = Requirements { required: vec![feature], optional: Vec::new() };
+    let required = Requirements { required: vec![feature], ..Requirements::default() };
     Requirements::floor().merge(&required)
 }
 
@@ -67,8 +67,8 @@ fn a_device_without_a_required_feature_is_refused_by_name() {
 #[test]
 fn a_missing_optional_feature_is_no_reason_to_refuse() {
     let wanted = Requirements {
-        required: Vec::new(),
         optional: Feature::ALL.iter().map(|&feature| (feature, "to see what there is")).collect(),
+        ..Requirements::default()
     };
     let device = create(&Requirements::floor().merge(&wanted)).expect("optional features are optional");
     assert!(Requirements::floor().required.iter().all(|&feature| device.has(feature)));

@@ -27,6 +27,11 @@ pub struct ABuffer {
     scene: Option<BindingSet>,
 }
 
+/// Its shaders.
+fn modules(config: &Config) -> Modules {
+    Modules { structure: "mmrt", prefix: "abuffer", addressing: config.addressing }
+}
+
 impl ABuffer {
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and the
     /// published payload.
@@ -44,7 +49,7 @@ impl ABuffer {
         config.addressing.check(device)?;
         device.require("the A-buffer", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "abuffer", config.addressing, &sizes)?;
-        let modules = Modules { structure: "mmrt", prefix: "abuffer", addressing: config.addressing };
+        let modules = modules(&config);
         let constants = config.constants();
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, scene, &constants);
         let build = Build::new(&pipelines, &config, scene)?;
@@ -70,7 +75,7 @@ impl ABuffer {
         if config.builder == Builder::Raster {
             requirements.required.push(Feature::FragmentStoresAndAtomics);
         }
-        config.addressing.add_to(&mut requirements);
+        modules(config).add_to(&mut requirements);
         requirements
     }
 

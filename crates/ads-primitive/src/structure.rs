@@ -37,6 +37,11 @@ pub struct PrimitiveLists {
     pools: Pools,
 }
 
+/// Its shaders.
+fn modules(config: &Config) -> Modules {
+    Modules { structure: "dirt", prefix: "primitive", addressing: config.addressing }
+}
+
 impl PrimitiveLists {
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks and surfaces.
     ///
@@ -53,7 +58,7 @@ impl PrimitiveLists {
         config.addressing.check(device)?;
         device.require("the primitive lists", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "primitive", config.addressing, &sizes)?;
-        let modules = Modules { structure: "dirt", prefix: "primitive", addressing: config.addressing };
+        let modules = modules(&config);
         let constants = config.constants();
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, None, &constants);
         let build = match config.storage {
@@ -82,7 +87,7 @@ impl PrimitiveLists {
         if config.builder() == Builder::Raster {
             requirements.required.push(Feature::FragmentStoresAndAtomics);
         }
-        config.addressing.add_to(&mut requirements);
+        modules(config).add_to(&mut requirements);
         requirements
     }
 

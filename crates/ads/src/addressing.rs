@@ -1,6 +1,9 @@
 //! How shaders reach the pools of a structure, and which modules a structure uses for it.
 
-use rasray_gpu::{Device, Feature, Requirements};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use rasray_gpu::{Device, Feature, Requirements, storage_buffers_used};
 use rasray_shaders_glsl::Shader;
 
 use crate::{AdsError, SceneBinding};
@@ -70,6 +73,28 @@ pub struct TraceModules {
 }
 
 impl Modules {
+    /// Adds what its shaders need of a device.
+    pub fn add_to(&self, requirements: &mut Requirements) {
+        self.addressing.add_to(requirements);
+        requirements.storage_buffers = requirements.storage_buffers.max(self.storage_buffers());
+    }
+
+    /// Storage buffers that the one of its modules uses that uses most.
+    fn storage_buffers(&self) -> u32 {
+        type Known = BTreeMap<(&'static str, bool), u32>;
+        // Modules are read once, each in some milliseconds.
+        static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
+        let by_address = self.addressing == Addressing::Address;
+        let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+        *known.entry((self.prefix, by_address)).or_insert_with(|| {
+            let own = rasray_shaders_glsl::ALL.iter().filter(|shader| {
+                let name = shader.name.strip_prefix(self.prefix);
+                name.is_some_and(|name| name.starts_with('/') && name.ends_with(".address") == by_address)
+            });
+            own.filter_map(|shader| storage_buffers_used(shader.name, shader.words()).ok()).max().unwrap_or(0)
+        })
+    }
+
     /// The module of a name, as the folder of the structure's shaders lists it.
     ///
     /// # Errors

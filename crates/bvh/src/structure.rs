@@ -38,6 +38,11 @@ struct Prepared {
     nodes: u64,
 }
 
+/// Its shaders.
+fn modules(config: &Config) -> Modules {
+    Modules { structure: NAME, prefix: NAME, addressing: config.addressing }
+}
+
 impl Bvh {
     /// Makes pipelines and pools for the triangles of `geometry`. `scene` is needed for alpha masks and
     /// surfaces.
@@ -55,7 +60,7 @@ impl Bvh {
         config.addressing.check(device)?;
         device.require("the hierarchy", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, NAME, config.addressing, &sizes)?;
-        let modules = Modules { structure: NAME, prefix: NAME, addressing: config.addressing };
+        let modules = modules(&config);
         let build = Build::new(&BuildPipelines::new(device, modules, geometry, &pools, None, &[]), &config)?;
         let kernels = TraceKernels::new(
             device,
@@ -78,9 +83,9 @@ impl Bvh {
         // Nothing is rasterized: of the device floor, dynamic rendering is not needed.
         let mut requirements = Requirements {
             required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
-            optional: Vec::new(),
+            ..Requirements::default()
         };
-        config.addressing.add_to(&mut requirements);
+        modules(config).add_to(&mut requirements);
         requirements
     }
 

@@ -67,7 +67,7 @@ impl Device {
     pub fn create(desc: &DeviceDesc) -> Result<Device> {
         let instance = Instance::create(&desc.application, desc.validation)?;
         // synchronization2 is used by every barrier, so it is required whatever was asked for.
-        let needed = Requirements { required: vec![Feature::Synchronization2], optional: Vec::new() };
+        let needed = Requirements { required: vec![Feature::Synchronization2], ..Requirements::default() };
         let requirements = needed.merge(&desc.requirements);
         let candidates = candidates(&instance.raw)?;
         let summaries: Vec<_> =
@@ -211,15 +211,43 @@ impl Device {
         self.core.enabled.contains(&feature)
     }
 
-    /// That everything `what` requires is enabled.
+    /// Whether everything required is enabled and within its limits, asked before anything is made.
+    pub fn supports(&self, requirements: &Requirements) -> bool {
+        self.lacks(requirements).is_empty()
+    }
+
+    /// What it lacks of what is required, each as words of an error message; nothing where all is there.
+    pub fn lacks(&self, requirements: &Requirements) -> Vec<String> {
+        let features = requirements.required.iter().filter(|feature| !self.has(**feature));
+        let mut lacks: Vec<_> = features.map(|feature| feature.name().to_owned()).collect();
+        let limit = self.limits().max_storage_buffers_per_stage;
+        if requirements.storage_buffers > limit {
+            let needed = requirements.storage_buffers;
+            lacks.push(format!("{needed} storage buffers per shader stage (it has {limit})"));
+        }
+        lacks
+    }
+
+    /// That everything `what` requires is enabled and within the device's limits.
     ///
     /// # Errors
-    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not.
+    /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not, [`GpuError::LimitExceeded`] for
+    /// too many storage buffers.
     pub fn require(&self, what: &str, requirements: &Requirements) -> Result<(), GpuError> {
-        match requirements.required.iter().find(|feature| !self.has(**feature)) {
-            Some(&feature) => Err(GpuError::FeatureNotEnabled { feature, what: what.to_owned() }),
-            None => Ok(()),
+        if let Some(&feature) = requirements.required.iter().find(|feature| !self.has(**feature)) {
+            return Err(GpuError::FeatureNotEnabled { feature, what: what.to_owned() });
         }
+        let (asked, limit) = (requirements.storage_buffers, self.limits().max_storage_buffers_per_stage);
+        if asked > limit {
+            let what_of = "the number of storage buffers that a shader stage uses";
+            return Err(GpuError::LimitExceeded {
+                name: what.to_owned(),
+                what: what_of,
+                asked: asked.into(),
+                limit: limit.into(),
+            });
+        }
+        Ok(())
     }
 
     /// All enabled features.

@@ -158,6 +158,8 @@ pub struct Requirements {
     pub required: Vec<Feature>,
     /// Enabled where present; with each what it buys.
     pub optional: Vec<(Feature, &'static str)>,
+    /// Storage buffers that one shader stage must be able to use, all sets together; 0 where any device will do.
+    pub storage_buffers: u32,
 }
 
 impl Requirements {
@@ -165,7 +167,7 @@ impl Requirements {
     pub fn floor() -> Self {
         Self {
             required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2, Feature::DynamicRendering],
-            optional: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -180,6 +182,7 @@ impl Requirements {
         self.optional.dedup();
         let required = &self.required;
         self.optional.retain(|(feature, _)| !required.contains(feature));
+        self.storage_buffers = self.storage_buffers.max(other.storage_buffers);
         self
     }
 }
@@ -233,14 +236,17 @@ mod tests {
         let first = Requirements {
             required: vec![Feature::ShaderInt64],
             optional: vec![(Feature::BufferInt64Atomics, "one word per node")],
+            storage_buffers: 12,
         };
         let second = Requirements {
             required: vec![Feature::BufferInt64Atomics, Feature::ShaderInt64],
             optional: vec![(Feature::ShaderInt64, "faster sort"), (Feature::ShaderFloat64, "an oracle")],
+            storage_buffers: 8,
         };
         let both = first.merge(&second);
         assert_eq!(both.required, [Feature::ShaderInt64, Feature::BufferInt64Atomics]);
         assert_eq!(both.optional, [(Feature::ShaderFloat64, "an oracle")]);
+        assert_eq!(both.storage_buffers, 12);
     }
 
     #[test]

@@ -93,4 +93,5 @@ pub use pipeline::{ComputePipeline, ComputePipelineDesc, RasterOptions, RasterPi
 pub use queue::{SubmitOptions, Submitted};
 pub use raw::RawDevice;
 pub use recorder::{Recorded, Recorder, RenderArea};
+pub use spirv::storage_buffers_used;
 pub use timers::{PassTiming, TimerKind, Timers, Timing};

@@ -60,6 +60,14 @@ pub(crate) fn used_bindings(name: &str, spirv: &[u32]) -> Result<Vec<u64>> {
     Ok(used)
 }
 
+/// Storage buffers that a module uses, all sets together: what a device must let one stage see.
+///
+/// # Errors
+/// [`GpuError::InvalidShader`] for words that are no module.
+pub fn storage_buffers_used(name: &str, spirv: &[u32]) -> Result<u32> {
+    Ok(used_bindings(name, spirv)?.iter().map(|used| used.count_ones()).sum())
+}
+
 /// Whether the words begin as a module does.
 ///
 /// # Errors

@@ -65,8 +65,10 @@ fn every_pixel_of_the_area_is_shaded_once_per_instance() {
 
 #[test]
 fn views_of_a_mask_are_drawn_at_once() {
-    let optional =
-        Requirements { required: Vec::new(), optional: vec![(Feature::Multiview, "one draw for all views")] };
+    let optional = Requirements {
+        optional: vec![(Feature::Multiview, "one draw for all views")],
+        ..Requirements::default()
+    };
     let device = device_with(requirements().merge(&optional));
     if device.has(Feature::Multiview) {
         let options = RasterOptions { view_mask: 0b111, ..RasterOptions::default() };

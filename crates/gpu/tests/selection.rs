@@ -43,8 +43,8 @@ fn only_what_was_asked_for_is_enabled() {
     common::finish(device);
 
     let wanted = Requirements {
-        required: Vec::new(),
         optional: Feature::ALL.iter().map(|feature| (*feature, "to see that it can be enabled")).collect(),
+        ..Requirements::default()
     };
     let devices = Device::list(&wanted).expect("a Vulkan driver");
     let device = common::device_with(requirements().merge(&wanted));

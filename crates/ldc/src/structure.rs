@@ -26,6 +26,11 @@ pub struct LayeredDepthCube {
     scene: Option<BindingSet>,
 }
 
+/// Its shaders.
+fn modules(config: &Config) -> Modules {
+    Modules { structure: "ldc", prefix: "ldc", addressing: config.addressing }
+}
+
 impl LayeredDepthCube {
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and attributes.
     ///
@@ -42,7 +47,7 @@ impl LayeredDepthCube {
         config.addressing.check(device)?;
         device.require("the layered depth cube", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "ldc", config.addressing, &sizes)?;
-        let modules = Modules { structure: "ldc", prefix: "ldc", addressing: config.addressing };
+        let modules = modules(&config);
         let constants = config.constants();
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, scene, &constants);
         let build = Build::new(&pipelines, &config, scene)?;
@@ -68,7 +73,7 @@ impl LayeredDepthCube {
         if config.builder == Builder::Raster {
             requirements.required.push(Feature::FragmentStoresAndAtomics);
         }
-        config.addressing.add_to(&mut requirements);
+        modules(config).add_to(&mut requirements);
         requirements
     }
 

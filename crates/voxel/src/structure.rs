@@ -29,6 +29,11 @@ pub struct Voxels {
     scene: Option<BindingSet>,
 }
 
+/// Its shaders.
+fn modules(config: &Config) -> Modules {
+    Modules { structure: "voxel", prefix: "voxel", addressing: config.addressing }
+}
+
 impl Voxels {
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and attributes.
     ///
@@ -45,7 +50,7 @@ impl Voxels {
         config.addressing.check(device)?;
         device.require("the voxels", &Self::requirements_of(&config))?;
         let pools = Pools::new(device, "voxel", config.addressing, &sizes)?;
-        let modules = Modules { structure: "voxel", prefix: "voxel", addressing: config.addressing };
+        let modules = modules(&config);
         let constants = config.constants();
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, scene, &constants);
         let build = Build::new(&pipelines, &config, scene)?;
@@ -71,7 +76,7 @@ impl Voxels {
         if config.builder == Builder::Raster {
             requirements.required.push(Feature::FragmentStoresAndAtomics);
         }
-        config.addressing.add_to(&mut requirements);
+        modules(config).add_to(&mut requirements);
         requirements
     }
 

@@ -72,6 +72,35 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     assert_eq!(finish(device), Vec::<String>::new());
 }
 
+/// Storage buffers that every device of Vulkan's Roadmap 2022 profile lets a stage use.
+const ROADMAP_BUFFERS: u32 = 30;
+
+#[test]
+fn the_buffers_of_the_roadmap_profile_are_enough() {
+    let whole = device().expect("a device");
+    let small = with_limits(|limits| limits.max_storage_buffers_per_stage = ROADMAP_BUFFERS, device);
+    let small = small.expect("a device");
+    let tiny = with_limits(|limits| limits.max_storage_buffers_per_stage = 4, device).expect("a device");
+    for spec in specs().expect("registered") {
+        let requirements = spec.requirements().expect("valid");
+        assert!(small.supports(&requirements), "{}: {:?}", name(&spec), small.lacks(&requirements));
+        let same = bits(&small, &spec).expect("hits") == bits(&whole, &spec).expect("hits");
+        assert!(same, "{}", name(&spec));
+        if requirements.storage_buffers > 4 {
+            // Said before anything is made.
+            let lacks = tiny.lacks(&requirements).join(", ");
+            assert!(
+                lacks.contains("storage buffers per shader stage (it has 4)"),
+                "{}: {lacks}",
+                name(&spec)
+            );
+        }
+    }
+    assert_eq!(finish(tiny), Vec::<String>::new());
+    assert_eq!(finish(small), Vec::<String>::new());
+    assert_eq!(finish(whole), Vec::<String>::new());
+}
+
 /// A queue without timestamps is timed by the host.
 #[test]
 fn without_timestamps_the_host_times() {

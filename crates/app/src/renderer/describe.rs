@@ -1,6 +1,6 @@
 //! What `rasray info` says of the device.
 
-use rasray_gpu::{Device, Feature as GpuFeature};
+use rasray_gpu::Device;
 use rasray_systems::{SYSTEMS, Spec};
 
 use super::requirements;
@@ -28,16 +28,9 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, AppError> {
     for system in SYSTEMS {
         for preset in system.presets {
             let spec = Spec::new(system.name, preset.name(), []).map_err(device_error)?;
-            let missing: Vec<_> = spec
-                .requirements()
-                .map_err(device_error)?
-                .required
-                .into_iter()
-                .filter(|feature| !device.has(*feature))
-                .map(GpuFeature::name)
-                .collect();
+            let missing = device.lacks(&spec.requirements().map_err(device_error)?);
             let (chosen, reason) = if missing.is_empty() {
-                ("runs".to_owned(), "the device has every feature it requires".to_owned())
+                ("runs".to_owned(), "the device has every feature and limit that it requires".to_owned())
             } else {
                 ("cannot run".to_owned(), format!("the device lacks {}", missing.join(", ")))
             };
@@ -53,10 +46,10 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, AppError> {
         devices: devices.iter().map(|summary| summary.name.clone()).collect(),
         api_version: version_text(device.api_version()),
         features,
-        limits: vec![(
-            "largest pool per binding".to_owned(),
-            format!("{} bytes", limits.max_storage_buffer_range),
-        )],
+        limits: vec![
+            ("largest pool per binding".to_owned(), format!("{} bytes", limits.max_storage_buffer_range)),
+            ("storage buffers per shader stage".to_owned(), limits.max_storage_buffers_per_stage.to_string()),
+        ],
         paths,
     })
 }

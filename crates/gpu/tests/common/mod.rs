@@ -9,7 +9,7 @@ use rasray_gpu::*;
 /// The device floor and what the raster tests need.
 pub fn requirements() -> Requirements {
     Requirements::floor()
-        .merge(&Requirements { required: vec![Feature::FragmentStoresAndAtomics], optional: Vec::new() })
+        .merge(&Requirements { required: vec![Feature::FragmentStoresAndAtomics], ..Requirements::default() })
 }
 
 /// A device under validation.
