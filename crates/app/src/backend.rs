@@ -109,6 +109,8 @@ pub enum RaySet {
     Eye,
     /// Diffuse directions from what the camera sees
     Bounce,
+    /// Origins uniform on the triangles, which are not excluded, directions uniform
+    Surface,
 }
 
 /// Systems side by side.

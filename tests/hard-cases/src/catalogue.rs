@@ -101,6 +101,7 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     row("E6", "false hits, NaN", NoneMissed, Law),
     row("E7", "NaN, t of what is hit", Finite, Finite),
     row("E8", "missed rays", NoneMissed, Law),
+    row("E9", "missed, false and wrong hits", Exact, Counted),
     // Views.
     row("V1", "missed rays", NoneMissed, Law),
     row("V2", "missed rays by slope", NoneMissed, Law),

@@ -1,4 +1,4 @@
-//! Rays through edges and vertices, and rays in the plane of triangles.
+//! Rays through edges and vertices, rays in the plane of triangles, and rays that start on them.
 
 use super::case::{AIMED, Answer, Content, Context, Entry, Expectation, Triangle};
 use super::geometry::{aim, cube, midpoint, point_on, quad, sphere};
@@ -63,6 +63,12 @@ pub(super) const CASES: &[Entry] = &[
         title: "shared edge of triangles with opposite winding",
         parameter: 0.0,
         build: opposite_winding,
+    },
+    Entry {
+        id: "E9",
+        title: "rays that start on the surface of a small sphere and exclude nothing",
+        parameter: 0.0,
+        build: on_surface,
     },
 ];
 
@@ -194,4 +200,14 @@ fn opposite_winding(context: &Context) -> Content {
         aim(origin, point_on(&edge, [1.0 - s, s, 0.0]))
     });
     Content::new(triangles, rays, Expectation::All(AIMED))
+}
+
+/// Whether the triangle that a ray starts on is hit is for rounding to say; everything else about it is not.
+fn on_surface(context: &Context) -> Content {
+    let triangles = sphere([-0.2, -0.3, -0.6], 0.1, 24);
+    let rays = context.rays(|random, _| {
+        let triangle = &triangles[random.below(triangles.len())];
+        Ray::new(point_on(triangle, random.weights(0.0)), random.direction())
+    });
+    Content::new(triangles, rays, Expectation::Oracle).seen_from([-0.2, -0.3, -0.6])
 }

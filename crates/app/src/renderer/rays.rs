@@ -29,7 +29,40 @@ impl RaySource<'_> {
             RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),
             RaySet::Camera => (0..count).map(|i| from_shading(&self.camera(i))).collect(),
             RaySet::Bounce => self.bounce(count),
+            RaySet::Surface => self.surface(count),
         }
+    }
+
+    /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform over the
+    /// area and rounded to f32, directions uniform on the sphere, t_min 0.
+    fn surface(&self, count: u32) -> Vec<Ray> {
+        let triangles = self.indices.as_chunks::<3>().0;
+        let corners =
+            |triangle: &[u32; 3]| triangle.map(|id| DVec3::from(Vec3::from(self.positions[id as usize])));
+        let mut total = 0.0;
+        let areas: Vec<f64> = triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = corners(triangle);
+                total += (b - a).cross(c - a).length();
+                total
+            })
+            .collect();
+        if !(total > 0.0) {
+            return Vec::new();
+        }
+        let ray = |index| {
+            let stream = self.stream(index);
+            let share = f64::from(stream.float(16)) * total;
+            let triangle = &triangles[areas.partition_point(|area| *area <= share).min(triangles.len() - 1)];
+            let [mut u, mut v] = [17, 22].map(|dimension| f64::from(stream.float(dimension)));
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let [a, b, c] = corners(triangle);
+            Ray::new((a * (1.0 - u - v) + b * u + c * v).as_vec3().to_array(), direction(stream))
+        };
+        (0..count).map(ray).collect()
     }
 
     fn stream(&self, index: u32) -> RandomStream {
