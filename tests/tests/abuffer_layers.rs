@@ -16,8 +16,8 @@ use rasray_tracer::build_until_complete;
 
 const EYE: [f32; 3] = [0.3, -0.7, 0.2];
 
-fn viewpoint(config: &Config) -> Viewpoint {
-    Viewpoint { eye: EYE, camera: config.views.has_camera().then_some(ALONG_Z) }
+fn viewpoint(config: &Config, eye: [f32; 3]) -> Viewpoint {
+    Viewpoint { eye, camera: config.views.has_camera().then_some(ALONG_Z) }
 }
 
 /// A structure, with what is stored checked.
@@ -26,9 +26,10 @@ fn built(
     config: Config,
     geometry: &Geometry,
     scene: Option<&SceneBinding>,
+    eye: [f32; 3],
 ) -> (ABuffer, Contents) {
     let mut structure = ABuffer::new(bench.device(), config, geometry, scene).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, viewpoint(&config), Timing::None)
+    build_until_complete(bench.device(), &mut structure, viewpoint(&config, eye), Timing::None)
         .expect("the build completes");
     let report = structure.report().expect("the header is readable");
     assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{config:?}");
@@ -60,12 +61,18 @@ fn nearest(cell: &[(u32, u32)]) -> Vec<(u32, u32)> {
 }
 
 /// Compares a single layer with all layers, and says how many fragments each stores.
-fn compare(bench: &Bench, all: Config, geometry: &Geometry, scene: Option<&SceneBinding>) -> [usize; 2] {
+fn compare(
+    bench: &Bench,
+    all: Config,
+    geometry: &Geometry,
+    scene: Option<&SceneBinding>,
+    eye: [f32; 3],
+) -> [usize; 2] {
     let single = Config { single_layer: true, ..all };
-    let (_, of_all) = built(bench, all, geometry, scene);
-    let (structure, of_single) = built(bench, single, geometry, scene);
+    let (_, of_all) = built(bench, all, geometry, scene, eye);
+    let (structure, of_single) = built(bench, single, geometry, scene, eye);
     // Whether or not a mask cuts them out.
-    let (_, covering) = built(bench, all, geometry, None);
+    let (_, covering) = built(bench, all, geometry, None, eye);
     let (of_all, kept, covering) = (cells(&of_all), cells(&of_single), cells(&covering));
     for (cell, (all, kept)) in of_all.iter().zip(&kept).enumerate() {
         assert_eq!(&nearest(all), kept, "cell {cell} of {single:?}");
@@ -108,7 +115,7 @@ fn a_single_layer_is_the_nearest_of_all() {
                 camera_resolution: 41,
                 ..Config::robust(32)
             };
-            let [all, kept] = compare(&bench, config, &geometry, None);
+            let [all, kept] = compare(&bench, config, &geometry, None, EYE);
             assert!(kept > 1000 && kept < all * 9 / 10, "{kept} of {all} fragments, {config:?}");
         }
     }
@@ -123,10 +130,10 @@ fn holes_of_masks_show_the_layer_behind() {
     for builder in Builder::ALL {
         let config = Config { builder, ..Config::robust(48) };
         let opaque = Config { single_layer: true, ..config };
-        let (_, without_masks) = built(&bench, opaque, scene.geometry(), None);
-        let (_, with_masks) = built(&bench, opaque, scene.geometry(), Some(scene.binding()));
+        let (_, without_masks) = built(&bench, opaque, scene.geometry(), None, scene.eye());
+        let (_, with_masks) = built(&bench, opaque, scene.geometry(), Some(scene.binding()), scene.eye());
         assert!(cells(&without_masks) != cells(&with_masks), "{builder:?}: no hole is seen");
-        compare(&bench, config, scene.geometry(), Some(scene.binding()));
+        compare(&bench, config, scene.geometry(), Some(scene.binding()), scene.eye());
     }
 }
 
@@ -149,7 +156,7 @@ fn through_centres_a_single_layer_is_enough() {
         let all =
             Config { storage, march, views: Views::Camera, camera_resolution: SIDE, ..Config::robust(SIDE) };
         let [of_all, of_single] = [false, true]
-            .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None).0);
+            .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None, EYE).0);
         let hits = |structure: &ABuffer, rays: &[Ray]| bench.trace(structure, rays).hits;
         let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
         let (seen, kept) = (hits(&of_all, &from_eye), hits(&of_single, &from_eye));
