@@ -1,11 +1,15 @@
 //! What every mesh must satisfy before anything else sees it, whatever format it came from.
 
 mod attributes;
+mod textures;
 mod triangles;
 
 use std::path::Path;
 
+use crate::remarks::Remarks;
 use crate::{Mesh, SceneError, Warning};
+
+pub(crate) use textures::textured;
 
 /// Largest magnitude of a coordinate, metres: its square is still finite in f32.
 pub const MAX_COORDINATE: f32 = 1.8e18;
@@ -20,7 +24,7 @@ pub const MAX_COORDINATE: f32 = 1.8e18;
 ///   the attribute is dropped, and the mesh is flat.
 /// - Tangents become unit with w = -1 or 1; they are dropped if any is unusable, or without normals.
 /// - Texture coordinates that are not finite become 0, colours that are not finite become 1 and
-///   negative ones 0.
+///   negative ones 0; alpha becomes at most 1.
 /// - An attribute with another number of elements than there are vertices is dropped.
 ///
 /// Every drop and replacement is counted in one [`Warning`] a kind.
@@ -29,17 +33,23 @@ pub const MAX_COORDINATE: f32 = 1.8e18;
 /// [`SceneError::IndexOutOfRange`] if an index is not below the number of vertices, and
 /// [`SceneError::Invalid`] if the number of indices is not a multiple of three.
 pub fn clean_mesh(path: &Path, mesh: &mut Mesh, warnings: &mut Vec<Warning>) -> Result<(), SceneError> {
-    triangles::check_indices(path, mesh)?;
-    triangles::clean(mesh, warnings);
-    attributes::clean(mesh, warnings);
+    let mut remarks = Remarks::default();
+    clean(path, mesh, &mut remarks)?;
+    warnings.extend(remarks.into_warnings());
     Ok(())
 }
 
-/// Adds a warning if `count` is not zero.
-fn warn(warnings: &mut Vec<Warning>, kind: &'static str, count: usize, message: impl FnOnce() -> String) {
-    if count > 0 {
-        warnings.push(Warning { kind, message: message() });
-    }
+/// See [`clean_mesh`].
+pub(crate) fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Result<(), SceneError> {
+    triangles::check_indices(path, mesh)?;
+    triangles::clean(mesh, remarks);
+    attributes::clean(mesh, remarks);
+    Ok(())
+}
+
+/// A mesh as the place of a remark.
+fn place(mesh: &Mesh) -> String {
+    format!("mesh {}", mesh.name)
 }
 
 #[cfg(test)]
@@ -56,7 +66,7 @@ mod tests {
         }
     }
 
-    fn clean(mesh: &mut Mesh) -> Vec<&'static str> {
+    fn cleaned(mesh: &mut Mesh) -> Vec<&'static str> {
         let mut warnings = Vec::new();
         clean_mesh(Path::new("square"), mesh, &mut warnings).expect("indices in range");
         warnings.iter().map(|warning| warning.kind).collect()
@@ -70,7 +80,7 @@ mod tests {
         mesh.uvs[1] = Some(vec![[-3.0, 1e6]; 4]);
         mesh.colors = Some(vec![[2.0, 0.0, -0.0, 1.0]; 4]);
         let before = mesh.clone();
-        assert!(clean(&mut mesh).is_empty());
+        assert!(cleaned(&mut mesh).is_empty());
         assert_eq!(format!("{mesh:?}").replace("-0.0", "0.0"), format!("{before:?}").replace("-0.0", "0.0"));
     }
 
@@ -90,7 +100,7 @@ mod tests {
         let mut mesh = square();
         mesh.indices.pop();
         assert!(matches!(clean_mesh(path, &mut mesh, &mut Vec::new()), Err(SceneError::Invalid { .. })));
-        assert!(clean(&mut Mesh::default()).is_empty(), "an empty mesh is fine");
+        assert!(cleaned(&mut Mesh::default()).is_empty(), "an empty mesh is fine");
     }
 
     #[test]
@@ -98,22 +108,30 @@ mod tests {
         for (bad, left) in [(0, vec![2, 1, 3]), (3, vec![0, 1, 2]), (1, vec![])] {
             let mut mesh = square();
             mesh.positions[bad][1] = f32::NAN;
-            assert_eq!(clean(&mut mesh), ["dropped-triangles"]);
+            assert_eq!(cleaned(&mut mesh), ["dropped-triangles"]);
             assert_eq!(mesh.indices, left);
             assert_eq!(mesh.positions[bad], [0.0; 3]);
         }
     }
 
     #[test]
+    fn alpha_is_at_most_one() {
+        let mut mesh = square();
+        mesh.colors = Some(vec![[2.0, 3.0, 4.0, 1.5]; 4]);
+        assert_eq!(cleaned(&mut mesh), ["bad-colors"]);
+        assert_eq!(mesh.colors, Some(vec![[2.0, 3.0, 4.0, 1.0]; 4]));
+    }
+
+    #[test]
     fn unusable_normals_are_replaced_or_dropped() {
         let mut mesh = square();
         mesh.normals = Some(vec![[0.0, 0.0, 3.0], [f32::NAN, 0.0, 0.0], [0.0; 3], [1e-30, 0.0, 0.0]]);
-        assert_eq!(clean(&mut mesh), ["bad-normals", "bad-normals"]);
+        assert_eq!(cleaned(&mut mesh), ["bad-normals", "bad-normals"]);
         let normals = mesh.normals.expect("some were usable");
         assert_eq!(normals, [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
         let mut mesh = square();
         mesh.normals = Some(vec![[0.0; 3]; 4]);
-        assert_eq!(clean(&mut mesh), ["bad-normals"]);
+        assert_eq!(cleaned(&mut mesh), ["bad-normals"]);
         assert!(mesh.normals.is_none());
     }
 
@@ -122,15 +140,15 @@ mod tests {
         let mut mesh = square();
         mesh.normals = Some(vec![[0.0, 0.0, 1.0]; 4]);
         mesh.tangents = Some(vec![[0.0, 2.0, 0.0, 0.5]; 4]);
-        assert!(clean(&mut mesh).is_empty());
+        assert!(cleaned(&mut mesh).is_empty());
         assert_eq!(mesh.tangents, Some(vec![[0.0, 1.0, 0.0, 1.0]; 4]));
         mesh.tangents =
             Some(vec![[1.0, 0.0, 0.0, 1.0], [0.0; 4], [1.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]]);
-        assert_eq!(clean(&mut mesh), ["bad-tangents"]);
+        assert_eq!(cleaned(&mut mesh), ["bad-tangents"]);
         assert!(mesh.tangents.is_none());
         let mut mesh = square();
         mesh.tangents = Some(vec![[1.0, 0.0, 0.0, 1.0]; 4]);
-        assert_eq!(clean(&mut mesh), ["bad-tangents"]);
+        assert_eq!(cleaned(&mut mesh), ["bad-tangents"]);
         assert!(mesh.tangents.is_none(), "tangents need normals");
     }
 
@@ -140,7 +158,7 @@ mod tests {
         mesh.uvs[0] = Some(vec![[f32::NAN, 1.0], [0.0, f32::INFINITY], [0.0; 2], [1.0; 2]]);
         mesh.colors = Some(vec![[f32::NAN, -1.0, 0.5, 1.0]; 4]);
         mesh.uvs[1] = Some(vec![[0.0; 2]; 3]);
-        assert_eq!(clean(&mut mesh), ["attribute-length", "bad-texture-coordinates", "bad-colors"]);
+        assert_eq!(cleaned(&mut mesh), ["attribute-length", "bad-texture-coordinates", "bad-colors"]);
         assert_eq!(mesh.uvs[0].as_ref().map(|set| set[..2].to_vec()), Some(vec![[0.0, 1.0], [0.0, 0.0]]));
         assert_eq!(mesh.colors.as_ref().map(|set| set[0]), Some([1.0, 0.0, 0.5, 1.0]));
         assert!(mesh.uvs[1].is_none());

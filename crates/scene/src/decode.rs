@@ -6,6 +6,8 @@ use std::path::Path;
 
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
+use crate::recognise::recognise;
+use crate::remarks::Remarks;
 use crate::{Image, Limits, SceneError, Warning};
 
 /// Longest side of an image, texels.
@@ -27,13 +29,37 @@ pub fn decode_image(
     limits: &Limits,
     warnings: &mut Vec<Warning>,
 ) -> Result<Image, SceneError> {
+    let mut remarks = Remarks::default();
+    let image = decode(path, name, bytes, limits, &mut remarks)?;
+    warnings.extend(remarks.into_warnings());
+    Ok(image)
+}
+
+/// See [`decode_image`].
+pub(crate) fn decode(
+    path: &Path,
+    name: &str,
+    bytes: &[u8],
+    limits: &Limits,
+    remarks: &mut Remarks,
+) -> Result<Image, SceneError> {
     let failed = |reason: String| SceneError::Image { path: path.to_owned(), image: name.to_owned(), reason };
-    let format = image::guess_format(bytes).map_err(|_| failed("neither PNG nor JPEG".to_owned()))?;
-    if !matches!(format, ImageFormat::Png | ImageFormat::Jpeg) {
-        return Err(failed(format!("{format:?} images are not supported; convert it to PNG or JPEG")));
-    }
+    let format = match image::guess_format(bytes) {
+        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+        found => {
+            let format = found
+                .ok()
+                .and_then(|format| format.extensions_str().first())
+                .map(|name| format!("a .{name} image"));
+            let what = format.or_else(|| recognise(bytes).map(|found| found.what.to_owned()));
+            return Err(failed(format!(
+                "is {}; only PNG and JPEG are read",
+                what.as_deref().unwrap_or("of an unknown format")
+            )));
+        }
+    };
     // A last net: the decoders promise not to panic, and hostile files are what tests that promise.
-    let decoded = catch_unwind(AssertUnwindSafe(|| decode(path, name, bytes, format, limits)))
+    let decoded = catch_unwind(AssertUnwindSafe(|| decode_as(path, name, bytes, format, limits)))
         .map_err(|panic| SceneError::Internal { path: path.to_owned(), reason: panic_message(&*panic) })??;
     let deep = !matches!(
         decoded,
@@ -43,10 +69,8 @@ pub fn decode_image(
             | DynamicImage::ImageRgba8(_)
     );
     if deep {
-        warnings.push(Warning {
-            kind: "image-depth",
-            message: format!("image {name} has more than 8 bits a channel; it was rounded to 8"),
-        });
+        let text = "has more than 8 bits a channel; it was rounded to 8";
+        remarks.note("image-depth", format!("image {name}"), text);
     }
     let texels = decoded.into_rgba8();
     Ok(Image {
@@ -57,17 +81,24 @@ pub fn decode_image(
     })
 }
 
-fn decode(
+fn decode_as(
     path: &Path,
     name: &str,
     bytes: &[u8],
     format: ImageFormat,
     limits: &Limits,
 ) -> Result<DynamicImage, SceneError> {
-    let failed = |reason: image::ImageError| SceneError::Image {
+    // What a decoder says of its inner state helps nobody who has only the file.
+    let failed = |error: image::ImageError| SceneError::Image {
         path: path.to_owned(),
         image: name.to_owned(),
-        reason: reason.to_string(),
+        reason: match error {
+            image::ImageError::Unsupported(_) => {
+                "is of a kind of its format that is not supported".to_owned()
+            }
+            image::ImageError::Limits(_) => "is too large to be decoded".to_owned(),
+            _ => "is damaged or cut short".to_owned(),
+        },
     };
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut bounds = image::Limits::default();

@@ -2,22 +2,37 @@
 
 use std::path::{Path, PathBuf};
 
-/// Why a scene could not be loaded. Every message names the file, and says what to do about it.
+use crate::text::{printable, sentence, shown};
+
+/// Why a scene could not be loaded. Every message names the scene file and the place at fault, and no
+/// message holds control characters, whatever the names in the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The file, or one it refers to, could not be read.
-    #[error("cannot read {}: {source}", path.display())]
+    /// The scene file could not be read.
+    #[error("cannot read {}: {}", printable(path.display()), printable(source))]
     Read {
-        /// The file that could not be read.
+        /// The scene file.
         path: PathBuf,
         /// What the operating system said.
         source: std::io::Error,
     },
-    /// A limit of [`crate::Limits`] was exceeded.
-    #[error("{}: {what} is {found}, the limit is {limit}; raise `{option}` if this is intended", path.display())]
+    /// A file that the scene refers to, and cannot be shown without, could not be read.
+    #[error("{}: {} needs {}, which cannot be read: {}", printable(path.display()), shown(place), printable(file.display()), printable(source))]
+    Missing {
+        /// The scene file.
+        path: PathBuf,
+        /// The element that refers to it, such as `buffers[0]`.
+        place: String,
+        /// The file that could not be read.
+        file: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// A limit of [`crate::Limits`] was exceeded. More may be allowed by the field `option`.
+    #[error("{}: {} is {found}, which is more than the limit of {limit} ({option})", printable(path.display()), shown(what))]
     TooLarge {
-        /// The scene file, or the file it refers to.
+        /// The scene file.
         path: PathBuf,
         /// What is too large.
         what: String,
@@ -29,13 +44,23 @@ pub enum SceneError {
         option: &'static str,
     },
     /// The extension of the file name tells no known format.
-    #[error("{}: unknown scene format; use .gltf, .glb, .obj or .ply", path.display())]
+    #[error("{}: unknown scene format; use .gltf, .glb, .obj or .ply", printable(path.display()))]
     UnknownFormat {
         /// The scene file.
         path: PathBuf,
     },
+    /// The file is something else than its name says, or of a version that is not read.
+    #[error("{}: is {}; {fix}", printable(path.display()), sentence(found))]
+    NotThisFormat {
+        /// The scene file.
+        path: PathBuf,
+        /// What it is, such as `an HTML page, not glTF`.
+        found: String,
+        /// How to get a file that can be loaded.
+        fix: &'static str,
+    },
     /// The bytes do not follow the grammar of the format.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}: {}", printable(path.display()), sentence(reason))]
     Syntax {
         /// The scene file.
         path: PathBuf,
@@ -43,7 +68,7 @@ pub enum SceneError {
         reason: String,
     },
     /// The file can be parsed, but contradicts itself or its format.
-    #[error("{}: {place}: {reason}", path.display())]
+    #[error("{}: {}: {}", printable(path.display()), shown(place), sentence(reason))]
     Invalid {
         /// The scene file.
         path: PathBuf,
@@ -53,7 +78,7 @@ pub enum SceneError {
         reason: String,
     },
     /// A triangle refers to a vertex that does not exist.
-    #[error("{}: {mesh}: vertex index {index}, but there are only {vertices} vertices", path.display())]
+    #[error("{}: {}: vertex index {index}, but there are only {vertices} vertices", printable(path.display()), shown(mesh))]
     IndexOutOfRange {
         /// The scene file.
         path: PathBuf,
@@ -64,8 +89,16 @@ pub enum SceneError {
         /// Number of vertices.
         vertices: u64,
     },
+    /// The file has triangles, but none of them can be shown.
+    #[error("{}: none of its triangles can be shown: {}", printable(path.display()), sentence(reason))]
+    NoTriangles {
+        /// The scene file.
+        path: PathBuf,
+        /// What became of them.
+        reason: String,
+    },
     /// The file cannot be shown without something that is not supported.
-    #[error("{}: requires {extension}, which is not supported; {fix}", path.display())]
+    #[error("{}: requires {}, which is not supported; {fix}", printable(path.display()), shown(extension))]
     UnsupportedExtension {
         /// The scene file.
         path: PathBuf,
@@ -75,7 +108,7 @@ pub enum SceneError {
         fix: &'static str,
     },
     /// A reference to another file leaves the folder of the scene, or is not a file.
-    #[error("{}: {place}: the reference {uri:?} {reason}; only data: URIs and files below the scene's folder are read", path.display())]
+    #[error("{}: {}: the reference `{}` {reason}; only data: URIs and files below the scene's folder are read", printable(path.display()), shown(place), shown(uri))]
     UnsafeReference {
         /// The scene file.
         path: PathBuf,
@@ -87,17 +120,17 @@ pub enum SceneError {
         reason: &'static str,
     },
     /// An image could not be decoded.
-    #[error("{}: image {image}: {reason}", path.display())]
+    #[error("{}: image {}: {}", printable(path.display()), shown(image), sentence(reason))]
     Image {
         /// The scene file.
         path: PathBuf,
         /// Name or file of the image.
         image: String,
-        /// What the decoder said.
+        /// What is wrong with it.
         reason: String,
     },
     /// The file has no such scene.
-    #[error("{}: there is no scene {wanted}; the file has: {available}", path.display())]
+    #[error("{}: there is no scene {}; the file has: {}", printable(path.display()), shown(wanted), sentence(available))]
     NoSuchScene {
         /// The scene file.
         path: PathBuf,
@@ -107,7 +140,7 @@ pub enum SceneError {
         available: String,
     },
     /// The parameters of a built-in scene are wrong.
-    #[error("built-in scene `{spec}`: {problem}")]
+    #[error("built-in scene `{}`: {}", shown(spec), sentence(problem))]
     Builtin {
         /// The name with its parameters, as written.
         spec: String,
@@ -116,7 +149,7 @@ pub enum SceneError {
     },
     /// A library that reads the format panicked; the panic was caught. This is a defect, please
     /// report it with the file.
-    #[error("{}: the reader failed on this file: {reason}; please report it", path.display())]
+    #[error("{}: the reader failed on this file: {}; please report it", printable(path.display()), sentence(reason))]
     Internal {
         /// The scene file.
         path: PathBuf,
@@ -145,5 +178,24 @@ impl SceneError {
         option: &'static str,
     ) -> Self {
         Self::TooLarge { path: path.to_owned(), what: what.into(), found, limit, option }
+    }
+
+    /// The error of a file that `scene` refers to, as one of `scene`: both are named.
+    pub(crate) fn of_scene(self, scene: &Path) -> Self {
+        let path = scene.to_owned();
+        let below = |file: &Path, text: &str| format!("{}: {text}", file.display());
+        match self {
+            Self::Syntax { path: file, reason } => Self::Syntax { path, reason: below(&file, &reason) },
+            Self::Invalid { path: file, place, reason } => {
+                Self::Invalid { path, place: below(&file, &place), reason }
+            }
+            Self::UnsafeReference { path: file, place, uri, reason } => {
+                Self::UnsafeReference { path, place: below(&file, &place), uri, reason }
+            }
+            Self::TooLarge { path: file, what, found, limit, option } => {
+                Self::TooLarge { path, what: below(&file, &what), found, limit, option }
+            }
+            other => other,
+        }
     }
 }

@@ -4,6 +4,9 @@
 //! index and unwrap freely, are never touched. Everything a file claims is checked here first:
 //! indices, types, byte ranges (in u128), the node graph (iteratively), references to other files.
 //!
+//! What the chosen scene does not need is not read: a buffer, image or accessor that only another part
+//! of the file refers to may be missing or broken.
+//!
 //! Units are taken as written: metres, radians, and for light the number in the file, which is
 //! read as radiometric: point and spot intensities as W/sr, directional illuminance as W/m^2,
 //! emission as W/(sr m^2). A photometric file is thus scaled by one constant, its picture by exposure.
@@ -13,8 +16,10 @@
 
 mod accessor;
 mod animations;
+mod attributes;
 mod buffers;
 mod cameras;
+mod conform;
 mod container;
 mod deformation;
 mod document;
@@ -27,6 +32,7 @@ mod json;
 mod lights;
 mod materials;
 mod primitives;
+mod shape;
 mod skins;
 mod textures;
 mod transforms;
@@ -36,7 +42,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use crate::decode::panic_message;
-use crate::load::{read_file, scene_name};
+use crate::load::{Empty, finish, read_file, scene_name};
 use crate::{LoadOptions, Scene, SceneError};
 
 /// Loads a `.gltf` or `.glb` file; which of the two it is is decided by its first bytes. Files that
@@ -62,18 +68,24 @@ pub fn from_slice(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Sc
 }
 
 fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, SceneError> {
-    let mut warnings = Vec::new();
-    let document = document::Document::open(path, bytes, options, &mut warnings)?;
+    let document = document::Document::open(path, bytes, options)?;
     let hierarchy = hierarchy::Hierarchy::of(&document)?;
     let order = hierarchy.scene_order(&document, &options.scene)?;
     let skins = skins::read_all(&document)?;
-    let placed = elements::place(&document, &hierarchy, &skins, &order, &mut warnings)?;
+    let placed = elements::place(&document, &hierarchy, &skins, &order)?;
     let elements::Placed { meshes, instances, placements, deformed } = placed;
-    let animation = animations::read(&document, &hierarchy, skins, deformed, placements, &mut warnings)?;
+    let animation = animations::read(&document, &hierarchy, skins, deformed, placements)?;
     let mut scene = Scene { name: scene_name(path), meshes, instances, animation, ..Scene::default() };
-    materials::convert(&document, &mut scene, &mut warnings)?;
-    scene.lights = lights::place(&document, &hierarchy, &order, &mut warnings);
-    scene.cameras = cameras::place(&document, &hierarchy, &order, &mut warnings);
-    scene.warnings = warnings;
-    Ok(scene)
+    materials::convert(&document, &mut scene)?;
+    scene.lights = lights::place(&document, &hierarchy, &order);
+    scene.cameras = cameras::place(&document, &hierarchy, &order);
+    let remarks = document.remarks.take();
+    finish(path, scene, remarks, |remarks| {
+        let lost = ["dropped-triangles", "empty-mesh", "no-positions", "non-finite-instances"];
+        let lost = remarks.sentence(&lost);
+        if !lost.is_empty() {
+            return Some(Empty::Dropped(lost));
+        }
+        hierarchy::without_meshes(&document, &order).map(Empty::Bare)
+    })
 }

@@ -4,17 +4,22 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use crate::remarks::Remarks;
+use crate::text::printable;
 use crate::{LoadOptions, Scene, SceneError};
 
 /// Loads a scene from a file; the extension of its name decides the format: `.gltf`, `.glb`,
 /// `.obj` or `.ply`, in any case.
 ///
 /// Files may come from anywhere: whatever they hold, this returns. Triangles and attributes that
-/// cannot be rendered are dropped, each kind counted in [`Scene::warnings`].
+/// cannot be rendered are dropped, images that cannot be read are left out, and both are said in
+/// [`Scene::warnings`]. A scene may be empty, with a warning that says why; a file with triangles of
+/// which none is left is an error.
 ///
 /// # Errors
-/// [`SceneError`]: the file or one it refers to cannot be read, exceeds a limit, contradicts its
-/// format, or requires an extension that is not supported.
+/// [`SceneError`]: the file or one that it cannot be shown without cannot be read, exceeds a limit,
+/// is no scene, contradicts its format, requires an extension that is not supported, or has
+/// triangles of which none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|text| text.to_str()).unwrap_or_default().to_ascii_lowercase();
     let scene = match extension.as_str() {
@@ -24,14 +29,82 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
     }?;
     for warning in &scene.warnings {
-        tracing::warn!(kind = warning.kind, file = %path.display(), "{}", warning.message);
+        tracing::warn!(kind = warning.kind, file = %printable(path.display()), "{}", warning.message);
     }
     Ok(scene)
+}
+
+/// Why a file shows no triangle.
+pub(crate) enum Empty {
+    /// It has none: a scene all the same, and a warning unless one says it already.
+    Bare(String),
+    /// It has some, and all were dropped.
+    Dropped(String),
+}
+
+/// The last step of every format: what holds for the scene as a whole is checked, names are made
+/// printable, and what was remarked becomes warnings. `empty` says why, should there be no triangle.
+///
+/// # Errors
+/// [`SceneError::NoTriangles`] if all triangles were dropped.
+pub(crate) fn finish(
+    path: &Path,
+    mut scene: Scene,
+    mut remarks: Remarks,
+    empty: impl FnOnce(&Remarks) -> Option<Empty>,
+) -> Result<Scene, SceneError> {
+    let placed = |instance: &crate::Instance| scene.meshes[instance.mesh].triangle_count() > 0;
+    if !scene.instances.iter().any(placed) {
+        match empty(&remarks) {
+            Some(Empty::Dropped(reason)) => {
+                return Err(SceneError::NoTriangles { path: path.to_owned(), reason });
+            }
+            Some(Empty::Bare(reason)) => {
+                remarks.note("no-triangles", "", format!("{reason}; only the background is shown"));
+            }
+            None => {}
+        }
+    }
+    crate::check::textured(&scene, &mut remarks);
+    make_printable(&mut scene);
+    scene.warnings.extend(remarks.into_warnings());
+    Ok(scene)
+}
+
+/// Names come from the file, and are shown on terminals and pages.
+fn make_printable(scene: &mut Scene) {
+    let rig = &mut scene.animation.rig;
+    let names = std::iter::once(&mut scene.name)
+        .chain(scene.meshes.iter_mut().map(|mesh| &mut mesh.name))
+        .chain(scene.instances.iter_mut().map(|instance| &mut instance.name))
+        .chain(scene.materials.iter_mut().map(|material| &mut material.name))
+        .chain(scene.images.iter_mut().map(|image| &mut image.name))
+        .chain(scene.cameras.iter_mut().map(|camera| &mut camera.name))
+        .chain(&mut scene.animation.clips)
+        .chain(rig.nodes.iter_mut().map(|node| &mut node.name))
+        .chain(rig.clips.iter_mut().map(|clip| &mut clip.name))
+        .chain(rig.skins.iter_mut().map(|skin| &mut skin.name));
+    for name in names {
+        *name = printable(&name);
+    }
 }
 
 /// The name of a scene that was read from `path`: the file's stem.
 pub(crate) fn scene_name(path: &Path) -> String {
     path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Reads a file that `place` of the scene at `path` refers to and cannot do without.
+///
+/// # Errors
+/// [`SceneError::Missing`] and [`SceneError::TooLarge`], which name both files.
+pub(crate) fn read_needed(path: &Path, place: &str, file: &Path, limit: u64) -> Result<Vec<u8>, SceneError> {
+    read_file(file, limit).map_err(|error| match error {
+        SceneError::Read { path: file, source } => {
+            SceneError::Missing { path: path.to_owned(), place: place.to_owned(), file, source }
+        }
+        other => other.of_scene(path),
+    })
 }
 
 /// Reads a whole file of at most `limit` bytes. The length is asked for first; what grows while it

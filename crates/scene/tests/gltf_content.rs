@@ -6,7 +6,10 @@ use glam::{DVec3, Vec3};
 use gltf_support::rich::{png, rich_glb};
 use gltf_support::{assert_well_formed, data_uri, floats, kinds, load_bytes, triangle_bytes, triangle_gltf};
 use rasray_scene::animation::{ChannelValues, NodeTransform};
-use rasray_scene::{AlphaMode, Filter, Light, Projection, Scene, Wrap};
+use rasray_scene::{AlphaMode, Filter, Light, Projection, Scene, SceneError, Wrap};
+
+/// Said of a textured triangle of [`triangle_gltf`], which has no texture coordinates.
+const BARE: &str = "texture-without-coordinates";
 
 const NODE: &str = r#"[{"mesh":0}]"#;
 
@@ -42,7 +45,8 @@ fn strips_and_fans_become_triangles() {
         assert_eq!((scene.meshes.len(), kinds(&scene)), (0, vec![kind]));
     }
     for mode in [5, 6] {
-        assert_eq!(kinds(&load_text(&soup(&positions[..6], mode))), ["empty-mesh"]);
+        let short = load_bytes(soup(&positions[..6], mode).as_bytes());
+        assert!(matches!(short, Err(SceneError::NoTriangles { .. })), "{short:?}");
     }
 }
 
@@ -94,8 +98,10 @@ fn missing_attributes_stay_missing() {
     );
     assert_eq!((scene.materials.len(), mesh.material), (1, 0));
     assert_eq!(scene.materials[0].name, "default");
-    let without = triangle_gltf(NODE, "", "").replace(r#""POSITION":0"#, "");
-    assert_eq!(kinds(&load_text(&without)), ["no-positions"]);
+    let without = r#"{"attributes":{}},{"attributes":{"POSITION":0}}"#;
+    let two = triangle_gltf(NODE, "", "").replace(r#"{"attributes":{"POSITION":0},"indices":1}"#, without);
+    let scene = load_text(&two);
+    assert_eq!((scene.meshes.len(), kinds(&scene)), (1, vec!["no-positions"]));
 }
 
 #[test]
@@ -212,7 +218,7 @@ fn copies_turn_and_scale() {
     };
     assert!(refused(r#"{"TRANSLATION":2,"SCALE":0}"#).contains("differ in length"));
     assert!(refused(r#"{"TRANSLATION":9}"#).contains("refers to no accessor"));
-    assert!(refused(r#"{"ROTATION":2}"#).contains("has 3 components"));
+    assert!(refused(r#"{"ROTATION":2}"#).contains("elements of type VEC3 where 4 numbers are needed"));
     assert!(refused("{}").contains("has no attributes"));
 }
 
@@ -264,18 +270,14 @@ fn textured(image: &[u8], info: &str) -> String {
 }
 
 #[test]
-fn images_are_decoded_or_refused() {
+fn images_are_decoded() {
     let deep = image::ImageBuffer::from_pixel(3, 1, image::Rgb([65535_u16, 32768, 0]));
     let mut bytes = std::io::Cursor::new(Vec::new());
     deep.write_to(&mut bytes, image::ImageFormat::Png).expect("writing to memory cannot fail");
     let scene = load_text(&textured(bytes.get_ref(), r#"{"index":0}"#));
-    assert_eq!(kinds(&scene), ["image-depth"]);
+    assert_eq!(kinds(&scene), ["image-depth", BARE]);
     assert_eq!((scene.images[0].width, scene.images[0].rgba8[..4].to_vec()), (3, vec![255, 128, 0, 255]));
 
-    let broken = load_bytes(textured(&png()[..40], r#"{"index":0}"#).as_bytes());
-    assert!(matches!(broken, Err(rasray_scene::SceneError::Image { .. })), "{broken:?}");
-    let other = load_bytes(textured(b"GIF89a", r#"{"index":0}"#).as_bytes());
-    assert!(matches!(other, Err(rasray_scene::SceneError::Image { .. })), "{other:?}");
     let set = load_text(&textured(&png(), r#"{"index":0,"texCoord":2}"#));
     assert_eq!((set.materials[0].base_color_texture, kinds(&set)), (None, vec!["uv-set"]));
     let absent =
@@ -286,6 +288,56 @@ fn images_are_decoded_or_refused() {
     // Nothing uses the material: the broken image is not even looked at.
     let unused = textured(b"broken", r#"{"index":0}"#).replace(r#","material":0"#, "");
     assert!(kinds(&load_text(&unused)).is_empty());
+}
+
+/// The factors of a material stand in for an image that is missing or cannot be decoded.
+#[test]
+fn images_that_cannot_be_read_are_left_out() {
+    let broken: [(&[u8], &str); 4] = [
+        (&png()[..40], "is damaged or cut short"),
+        (b"GIF89a", "is a .gif image; only PNG and JPEG are read"),
+        (b"<!DOCTYPE html>", "is an HTML page"),
+        (b"version https://git-lfs.github.com/spec/v1\noid 1\n", "is a Git LFS pointer"),
+    ];
+    for (bytes, words) in broken {
+        let scene = load_text(&textured(bytes, r#"{"index":0}"#));
+        assert_eq!(
+            (kinds(&scene), scene.materials[0].base_color_texture),
+            (vec!["unreadable-texture"], None)
+        );
+        assert!(scene.warnings[0].message.contains(words), "{}", scene.warnings[0].message);
+        assert!(scene.textures.is_empty() && scene.images.is_empty());
+    }
+    // One image for two textures is looked for once.
+    let material = r#","images":[{"uri":"gone.png"}],"textures":[{"source":0},{"source":0}],
+        "materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},"emissiveTexture":{"index":1}}]"#;
+    let scene = load_text(&triangle_gltf(NODE, r#","material":0"#, material));
+    assert_eq!(kinds(&scene), ["missing-texture"]);
+    assert!(scene.warnings[0].message.contains("texture nowhere/gone.png: is not shown"));
+}
+
+/// Of the same remark on many places there is one warning.
+#[test]
+fn warnings_of_many_places_are_one() {
+    let images: Vec<String> = (0..98).map(|i| format!(r#"{{"uri":"gone{i}.png"}}"#)).collect();
+    let textures: Vec<String> = (0..98).map(|i| format!(r#"{{"source":{i}}}"#)).collect();
+    let materials: Vec<String> = (0..98)
+        .map(|i| format!(r#"{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":{i}}}}}}}"#))
+        .collect();
+    let primitives: Vec<String> =
+        (0..98).map(|i| format!(r#"{{"attributes":{{"POSITION":0}},"material":{i}}}"#)).collect();
+    let extra = format!(
+        r#","images":[{}],"textures":[{}],"materials":[{}]"#,
+        images.join(","),
+        textures.join(","),
+        materials.join(",")
+    );
+    let text = triangle_gltf(NODE, "", &extra)
+        .replace(r#"{"attributes":{"POSITION":0},"indices":1}"#, &primitives.join(","));
+    let scene = load_text(&text);
+    assert_eq!((scene.meshes.len(), kinds(&scene)), (98, vec!["missing-texture"]));
+    let message = &scene.warnings[0].message;
+    assert!(message.starts_with("texture nowhere/gone0.png and 97 more: is not shown"), "{message}");
 }
 
 #[test]
@@ -341,5 +393,5 @@ fn lights_and_cameras_follow_their_nodes() {
     assert_eq!(camera.projection, Projection::Orthographic { half_height: 3.0 });
     let axes = camera.world_from_camera.matrix3;
     assert!((axes.determinant() - 1.0).abs() < 1e-12, "a camera is placed rigidly");
-    assert_eq!(kinds(&scene), ["bad-light", "bad-camera"]);
+    assert_eq!(kinds(&scene), ["light-range", "bad-light", "bad-camera", "no-triangles"]);
 }

@@ -94,25 +94,25 @@ use End::{Error, Loads};
 
 const BAD_FILES: [(&str, End); 24] = [
     ("degenerate/BoxBadNormals-glTF-Binary/BoxBadNormals.glb", Loads(12, &["bad-normals", "bad-normals"])),
-    (
-        "degenerate/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb",
-        Loads(0, &["dropped-triangles", "empty-mesh"]),
-    ),
-    ("degenerate/IncorrectVertexArrays/Cube.gltf", Error("bufferViews[2]: bytes 504 to 936")),
-    ("degenerate/trimesh_odd/empty_nodes.glb", Loads(0, &[])),
+    ("degenerate/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", Error("12 triangles were dropped")),
+    ("degenerate/IncorrectVertexArrays/Cube.gltf", Error("35 vertices do not make whole triangles")),
+    ("degenerate/trimesh_odd/empty_nodes.glb", Loads(0, &["no-triangles"])),
     ("malformed/assimp_gltf/IndexOutOfRange/AllIndicesOutOfRange.gltf", Error("vertex index 65535")),
     ("malformed/assimp_gltf/IndexOutOfRange/IndexOutOfRange.gltf", Error("vertex index 255")),
     ("malformed/assimp_gltf/MissingBin/BoxTextured.gltf", Error("BoxTextured0.bin")),
     ("malformed/assimp_gltf/RecursiveNodes/RecursiveNodes.gltf", Error("its own ancestor")),
-    ("malformed/assimp_gltf/SchemaFailures/sceneWrongType.gltf", Error("scene: invalid type: string")),
+    (
+        "malformed/assimp_gltf/SchemaFailures/sceneWrongType.gltf",
+        Error("scene: must be a whole number that is not negative, is \"hello\""),
+    ),
     ("malformed/assimp_gltf/TestNoRootNode/NoScene.gltf", Error("scene: refers to element 0")),
-    ("malformed/assimp_gltf/TestNoRootNode/SceneWithoutNodes.gltf", Loads(0, &[])),
-    ("malformed/assimp_gltf/wrongTypes/badArray.gltf", Error("meshes[0]: invalid type: map")),
-    ("malformed/assimp_gltf/wrongTypes/badExtension.gltf", Error("materials[0]: invalid type: string")),
-    ("malformed/assimp_gltf/wrongTypes/badNumber.gltf", Error("materials[0]: invalid type: string")),
-    ("malformed/assimp_gltf/wrongTypes/badObject.gltf", Error("materials[0]: invalid type: string")),
-    ("malformed/assimp_gltf/wrongTypes/badString.gltf", Error("scenes[0]: invalid type: integer")),
-    ("malformed/assimp_gltf/wrongTypes/badUint.gltf", Error("materials[0]: invalid type: integer")),
+    ("malformed/assimp_gltf/TestNoRootNode/SceneWithoutNodes.gltf", Loads(0, &["no-triangles"])),
+    ("malformed/assimp_gltf/wrongTypes/badArray.gltf", Error("meshes[0].primitives: must be an array")),
+    ("malformed/assimp_gltf/wrongTypes/badExtension.gltf", Error("KHR_texture_transform: must be an object")),
+    ("malformed/assimp_gltf/wrongTypes/badNumber.gltf", Error("normalTexture.index: is missing")),
+    ("malformed/assimp_gltf/wrongTypes/badObject.gltf", Error("pbrMetallicRoughness: must be an object")),
+    ("malformed/assimp_gltf/wrongTypes/badString.gltf", Error("scenes[0].name: must be text, is 42")),
+    ("malformed/assimp_gltf/wrongTypes/badUint.gltf", Error("that is not negative, is -1")),
     ("malformed/gltf_rs/gltf-json/tests/minimal_accessor_invalid.gltf", Loads(1, &[])),
     (
         "malformed/gltf_rs/gltf-json/tests/non_sparse_accessor_without_buffer_view.gltf",
@@ -120,7 +120,7 @@ const BAD_FILES: [(&str, End); 24] = [
     ),
     (
         "malformed/tinygltf/BoundsChecking/integer-out-of-bounds.gltf",
-        Error("bufferViews[0]: invalid type: floating"),
+        Error("bufferViews[0].byteLength: must be a whole number that is not negative, is 1e+300"),
     ),
     (
         "malformed/tinygltf/BoundsChecking/invalid-buffer-index.gltf",

@@ -6,7 +6,7 @@ mod gltf_support;
 use std::path::Path;
 
 use gltf_support::rich::{png, rich_glb};
-use gltf_support::{data_uri, floats, glb, load_bytes, triangle_bytes, triangle_gltf};
+use gltf_support::{data_uri, floats, glb, kinds, load_bytes, triangle_bytes, triangle_gltf};
 use rasray_scene::{Limits, LoadOptions, SceneError, gltf};
 
 /// One placed triangle with something replaced.
@@ -30,15 +30,27 @@ fn contradictions_are_named() {
     let cases = [
         (r#""POSITION":0"#, r#""POSITION":7"#, "meshes[0].primitives[0].attributes: refers to element 7"),
         (r#""indices":1"#, r#""indices":2"#, "meshes[0].primitives[0].indices"),
-        (r#""indices":1"#, r#""indices":0"#, "accessors[0]: must be 1 unsigned integers"),
+        (
+            r#""indices":1"#,
+            r#""indices":0"#,
+            "accessors[0]: must have elements of 1 unsigned integers, has VEC3 of floats",
+        ),
         (
             r#""indices":1"#,
             r#""indices":1,"material":0"#,
             "material: refers to element 0, but there are only 0",
         ),
-        (r#""indices":1"#, r#""indices":1,"mode":9"#, "mode: has a value that the format does not know"),
-        (r#""type":"VEC3""#, r#""type":"VEC2""#, "accessors[0]: has 2 components an element where 3"),
-        (r#""type":"VEC3""#, r#""type":"VEC9""#, "accessors[0].type: has a value"),
+        (
+            r#""indices":1"#,
+            r#""indices":1,"mode":9"#,
+            "primitives[0].mode: is 9, which the format does not know",
+        ),
+        (r#""type":"VEC3""#, r#""type":"VEC2""#, "accessors[0]: has elements of type VEC2 where 3 numbers"),
+        (
+            r#""type":"VEC3""#,
+            r#""type":"VEC9""#,
+            "accessors[0].type: is \"VEC9\", which the format does not know",
+        ),
         (
             positions,
             r#""bufferView":0,"componentType":5123,"count":3,"type":"VEC3""#,
@@ -80,7 +92,7 @@ fn contradictions_are_named() {
         (
             positions,
             r#""bufferView":0,"componentType":5126,"count":4611686018427387904,"type":"VEC3""#,
-            "accessors[0] is 4611686018427387904",
+            "accessors[0]: needs 55340232221128654848 bytes, but bufferViews[0] has only 36",
         ),
         (
             positions,
@@ -91,12 +103,12 @@ fn contradictions_are_named() {
         (
             r#""byteOffset":36,"byteLength":6"#,
             r#""byteOffset":40,"byteLength":6"#,
-            "bufferViews[1]: bytes 40 to 46",
+            "accessors[1]: needs 6 bytes, but bufferViews[1] has only 4 of its 6: they start at byte 40",
         ),
         (
             r#""byteOffset":36"#,
             r#""byteOffset":18446744073709551615"#,
-            "bufferViews[1]: bytes 18446744073709551615",
+            "bufferViews[1] has only 0 of its 6: they start at byte 18446744073709551615",
         ),
         (r#""buffer":0,"byteLength":36"#, r#""buffer":0,"byteLength":36,"byteStride":8"#, "a stride of 8"),
         (
@@ -104,13 +116,27 @@ fn contradictions_are_named() {
             r#""buffer":3,"byteLength":36"#,
             "bufferViews[0].buffer: refers to element 3",
         ),
-        (r#""byteLength":44"#, r#""byteLength":45"#, "buffers[0]: claims 45 bytes"),
+        (
+            r#""byteLength":44"#,
+            r#""byteLength":40"#,
+            "accessors[1]: needs 6 bytes, but bufferViews[1] has only 4 of its 6",
+        ),
+        (r#""byteLength":44"#, r#""byteLength":-1"#, "buffers[0].byteLength: must be a whole number"),
+        (r#""uri":"#, r#""nothing":"#, "buffers[0]: has neither a reference nor a binary chunk"),
         (r#"{"mesh":0}"#, r#"{"mesh":4294967296}"#, "nodes[0].mesh: 4294967296 is too large"),
         (r#""POSITION":0"#, r#""POSITION":4294967296"#, "attributes.POSITION: 4294967296 is too large"),
         (r#"{"mesh":0}"#, r#"{"mesh":0,"children":[9]}"#, "nodes[0].children: refers to element 9"),
         (r#"{"mesh":0}"#, r#"{"mesh":0,"skin":0}"#, "nodes[0].skin"),
-        (r#"{"mesh":0}"#, r#"{"mesh":0,"matrix":[1,2,3]}"#, "nodes[0].matrix: must be 16 numbers"),
-        (r#"{"mesh":0}"#, r#"{"mesh":0,"scale":[1,"x",1]}"#, "nodes[0].scale: must be 3 numbers"),
+        (
+            r#"{"mesh":0}"#,
+            r#"{"mesh":0,"matrix":[1,2,3]}"#,
+            "nodes[0].matrix: must be 16 numbers, is [1,2,3]",
+        ),
+        (
+            r#"{"mesh":0}"#,
+            r#"{"mesh":0,"scale":[1,"x",1]}"#,
+            "nodes[0].scale: must be 3 numbers, is [1,\"x\",1]",
+        ),
         (
             r#"{"mesh":0}"#,
             r#"{"mesh":0,"matrix":[1,0,0,0.5,0,1,0,0,0,0,1,0,0,0,0,1]}"#,
@@ -125,10 +151,17 @@ fn contradictions_are_named() {
         assert!(text.contains(words), "{to}: {text:?} does not say {words:?}");
         assert!(text.contains("test.gltf"), "{text}");
     }
-    for (text, words) in
-        [("", "malformed"), ("[]", "not an object"), ("{}", "asset.version"), ("{\"a\":", "malformed")]
-    {
-        assert!(message(text).contains(words), "{text:?}");
+    for (text, words) in [
+        ("", "is empty, not glTF"),
+        ("[]", "not an object"),
+        ("{}", "asset.version"),
+        ("{\"a\":\n", "the text ends in line 2"),
+        ("{\"a\":\n\n7x}", "line 3, column 2 is no JSON, near `{\"a\":\\n\\n7x}`"),
+        ("text", "line 1, column 2 is no JSON, near `text`"),
+        ("v 0 0 0\0", "is binary data, not glTF"),
+    ] {
+        let found = message(text);
+        assert!(found.contains(words), "{text:?}: {found}");
     }
 }
 
@@ -200,7 +233,10 @@ fn references_outside_the_folder_are_refused() {
     }
     let absent = triangle_gltf(r#"[{"mesh":0}]"#, "", "").replace(&inside, "absent.bin");
     match load_bytes(absent.as_bytes()) {
-        Err(SceneError::Read { path, .. }) => assert_eq!(path, Path::new("nowhere/absent.bin")),
+        Err(error @ SceneError::Missing { .. }) => {
+            let text = error.to_string();
+            assert!(text.starts_with("nowhere/test.gltf: buffers[0] needs nowhere/absent.bin"), "{text}");
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -299,8 +335,8 @@ fn a_small_file_cannot_ask_for_much() {
         "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}]"#,
         data_uri(&image)
     );
-    let text = message(&triangle_gltf(r#"[{"mesh":0}]"#, r#","material":0"#, &material));
-    assert!(text.contains("image"), "{text}");
+    let scene = load_bytes(triangle_gltf(r#"[{"mesh":0}]"#, r#","material":0"#, &material).as_bytes());
+    assert_eq!(kinds(&scene.expect("an image that is left out")), ["unreadable-texture"]);
 }
 
 #[test]

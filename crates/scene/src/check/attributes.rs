@@ -2,64 +2,66 @@
 
 use glam::{DVec3, Vec3};
 
+use super::place;
 use super::triangles::face_normal;
-use super::warn;
-use crate::{Mesh, Warning};
+use crate::Mesh;
+use crate::remarks::Remarks;
 
 /// A normal whose length is off by more than this is reported; below, it is rounding.
 const LENGTH_TOLERANCE: f32 = 1e-2;
 
 /// Brings every attribute to its promise or drops it.
-pub(super) fn clean(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
+pub(super) fn clean(mesh: &mut Mesh, remarks: &mut Remarks) {
     let vertices = mesh.positions.len();
-    let name = mesh.name.clone();
-    same_length(&name, "normals", vertices, &mut mesh.normals, warnings);
-    same_length(&name, "tangents", vertices, &mut mesh.tangents, warnings);
-    same_length(&name, "texture coordinates 0", vertices, &mut mesh.uvs[0], warnings);
-    same_length(&name, "texture coordinates 1", vertices, &mut mesh.uvs[1], warnings);
-    same_length(&name, "colours", vertices, &mut mesh.colors, warnings);
-    clean_normals(mesh, warnings);
-    clean_tangents(mesh, warnings);
+    let place = place(mesh);
+    same_length(&place, "normals", vertices, &mut mesh.normals, remarks);
+    same_length(&place, "tangents", vertices, &mut mesh.tangents, remarks);
+    same_length(&place, "texture coordinates 0", vertices, &mut mesh.uvs[0], remarks);
+    same_length(&place, "texture coordinates 1", vertices, &mut mesh.uvs[1], remarks);
+    same_length(&place, "colours", vertices, &mut mesh.colors, remarks);
+    clean_normals(mesh, remarks);
+    clean_tangents(mesh, remarks);
     for set in mesh.uvs.iter_mut().flatten() {
-        let bad = replace(set, |x| if x.is_finite() { x } else { 0.0 });
-        warn(warnings, "bad-texture-coordinates", bad, || {
-            format!("mesh {name}: {bad} texture coordinates are not finite and were set to 0")
-        });
+        let bad = replace(set, |_, x| if x.is_finite() { x } else { 0.0 });
+        let text = "texture coordinates are not finite and were set to 0";
+        remarks.count("bad-texture-coordinates", &place, bad, text);
     }
     if let Some(colors) = &mut mesh.colors {
-        let bad = replace(colors, |x| if x.is_finite() { x.max(0.0) } else { 1.0 });
-        warn(warnings, "bad-colors", bad, || {
-            format!(
-                "mesh {name}: {bad} vertex colour components are negative or not finite and were replaced by 0 or 1"
-            )
+        let bad = replace(colors, |channel, x| match (x.is_finite(), channel) {
+            (false, _) => 1.0,
+            (true, 3) => x.clamp(0.0, 1.0),
+            (true, _) => x.max(0.0),
         });
+        let text = "vertex colour components are negative, above 1 for alpha, or not finite and were replaced by 0 or 1";
+        remarks.count("bad-colors", &place, bad, text);
     }
 }
 
 fn same_length<T>(
-    name: &str,
+    place: &str,
     what: &str,
     vertices: usize,
     attribute: &mut Option<Vec<T>>,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) {
     if let Some(found) = attribute.as_ref().map(Vec::len).filter(|&found| found != vertices) {
         *attribute = None;
-        warn(warnings, "attribute-length", 1, || {
-            format!("mesh {name}: {found} {what} for {vertices} vertices; they were dropped")
-        });
+        let text = format!("{found} {what} for {vertices} vertices; they were dropped");
+        remarks.note("attribute-length", place, text);
     }
 }
 
-/// Applies `fix` to every component and counts those that changed.
-fn replace<const N: usize>(elements: &mut [[f32; N]], fix: impl Fn(f32) -> f32) -> usize {
+/// Applies `fix` to every component (its place in the element comes first) and counts those that changed.
+fn replace<const N: usize>(elements: &mut [[f32; N]], fix: impl Fn(usize, f32) -> f32) -> usize {
     let mut changed = 0;
-    for x in elements.iter_mut().flatten() {
-        let fixed = fix(*x);
-        if fixed.to_bits() != x.to_bits() && !(fixed == 0.0 && *x == 0.0) {
-            changed += 1;
+    for element in elements {
+        for (k, x) in element.iter_mut().enumerate() {
+            let fixed = fix(k, *x);
+            if fixed.to_bits() != x.to_bits() && !(fixed == 0.0 && *x == 0.0) {
+                changed += 1;
+            }
+            *x = fixed;
         }
-        *x = fixed;
     }
     changed
 }
@@ -70,7 +72,7 @@ fn unit(v: [f32; 3]) -> Option<Vec3> {
     v.is_finite().then(|| v.try_normalize()).flatten().map(|unit| unit.as_vec3())
 }
 
-fn clean_normals(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
+fn clean_normals(mesh: &mut Mesh, remarks: &mut Remarks) {
     let Some(normals) = &mut mesh.normals else { return };
     let mut unusable = Vec::new();
     let mut rescaled = 0;
@@ -86,17 +88,17 @@ fn clean_normals(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
             None => unusable.push(vertex),
         }
     }
-    let name = &mesh.name;
     if unusable.len() == normals.len() {
-        warn(warnings, "bad-normals", normals.len(), || {
-            format!("mesh {name}: no normal has a direction; they were dropped, the mesh is flat")
-        });
+        if !unusable.is_empty() {
+            let text = "no normal has a direction; they were dropped, the mesh is flat";
+            remarks.note("bad-normals", place(mesh), text);
+        }
         mesh.normals = None;
         return;
     }
-    warn(warnings, "bad-normals", rescaled, || {
-        format!("mesh {name}: {rescaled} normals were not of unit length; they were rescaled")
-    });
+    let place = format!("mesh {}", mesh.name);
+    let text = "normals were not of unit length; they were rescaled";
+    remarks.count("bad-normals", &place, rescaled, text);
     if unusable.is_empty() {
         return;
     }
@@ -110,21 +112,15 @@ fn clean_normals(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
     for &vertex in &unusable {
         normals[vertex] = sums[vertex].try_normalize().unwrap_or(DVec3::Z).as_vec3().to_array();
     }
-    warn(warnings, "bad-normals", unusable.len(), || {
-        format!(
-            "mesh {name}: {} normals have no direction; those of their triangles took their place",
-            unusable.len()
-        )
-    });
+    let text = "normals have no direction; those of their triangles took their place";
+    remarks.count("bad-normals", &place, unusable.len(), text);
 }
 
-fn clean_tangents(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
+fn clean_tangents(mesh: &mut Mesh, remarks: &mut Remarks) {
     let Some(tangents) = &mut mesh.tangents else { return };
-    let name = &mesh.name;
+    let place = format!("mesh {}", mesh.name);
     if mesh.normals.is_none() {
-        warn(warnings, "bad-tangents", 1, || {
-            format!("mesh {name}: tangents without normals mean nothing; they were dropped")
-        });
+        remarks.note("bad-tangents", place, "tangents without normals mean nothing; they were dropped");
         mesh.tangents = None;
         return;
     }
@@ -138,11 +134,8 @@ fn clean_tangents(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
             _ => unusable += 1,
         }
     }
-    warn(warnings, "bad-tangents", unusable, || {
-        format!(
-            "mesh {name}: {unusable} tangents have no direction; all were dropped and are derived where needed"
-        )
-    });
+    let text = "tangents have no direction; all of their meshes were dropped and are derived where needed";
+    remarks.count("bad-tangents", place, unusable, text);
     if unusable > 0 {
         mesh.tangents = None;
     }

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::{MAX_COORDINATE, warn};
-use crate::{Mesh, SceneError, Warning};
+use super::{MAX_COORDINATE, place};
+use crate::remarks::Remarks;
+use crate::{Mesh, SceneError};
 
 /// Refuses indices that are not below the number of vertices, or not a multiple of three.
 pub(super) fn check_indices(path: &Path, mesh: &Mesh) -> Result<(), SceneError> {
@@ -29,8 +30,8 @@ pub(super) fn check_indices(path: &Path, mesh: &Mesh) -> Result<(), SceneError> 
 }
 
 /// Drops triangles with unusable corners, flushes subnormals, counts zero areas.
-pub(super) fn clean(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
-    let name = &mesh.name;
+pub(super) fn clean(mesh: &mut Mesh, remarks: &mut Remarks) {
+    let place = place(mesh);
     let mut unusable = Vec::new();
     let mut flushed = 0;
     for (vertex, position) in mesh.positions.iter_mut().enumerate() {
@@ -56,21 +57,15 @@ pub(super) fn clean(mesh: &mut Mesh, warnings: &mut Vec<Warning>) {
             .copied()
             .collect();
         let dropped = before - mesh.indices.len() / 3;
-        warn(warnings, "dropped-triangles", unusable.len(), || {
-            format!(
-                "mesh {name}: {} of {} vertices are not finite or exceed {MAX_COORDINATE:e} m; the {dropped} of {before} triangles that use them were dropped",
-                unusable.len(),
-                mesh.positions.len()
-            )
-        });
+        let text = format!(
+            "triangles were dropped: a corner of theirs is not finite or exceeds {MAX_COORDINATE:e} m"
+        );
+        remarks.count("dropped-triangles", &place, dropped, text);
     }
-    warn(warnings, "subnormal-coordinates", flushed, || {
-        format!("mesh {name}: {flushed} subnormal coordinates were set to 0")
-    });
+    remarks.count("subnormal-coordinates", &place, flushed, "subnormal coordinates were set to 0");
     let degenerate = mesh.indices.chunks_exact(3).filter(|corners| is_degenerate(mesh, corners)).count();
-    warn(warnings, "degenerate-triangles", degenerate, || {
-        format!("mesh {name}: {degenerate} triangles have no area; they are kept and never hit")
-    });
+    let text = "triangles have no area; they are kept and never hit";
+    remarks.count("degenerate-triangles", &place, degenerate, text);
 }
 
 /// Whether the area of a triangle is zero, in f64.

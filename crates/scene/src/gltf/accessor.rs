@@ -5,7 +5,6 @@ use std::path::Path;
 use ::gltf::json::accessor::{ComponentType, GenericComponentType, IndexComponentType, Type};
 use ::gltf::json::validation::Checked;
 
-use super::buffers::view_bytes;
 use super::document::Document;
 use crate::{Limits, SceneError};
 
@@ -25,10 +24,10 @@ impl<'a> Layout<'a> {
         view: usize,
         offset: u64,
         size: usize,
-        count: usize,
+        count: u64,
         strided: bool,
     ) -> Result<Self, SceneError> {
-        let bytes = view_bytes(document.path, &document.root, &document.buffers, view)?;
+        let bytes = document.view(view)?;
         let stride =
             document.root.buffer_views[view].byte_stride.filter(|_| strided).map_or(size, |stride| stride.0);
         if stride < size {
@@ -38,14 +37,21 @@ impl<'a> Layout<'a> {
         }
         let end = match count {
             0 => u128::from(offset),
-            _ => u128::from(offset) + stride as u128 * (count as u128 - 1) + size as u128,
+            _ => u128::from(offset) + stride as u128 * (u128::from(count) - 1) + size as u128,
         };
         if end > bytes.len() as u128 {
-            let reason = format!("needs {end} bytes, but bufferViews[{view}] has only {}", bytes.len());
+            let claim = &document.root.buffer_views[view];
+            let (from, length) = (claim.byte_offset.unwrap_or_default().0, claim.byte_length.0);
+            let cut = if bytes.len() as u64 == length {
+                String::new()
+            } else {
+                format!(" of its {length}: they start at byte {from} of buffers[{}]", claim.buffer.value())
+            };
+            let reason = format!("needs {end} bytes, but bufferViews[{view}] has only {}{cut}", bytes.len());
             return Err(document.invalid(place, reason));
         }
-        // offset <= end <= bytes.len()
-        Ok(Self { bytes: &bytes[offset as usize..], stride, size, count })
+        // offset <= end <= bytes.len(), and no element takes less than a byte.
+        Ok(Self { bytes: &bytes[offset as usize..], stride, size, count: count as usize })
     }
 
     fn elements(&self) -> impl Iterator<Item = &'a [u8]> + use<'a> {
@@ -71,14 +77,6 @@ struct Sparse<'a> {
     values: Layout<'a>,
 }
 
-/// Checks every accessor of a document against the bytes it refers to.
-pub(super) fn check_all(document: &Document<'_>) -> Result<(), SceneError> {
-    for view in 0..document.root.buffer_views.len() {
-        view_bytes(document.path, &document.root, &document.buffers, view)?;
-    }
-    (0..document.root.accessors.len()).try_for_each(|accessor| resolve(document, accessor).map(drop))
-}
-
 /// Reads an accessor of `N` components as f32. Integers become their value, or if normalised the
 /// share of their largest value, in [-1, 1] or [0, 1].
 pub(super) fn read_floats<const N: usize>(
@@ -86,9 +84,9 @@ pub(super) fn read_floats<const N: usize>(
     accessor: usize,
 ) -> Result<Vec<[f32; N]>, SceneError> {
     let resolved = resolve(document, accessor)?;
-    if resolved.kind.multiplicity() != N {
+    if resolved.components() != Some(N) {
         let reason =
-            format!("has {} components an element where {N} are needed", resolved.kind.multiplicity());
+            format!("has elements of type {} where {N} numbers are needed", type_name(resolved.kind));
         return Err(document.invalid(resolved.place, reason));
     }
     resolved.read(
@@ -110,10 +108,11 @@ pub(super) fn read_integers<const N: usize>(
 ) -> Result<Vec<[u32; N]>, SceneError> {
     let resolved = resolve(document, accessor)?;
     let unsigned = matches!(resolved.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
-    if resolved.kind.multiplicity() != N || !unsigned {
+    if resolved.components() != Some(N) || !unsigned {
         let reason = format!(
-            "must be {N} unsigned integers an element, is {:?} of {:?}",
-            resolved.kind, resolved.component
+            "must have elements of {N} unsigned integers, has {} of {}",
+            type_name(resolved.kind),
+            component_name(resolved.component)
         );
         return Err(document.invalid(resolved.place, reason));
     }
@@ -127,9 +126,9 @@ pub(super) fn read_integers<const N: usize>(
     )
 }
 
-/// Number of components an element of `accessor` has.
-pub(super) fn components(document: &Document<'_>, accessor: usize) -> Result<usize, SceneError> {
-    Ok(resolve(document, accessor)?.kind.multiplicity())
+/// Number of components an element of `accessor` has; `None` for matrices of two or three columns.
+pub(super) fn components(document: &Document<'_>, accessor: usize) -> Result<Option<usize>, SceneError> {
+    Ok(resolve(document, accessor)?.components())
 }
 
 /// Number of elements of `accessor`.
@@ -138,6 +137,11 @@ pub(super) fn count(document: &Document<'_>, accessor: usize) -> Result<usize, S
 }
 
 impl Resolved<'_> {
+    /// Components of an element that lie one after the other; `None` where columns are padded.
+    fn components(&self) -> Option<usize> {
+        (!matches!(self.kind, Type::Mat2 | Type::Mat3)).then(|| self.kind.multiplicity())
+    }
+
     fn read<T: Copy>(
         &self,
         document: &Document<'_>,
@@ -165,53 +169,45 @@ impl Resolved<'_> {
 fn resolve<'a>(document: &'a Document<'_>, index: usize) -> Result<Resolved<'a>, SceneError> {
     let accessor = &document.root.accessors[index];
     let place = format!("accessors[{index}]");
-    let (Checked::Valid(GenericComponentType(component)), Checked::Valid(kind)) =
-        (accessor.component_type, accessor.type_)
-    else {
-        return Err(document.invalid(place, "unknown component type or type"));
+    let unknown = |member: &str| {
+        let place = format!("{place}.{member}");
+        let reason = document.unknown(&place);
+        document.invalid(place, reason)
     };
-    let count = small(document.path, &place, accessor.count.0, document.limits)?;
+    let Checked::Valid(GenericComponentType(component)) = accessor.component_type else {
+        return Err(unknown("componentType"));
+    };
+    let Checked::Valid(kind) = accessor.type_ else { return Err(unknown("type")) };
     let size = element_size(component, kind);
     let base = accessor.buffer_view.map(|view| {
         let offset = accessor.byte_offset.unwrap_or_default().0;
-        Layout::of(document, &place, view.value(), offset, size, count, true)
+        Layout::of(document, &place, view.value(), offset, size, accessor.count.0, true)
     });
+    let base = base.transpose()?;
+    // After the bytes: a count that they contradict is an error of the file, whatever the limits.
+    let count = small(document.path, &place, accessor.count.0, document.limits)?;
     let sparse = accessor.sparse.as_ref().map(|sparse| {
         let Checked::Valid(IndexComponentType(index_type)) = sparse.indices.component_type else {
-            return Err(document.invalid(place.clone(), "unknown type of sparse indices"));
+            return Err(unknown("sparse.indices.componentType"));
         };
-        let changed = small(document.path, &place, sparse.count.0, document.limits)?;
-        if changed > count {
+        let changed = sparse.count.0;
+        if changed > count as u64 {
             return Err(document.invalid(place.clone(), format!("{changed} sparse elements of {count}")));
         }
-        let indices = &sparse.indices;
-        let values = &sparse.values;
-        let indices = Layout::of(
-            document,
-            &place,
-            indices.buffer_view.value(),
-            indices.byte_offset.0,
-            index_type.size(),
-            changed,
-            false,
-        )?;
+        let (indices, values) = (&sparse.indices, &sparse.values);
+        let part = |view: usize, offset: u64, size: usize| {
+            Layout::of(document, &place, view, offset, size, changed, false)
+        };
+        let indices = part(indices.buffer_view.value(), indices.byte_offset.0, index_type.size())?;
         if let Some(index) = indices.elements().map(integer).find(|&index| index as usize >= count) {
             let reason = format!("sparse index {index}, but there are only {count} elements");
             return Err(document.invalid(place.clone(), reason));
         }
-        let values = Layout::of(
-            document,
-            &place,
-            values.buffer_view.value(),
-            values.byte_offset.0,
-            size,
-            changed,
-            false,
-        )?;
+        let values = part(values.buffer_view.value(), values.byte_offset.0, size)?;
         Ok(Sparse { indices, values })
     });
     Ok(Resolved {
-        base: base.transpose()?,
+        base,
         sparse: sparse.transpose()?,
         place,
         component,
@@ -237,6 +233,31 @@ fn element_size(component: ComponentType, kind: Type) -> usize {
         Type::Scalar | Type::Vec2 | Type::Vec3 | Type::Vec4 => return component.size() * kind.multiplicity(),
     };
     columns * (rows * component.size()).next_multiple_of(4)
+}
+
+/// What the format calls a type of elements.
+fn type_name(kind: Type) -> &'static str {
+    match kind {
+        Type::Scalar => "SCALAR",
+        Type::Vec2 => "VEC2",
+        Type::Vec3 => "VEC3",
+        Type::Vec4 => "VEC4",
+        Type::Mat2 => "MAT2",
+        Type::Mat3 => "MAT3",
+        Type::Mat4 => "MAT4",
+    }
+}
+
+/// A type of components in words.
+pub(super) fn component_name(component: ComponentType) -> &'static str {
+    match component {
+        ComponentType::I8 => "signed 8-bit integers",
+        ComponentType::U8 => "unsigned 8-bit integers",
+        ComponentType::I16 => "signed 16-bit integers",
+        ComponentType::U16 => "unsigned 16-bit integers",
+        ComponentType::U32 => "unsigned 32-bit integers",
+        ComponentType::F32 => "floats",
+    }
 }
 
 /// A little-endian unsigned integer of one, two or four bytes.

@@ -9,7 +9,7 @@ use super::hierarchy::Hierarchy;
 use crate::animation::{
     Channel, ChannelValues, Clip, DeformedMesh, Interpolation, Placement, Rig, RigNode, Skin,
 };
-use crate::{Animation, SceneError, Warning};
+use crate::{Animation, SceneError};
 
 /// Reads all clips, and warns if anything in the scene could move: it is shown at rest.
 pub(super) fn read(
@@ -18,24 +18,21 @@ pub(super) fn read(
     skins: Vec<Skin>,
     deformed: Vec<DeformedMesh>,
     placements: Vec<Placement>,
-    warnings: &mut Vec<Warning>,
 ) -> Result<Animation, SceneError> {
     let mut clips = Vec::with_capacity(document.root.animations.len());
     for (i, animation) in document.root.animations.iter().enumerate() {
-        clips.push(read_clip(document, i, animation, warnings)?);
+        clips.push(read_clip(document, i, animation)?);
     }
     let skinned = deformed.iter().filter(|mesh| mesh.skin.is_some()).count();
     let morphed = deformed.iter().filter(|mesh| !mesh.targets.is_empty()).count();
     if clips.is_empty() && deformed.is_empty() {
         return Ok(Animation::default());
     }
-    warnings.push(Warning {
-        kind: "animation-at-rest",
-        message: format!(
-            "{} animation clips, {skinned} skinned and {morphed} morphed meshes are shown at rest",
-            clips.len()
-        ),
-    });
+    let text = format!(
+        "{} animation clips, {skinned} skinned and {morphed} morphed meshes are shown at rest",
+        clips.len()
+    );
+    document.note("animation-at-rest", "", text);
     let nodes = document.root.nodes.iter().enumerate().map(|(i, node)| RigNode {
         name: node.name.clone().unwrap_or_else(|| format!("node{i}")),
         parent: hierarchy.parent[i],
@@ -50,15 +47,11 @@ pub(super) fn read(
     })
 }
 
-fn read_clip(
-    document: &Document<'_>,
-    index: usize,
-    animation: &JsonAnimation,
-    warnings: &mut Vec<Warning>,
-) -> Result<Clip, SceneError> {
+fn read_clip(document: &Document<'_>, index: usize, animation: &JsonAnimation) -> Result<Clip, SceneError> {
     let name = animation.name.clone().unwrap_or_else(|| format!("animation{index}"));
     let mut channels = Vec::with_capacity(animation.channels.len());
     for (i, channel) in animation.channels.iter().enumerate() {
+        let place = format!("animation {name}, channel {i}");
         let sampler = &animation.samplers[channel.sampler.value()];
         let times: Vec<f32> =
             read_floats::<1>(document, sampler.input.value())?.into_iter().flatten().collect();
@@ -85,7 +78,9 @@ fn read_clip(
                 (ChannelValues::Weights { values, targets }, elements)
             }
             Checked::Invalid => {
-                warnings.push(bad_channel(&name, i, "animates a property that the format does not know"));
+                let path = format!("animations[{index}].channels[{i}].target.path");
+                let text = format!("the path of a channel {}; it was dropped", document.unknown(&path));
+                document.note("bad-channel", place, text);
                 continue;
             }
         };
@@ -93,7 +88,8 @@ fn read_clip(
         let ascending =
             times.iter().all(|time| time.is_finite()) && times.windows(2).all(|pair| pair[0] <= pair[1]);
         if times.is_empty() || !ascending || elements != times.len() * per_key {
-            warnings.push(bad_channel(&name, i, "has keys that do not ascend or do not match their values"));
+            let text = "keys do not ascend or do not match their values; the channel was dropped";
+            document.note("bad-channel", place, text);
             continue;
         }
         channels.push(Channel { node: channel.target.node.value(), interpolation, times, values });
@@ -105,13 +101,6 @@ fn read_clip(
 fn of_length<T>(values: Vec<T>, wrap: impl FnOnce(Vec<T>) -> ChannelValues) -> (ChannelValues, usize) {
     let elements = values.len();
     (wrap(values), elements)
-}
-
-fn bad_channel(clip: &str, channel: usize, reason: &str) -> Warning {
-    Warning {
-        kind: "bad-channel",
-        message: format!("animation {clip}: channel {channel} {reason}; it was dropped"),
-    }
 }
 
 /// Number of morph targets of the mesh at a node.

@@ -1,75 +1,100 @@
-//! The bytes behind buffers.
+//! The bytes behind buffers, read when they are first needed.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::cell::{Cell, OnceCell};
 
-use ::gltf::json::Root;
-
+use super::document::Document;
 use super::uri::{Reference, resolve};
-use crate::load::read_file;
-use crate::{Limits, SceneError};
+use crate::SceneError;
+use crate::load::read_needed;
+use crate::recognise::recognise;
 
-/// Reads all buffers: the binary chunk (a first buffer without a reference), `data:` URIs and files.
-pub(super) fn read<'a>(
-    path: &Path,
-    limits: &Limits,
-    root: &Root,
+/// The buffers of a file. One that nothing of the scene needs is never read, and may be missing.
+pub(super) struct Buffers<'a> {
+    read: Vec<OnceCell<Cow<'a, [u8]>>>,
     binary: Option<&'a [u8]>,
-) -> Result<Vec<Cow<'a, [u8]>>, SceneError> {
-    let mut left = limits.file_bytes;
-    let mut buffers = Vec::with_capacity(root.buffers.len());
-    for (i, buffer) in root.buffers.iter().enumerate() {
-        let place = format!("buffers[{i}]");
-        let bytes: Cow<'a, [u8]> = match &buffer.uri {
-            Some(uri) => match resolve(path, &place, uri, limits.file_bytes)? {
-                Reference::Data(bytes) => bytes.into(),
-                Reference::File(file) => read_file(&file, limits.file_bytes)?.into(),
-            },
-            None if i == 0 && (binary.is_some() || buffer.byte_length.0 == 0) => {
-                binary.unwrap_or_default().into()
-            }
-            None => {
-                return Err(SceneError::invalid(path, place, "has neither a reference nor a binary chunk"));
-            }
-        };
-        if (bytes.len() as u64) < buffer.byte_length.0 {
-            let reason = format!("claims {} bytes, but there are only {}", buffer.byte_length.0, bytes.len());
-            return Err(SceneError::invalid(path, place, reason));
-        }
-        if matches!(bytes, Cow::Owned(_)) {
-            let size = bytes.len() as u64;
-            left = left.checked_sub(size).ok_or_else(|| {
-                let read = limits.file_bytes - left + size;
-                SceneError::too_large(
-                    path,
-                    "the size of all buffers in bytes",
-                    read,
-                    limits.file_bytes,
-                    "file_bytes",
-                )
-            })?;
-        }
-        buffers.push(bytes);
-    }
-    Ok(buffers)
+    /// Bytes that may still be read.
+    left: Cell<u64>,
 }
 
-/// Bytes of a buffer view, which must lie within what its buffer claims.
-pub(super) fn view_bytes<'b>(
-    path: &Path,
-    root: &Root,
-    buffers: &'b [Cow<'_, [u8]>],
-    view: usize,
-) -> Result<&'b [u8], SceneError> {
-    let claim = &root.buffer_views[view];
-    let buffer = claim.buffer.value();
-    let start = u128::from(claim.byte_offset.unwrap_or_default().0);
-    let end = start + u128::from(claim.byte_length.0);
-    let available = root.buffers[buffer].byte_length.0;
-    if end > u128::from(available) {
-        let reason = format!("bytes {start} to {end}, but buffers[{buffer}] has only {available}");
-        return Err(SceneError::invalid(path, format!("bufferViews[{view}]"), reason));
+impl<'a> Buffers<'a> {
+    /// Buffers of which none is read; at most `limit` bytes will be.
+    pub fn new(count: usize, binary: Option<&'a [u8]>, limit: u64) -> Self {
+        Self { read: (0..count).map(|_| OnceCell::new()).collect(), binary, left: Cell::new(limit) }
     }
-    // Both ends fit: the buffer holds at least `available` bytes.
-    Ok(&buffers[buffer][start as usize..end as usize])
+}
+
+impl<'a> Document<'a> {
+    /// The bytes of a buffer, at most as many as it claims: the binary chunk (a first buffer without
+    /// a reference), a `data:` URI or a file.
+    fn buffer(&self, index: usize) -> Result<&[u8], SceneError> {
+        let claim = self.root.buffers[index].byte_length.0;
+        let cell = &self.buffers.read[index];
+        let bytes = match cell.get() {
+            Some(bytes) => bytes,
+            None => {
+                let bytes = self.read_buffer(index)?;
+                if (bytes.len() as u64) < claim {
+                    let text = format!("claims {claim} bytes, but there are only {}", bytes.len());
+                    self.note("short-buffer", format!("buffers[{index}]"), text);
+                }
+                cell.get_or_init(|| bytes)
+            }
+        };
+        let end = usize::try_from(claim).map_or(bytes.len(), |claim| claim.min(bytes.len()));
+        Ok(&bytes[..end])
+    }
+
+    fn read_buffer(&self, index: usize) -> Result<Cow<'a, [u8]>, SceneError> {
+        let Self { path, limits, root, buffers, .. } = self;
+        let place = format!("buffers[{index}]");
+        let buffer = &root.buffers[index];
+        let bytes = match (&buffer.uri, buffers.binary) {
+            (Some(uri), _) => match resolve(path, &place, uri, limits.file_bytes)? {
+                Reference::Data(bytes) => bytes,
+                Reference::File(file) => {
+                    let bytes = read_needed(path, &place, &file, limits.file_bytes)?;
+                    if (bytes.len() as u64) < buffer.byte_length.0
+                        && let Some(foreign) = recognise(&bytes)
+                    {
+                        let reason = format!(
+                            "{} is {}, not the buffer; {}",
+                            file.display(),
+                            foreign.what,
+                            foreign.fix
+                        );
+                        return Err(self.invalid(place, reason));
+                    }
+                    bytes
+                }
+            },
+            (None, Some(binary)) if index == 0 => return Ok(binary.into()),
+            (None, _) if buffer.byte_length.0 == 0 => return Ok(Cow::default()),
+            (None, _) => return Err(self.invalid(place, "has neither a reference nor a binary chunk")),
+        };
+        let left = buffers.left.get().checked_sub(bytes.len() as u64).ok_or_else(|| {
+            let read = limits.file_bytes - buffers.left.get() + bytes.len() as u64;
+            let what = "the size of all buffers in bytes";
+            SceneError::too_large(path, what, read, limits.file_bytes, "file_bytes")
+        })?;
+        buffers.left.set(left);
+        Ok(bytes.into())
+    }
+
+    /// Bytes of a buffer view, as far as its buffer has them.
+    pub fn view(&self, view: usize) -> Result<&[u8], SceneError> {
+        let claim = &self.root.buffer_views[view];
+        let buffer = claim.buffer.value();
+        let bytes = self.buffer(buffer)?;
+        let start = claim.byte_offset.unwrap_or_default().0;
+        let end = start.saturating_add(claim.byte_length.0);
+        let available = bytes.len() as u64;
+        if end > available {
+            let text =
+                format!("is to have bytes {start} to {end}, but buffers[{buffer}] has only {available}");
+            self.note("short-buffer-view", format!("bufferViews[{view}]"), text);
+        }
+        // Both ends are at most the length of a slice.
+        Ok(&bytes[start.min(available) as usize..end.min(available) as usize])
+    }
 }

@@ -8,16 +8,11 @@ use glam::{DAffine3, DMat3};
 
 use super::document::Document;
 use super::hierarchy::Hierarchy;
-use crate::{Camera, Projection, Warning};
+use crate::{Camera, Projection};
 
 /// The cameras of the nodes in `order`. Scale and shear of the nodes are taken off; aspect ratio
 /// and clip planes of the file are not used: the image decides the one, rays need no other.
-pub(super) fn place(
-    document: &Document<'_>,
-    hierarchy: &Hierarchy,
-    order: &[usize],
-    warnings: &mut Vec<Warning>,
-) -> Vec<Camera> {
+pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<Camera> {
     let mut cameras = Vec::new();
     for &node in order {
         let Some(index) = document.root.nodes[node].camera else { continue };
@@ -29,13 +24,22 @@ pub(super) fn place(
             (Some(world_from_camera), Some(projection)) => {
                 cameras.push(Camera { name, world_from_camera, projection });
             }
-            _ => warnings.push(Warning {
-                kind: "bad-camera",
-                message: format!("camera {name}: its place or projection is degenerate; it was dropped"),
-            }),
+            _ => {
+                document.note("bad-camera", format!("camera {name}"), fault(document, index.value(), source))
+            }
         }
     }
     cameras
+}
+
+/// Why a camera is dropped.
+fn fault(document: &Document<'_>, index: usize, source: &JsonCamera) -> String {
+    match source.type_ {
+        Checked::Invalid => {
+            format!("its type {}; it was dropped", document.unknown(&format!("cameras[{index}].type")))
+        }
+        Checked::Valid(_) => "its place or projection is degenerate; it was dropped".to_owned(),
+    }
 }
 
 /// The rigid map with the same place, view direction and up direction.

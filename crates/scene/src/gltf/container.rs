@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::SceneError;
+use crate::remarks::Remarks;
 
 const MAGIC: &[u8; 4] = b"glTF";
 const HEADER: usize = 12;
@@ -16,8 +17,13 @@ pub(super) struct Container<'a> {
     pub binary: Option<&'a [u8]>,
 }
 
-/// Splits a file. Chunks of unknown type are skipped, as the format asks.
-pub(super) fn split<'a>(path: &Path, bytes: &'a [u8]) -> Result<Container<'a>, SceneError> {
+/// Splits a file. Chunks of unknown type are skipped, as the format asks; chunks in the wrong place
+/// are remarked.
+pub(super) fn split<'a>(
+    path: &Path,
+    bytes: &'a [u8],
+    remarks: &mut Remarks,
+) -> Result<Container<'a>, SceneError> {
     if bytes.get(..4) != Some(MAGIC) {
         return Ok(Container { json: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), binary: None });
     }
@@ -28,15 +34,24 @@ pub(super) fn split<'a>(path: &Path, bytes: &'a [u8]) -> Result<Container<'a>, S
     };
     let version = word(4).ok_or_else(truncated)?;
     if version != 2 {
-        return Err(SceneError::syntax(path, format!("GLB version {version}; only version 2 is supported")));
+        return Err(SceneError::NotThisFormat {
+            path: path.to_owned(),
+            found: format!("GLB version {version}, and only version 2 is read"),
+            fix: "export it as glTF 2.0",
+        });
     }
     let length = word(8).ok_or_else(truncated)? as usize;
     if length > bytes.len() {
         return Err(truncated());
     }
+    let misplaced = |remarks: &mut Remarks, text: String| remarks.note("glb-chunks", "GLB container", text);
+    if length < bytes.len() {
+        misplaced(remarks, format!("the {} bytes after its end were ignored", bytes.len() - length));
+    }
     let mut json = None;
     let mut binary = None;
     let mut at = HEADER;
+    let mut chunks = 0;
     while at + CHUNK_HEADER <= length {
         let size = word(at).ok_or_else(truncated)? as usize;
         let kind = word(at + 4).ok_or_else(truncated)?;
@@ -46,12 +61,24 @@ pub(super) fn split<'a>(path: &Path, bytes: &'a [u8]) -> Result<Container<'a>, S
         })?;
         match kind {
             JSON if json.is_none() => json = Some(chunk),
-            BINARY if binary.is_none() => binary = Some(chunk),
+            BINARY if binary.is_none() => {
+                binary = Some(chunk);
+                if chunks != 1 {
+                    misplaced(
+                        remarks,
+                        "its binary chunk is not the second; it was read all the same".to_owned(),
+                    );
+                }
+            }
+            JSON | BINARY => {
+                misplaced(remarks, format!("a second chunk of its kind, at byte {at}, was ignored"))
+            }
             _ => {}
         }
         if json.is_none() {
             break;
         }
+        chunks += 1;
         // A chunk ends on a multiple of four; writers that forget the padding are forgiven.
         at = start + size;
     }

@@ -5,8 +5,8 @@ use ::gltf::json::accessor::Accessor;
 use ::gltf::json::mesh::Primitive;
 use glam::Vec3;
 
+use super::attributes::read_directions;
 use super::document::Document;
-use super::primitives::read_directions;
 use crate::animation::{DeformedMesh, MorphTarget};
 use crate::{Mesh, SceneError};
 

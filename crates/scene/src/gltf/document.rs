@@ -1,47 +1,46 @@
-//! A file whose every claim has been checked: what all other modules read from.
+//! A file whose references have been checked: what all other modules read from.
 
-use std::borrow::Cow;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::HashMap;
 use std::path::Path;
 
 use ::gltf::json::Root;
 
-use super::{accessor, buffers, container, extensions, indices, json};
+use super::buffers::Buffers;
+use super::{container, indices, json};
 use crate::animation::NodeTransform;
-use crate::{Limits, LoadOptions, SceneError, Warning};
+use crate::remarks::Remarks;
+use crate::{Limits, LoadOptions, SceneError};
 
-/// A parsed file with its bytes. Every index in `root` is in range, every enumeration known, every
-/// accessor lies within its buffer.
+/// A parsed file with its bytes. Every index in `root` is in range. Buffers are read, and accessors
+/// checked against them, when something of the scene needs them.
 pub(super) struct Document<'a> {
     pub path: &'a Path,
     pub limits: &'a Limits,
     pub root: Root,
     /// Transform of every node relative to its parent.
     pub locals: Vec<NodeTransform>,
-    /// Bytes of every buffer, at least as long as it claims.
-    pub buffers: Vec<Cow<'a, [u8]>>,
+    pub buffers: Buffers<'a>,
+    /// What is remarked while the file is read.
+    pub remarks: RefCell<Remarks>,
+    /// Values of enumerations that the format does not know, by their place.
+    unknown: HashMap<String, String>,
     /// Elements read so far, against [`Limits::elements`].
     elements: Cell<u64>,
 }
 
 impl<'a> Document<'a> {
-    /// Parses and checks `bytes`, and reads the buffers they refer to.
-    pub fn open(
-        path: &'a Path,
-        bytes: &'a [u8],
-        options: &'a LoadOptions,
-        warnings: &mut Vec<Warning>,
-    ) -> Result<Self, SceneError> {
+    /// Parses and checks `bytes`.
+    pub fn open(path: &'a Path, bytes: &'a [u8], options: &'a LoadOptions) -> Result<Self, SceneError> {
         let limits = &options.limits;
-        let container = container::split(path, bytes)?;
-        let json::Parsed { root, locals } = json::parse(path, container.json, warnings)?;
-        extensions::check(path, &root, warnings)?;
+        let mut remarks = Remarks::default();
+        let container = container::split(path, bytes, &mut remarks)?;
+        let json::Parsed { root, locals, unknown } = json::parse(path, container.json, &mut remarks)?;
         Limits::check(path, "the number of nodes", root.nodes.len() as u64, limits.nodes, "nodes")?;
         indices::check(path, &root)?;
-        let buffers = buffers::read(path, limits, &root, container.binary)?;
-        let document = Self { path, limits, root, locals, buffers, elements: Cell::new(0) };
-        accessor::check_all(&document)?;
-        Ok(document)
+        let buffers = Buffers::new(root.buffers.len(), container.binary, limits.file_bytes);
+        let remarks = RefCell::new(remarks);
+        Ok(Self { path, limits, root, locals, buffers, remarks, unknown, elements: Cell::new(0) })
     }
 
     /// Counts elements that are about to be read.
@@ -55,5 +54,16 @@ impl<'a> Document<'a> {
     /// An error about an element of this file.
     pub fn invalid(&self, place: impl Into<String>, reason: impl Into<String>) -> SceneError {
         SceneError::invalid(self.path, place, reason)
+    }
+
+    /// What is wrong with an enumeration whose value the format does not know.
+    pub fn unknown(&self, place: &str) -> String {
+        let value = self.unknown.get(place).map_or("of a kind", String::as_str);
+        format!("is {value}, which the format does not know")
+    }
+
+    /// See [`Remarks::note`].
+    pub fn note(&self, kind: &'static str, place: impl Into<String>, text: impl Into<String>) {
+        self.remarks.borrow_mut().note(kind, place, text);
     }
 }

@@ -9,7 +9,7 @@ use super::hierarchy::Hierarchy;
 use super::instancing;
 use super::primitives::{self, Shown, Skipped};
 use crate::animation::{DeformedMesh, Placement, Skin};
-use crate::{Instance, Limits, Mesh, SceneError, Warning};
+use crate::{Instance, Limits, Mesh, SceneError};
 
 /// Meshes of the scene, `Mesh::material` still an index into the file (its length: the default
 /// material), where they are, and what they were before they were deformed.
@@ -35,7 +35,6 @@ pub(super) fn place(
     hierarchy: &Hierarchy,
     skins: &[Skin],
     order: &[usize],
-    warnings: &mut Vec<Warning>,
 ) -> Result<Placed, SceneError> {
     let mut placer = Placer {
         document,
@@ -54,7 +53,7 @@ pub(super) fn place(
         let copies = copies.as_deref().unwrap_or(&[DAffine3::IDENTITY]);
         for primitive in 0..document.root.meshes[mesh].primitives.len() {
             let shown = Shown { node, mesh, primitive };
-            match placer.mesh(shown, warnings)? {
+            match placer.mesh(shown)? {
                 // Joints place a skinned mesh, not its node: copies would coincide.
                 Some((mesh, Some(world))) => placer.instances(node, mesh, world, &[DAffine3::IDENTITY])?,
                 Some((mesh, None)) => placer.instances(node, mesh, hierarchy.world[node], copies)?,
@@ -62,18 +61,15 @@ pub(super) fn place(
             }
         }
     }
-    placer.skipped.report(warnings);
-    if placer.lost > 0 {
-        warnings.push(Warning {
-            kind: "non-finite-instances",
-            message: format!("{} instances have a place that is not finite and were dropped", placer.lost),
-        });
-    }
+    let mut remarks = document.remarks.borrow_mut();
+    placer.skipped.report(&mut remarks);
+    let text = "instances have a place that is not finite and were dropped";
+    remarks.count("non-finite-instances", "", placer.lost, text);
     Ok(placer.placed)
 }
 
-struct Placer<'a> {
-    document: &'a Document<'a>,
+struct Placer<'a, 'd> {
+    document: &'a Document<'d>,
     hierarchy: &'a Hierarchy,
     skins: &'a [Skin],
     placed: Placed,
@@ -84,17 +80,16 @@ struct Placer<'a> {
     lost: usize,
 }
 
-impl Placer<'_> {
+impl Placer<'_, '_> {
     /// The mesh of a primitive, `None` if it has no triangles.
-    fn mesh(&mut self, shown: Shown, warnings: &mut Vec<Warning>) -> Result<Known, SceneError> {
+    fn mesh(&mut self, shown: Shown) -> Result<Known, SceneError> {
         let node = &self.document.root.nodes[shown.node];
         let own = node.weights.is_some() || node.skin.is_some();
         let key = (shown.mesh, shown.primitive, own.then_some(shown.node));
         if let Some(&known) = self.read.get(&key) {
             return Ok(known);
         }
-        let read =
-            primitives::read(self.document, self.hierarchy, self.skins, shown, &mut self.skipped, warnings)?;
+        let read = primitives::read(self.document, self.hierarchy, self.skins, shown, &mut self.skipped)?;
         let known = read.map(|read| {
             let mesh = self.placed.meshes.len();
             self.placed.meshes.push(read.mesh);

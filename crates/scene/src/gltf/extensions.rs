@@ -1,10 +1,13 @@
 //! Which extensions are understood, and what is said of the others.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
-use ::gltf::json::Root;
+use ::gltf::json::Value;
 
-use crate::{SceneError, Warning};
+use crate::SceneError;
+use crate::remarks::Remarks;
+use crate::text::shown;
 
 /// Extensions that change the scene as they should.
 const SUPPORTED: [&str; 10] = [
@@ -20,23 +23,30 @@ const SUPPORTED: [&str; 10] = [
     "KHR_texture_transform",
 ];
 
-/// Refuses files that require what is not supported, and warns of all else that they use.
-pub(super) fn check(path: &Path, root: &Root, warnings: &mut Vec<Warning>) -> Result<(), SceneError> {
-    let unsupported = |name: &&String| !SUPPORTED.contains(&name.as_str());
-    if let Some(name) = root.extensions_required.iter().find(unsupported) {
-        return Err(SceneError::UnsupportedExtension {
+fn is_supported(name: &str) -> bool {
+    SUPPORTED.contains(&name)
+}
+
+/// Refuses files that require what is not supported.
+pub(super) fn check_required(path: &Path, tree: &Value) -> Result<(), SceneError> {
+    let required = tree["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    match required.into_iter().find(|name| !is_supported(name)) {
+        Some(name) => Err(SceneError::UnsupportedExtension {
             path: path.to_owned(),
-            extension: name.clone(),
+            extension: name.to_owned(),
             fix: fix_for(name),
-        });
+        }),
+        None => Ok(()),
     }
-    for name in root.extensions_used.iter().filter(unsupported) {
-        warnings.push(Warning {
-            kind: "unsupported-extension",
-            message: format!("{name} is used but not supported; the scene is shown without it"),
-        });
+}
+
+/// Warns of what a file uses, whether it says so or not, and is not supported.
+pub(super) fn report<'a>(used: impl Iterator<Item = &'a String>, remarks: &mut Remarks) {
+    let unsupported: BTreeSet<&String> = used.filter(|name| !is_supported(name)).collect();
+    for name in unsupported {
+        let text = format!("{} is used but not supported; the scene is shown without it", shown(name));
+        remarks.note("unsupported-extension", "", text);
     }
-    Ok(())
 }
 
 /// How to get rid of an extension.

@@ -82,6 +82,37 @@ impl Hierarchy {
     }
 }
 
+/// Why the scene of the nodes in `order` shows no mesh, where none of them has one.
+pub(super) fn without_meshes(document: &Document<'_>, order: &[usize]) -> Option<String> {
+    let root = &document.root;
+    let shown = |nodes: &[usize]| nodes.iter().any(|&node| root.nodes[node].mesh.is_some());
+    if shown(order) {
+        return None;
+    }
+    let meshes = root.meshes.len();
+    let (count, are) =
+        if meshes == 1 { ("1 mesh".to_owned(), "is") } else { (format!("{meshes} meshes"), "are") };
+    if meshes == 0 {
+        return Some("the file has no meshes".to_owned());
+    }
+    let mut placed = Vec::new();
+    let mut stack: Vec<usize> =
+        root.scenes.iter().flat_map(|scene| &scene.nodes).map(|node| node.value()).collect();
+    // The graph is a forest, but a root may be in many scenes.
+    let mut seen = vec![false; root.nodes.len()];
+    while let Some(node) = stack.pop() {
+        if !std::mem::replace(&mut seen[node], true) {
+            placed.push(node);
+            stack.extend(root.nodes[node].children.iter().flatten().map(|child| child.value()));
+        }
+    }
+    Some(if shown(&placed) {
+        format!("the scene has no mesh; {count} {are} in other scenes of the file")
+    } else {
+        format!("{count} {are} in no scene")
+    })
+}
+
 /// Root nodes of the chosen scene.
 fn roots(
     document: &Document<'_>,

@@ -1,10 +1,9 @@
-//! Every index in range and every enumeration known, before anything is looked up.
+//! Every index in range, before anything is looked up.
 
 use std::path::Path;
 
 use ::gltf::json::material::Material;
 use ::gltf::json::texture::Info;
-use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, Root};
 
 use crate::SceneError;
@@ -46,16 +45,6 @@ impl Check<'_> {
         index.map_or(Ok(()), |index| self.index(place, member, index, count))
     }
 
-    fn known<T>(&self, place: &str, member: &str, value: &Checked<T>) -> Result<(), SceneError> {
-        match value {
-            Checked::Valid(_) => Ok(()),
-            Checked::Invalid => {
-                let reason = "has a value that the format does not know";
-                Err(SceneError::invalid(self.path, format!("{place}.{member}"), reason))
-            }
-        }
-    }
-
     fn buffers(&self, root: &Root) -> Result<(), SceneError> {
         let views = root.buffer_views.len();
         for (i, view) in root.buffer_views.iter().enumerate() {
@@ -63,13 +52,10 @@ impl Check<'_> {
         }
         for (i, accessor) in root.accessors.iter().enumerate() {
             let place = format!("accessors[{i}]");
-            self.known(&place, "componentType", &accessor.component_type)?;
-            self.known(&place, "type", &accessor.type_)?;
             self.optional(&place, "bufferView", accessor.buffer_view, views)?;
             if let Some(sparse) = &accessor.sparse {
                 self.index(&place, "sparse.indices.bufferView", sparse.indices.buffer_view, views)?;
                 self.index(&place, "sparse.values.bufferView", sparse.values.buffer_view, views)?;
-                self.known(&place, "sparse.indices.componentType", &sparse.indices.component_type)?;
             }
         }
         Ok(())
@@ -80,7 +66,6 @@ impl Check<'_> {
         for (i, mesh) in root.meshes.iter().enumerate() {
             for (k, primitive) in mesh.primitives.iter().enumerate() {
                 let place = format!("meshes[{i}].primitives[{k}]");
-                self.known(&place, "mode", &primitive.mode)?;
                 self.optional(&place, "indices", primitive.indices, accessors)?;
                 self.optional(&place, "material", primitive.material, root.materials.len())?;
                 for &attribute in primitive.attributes.values() {
@@ -104,13 +89,7 @@ impl Check<'_> {
                 self.index(&format!("scenes[{i}]"), "nodes", node, nodes)?;
             }
         }
-        for (i, camera) in root.cameras.iter().enumerate() {
-            self.known(&format!("cameras[{i}]"), "type", &camera.type_)?;
-        }
         let lights = super::lights::of(root);
-        for (i, light) in lights.iter().enumerate() {
-            self.known(&format!("lights[{i}]"), "type", &light.type_)?;
-        }
         for (i, node) in root.nodes.iter().enumerate() {
             let place = format!("nodes[{i}]");
             for &child in node.children.iter().flatten() {
@@ -140,7 +119,6 @@ impl Check<'_> {
             for sampler in &animation.samplers {
                 self.index(&place, "samplers.input", sampler.input, accessors)?;
                 self.index(&place, "samplers.output", sampler.output, accessors)?;
-                self.known(&place, "samplers.interpolation", &sampler.interpolation)?;
             }
             for channel in &animation.channels {
                 self.index(&place, "channels.sampler", channel.sampler, animation.samplers.len())?;
@@ -151,7 +129,6 @@ impl Check<'_> {
     }
 
     fn material(&self, place: &str, material: &Material, textures: usize) -> Result<(), SceneError> {
-        self.known(place, "alphaMode", &material.alpha_mode)?;
         let base = &material.pbr_metallic_roughness;
         let mut infos: Vec<(&str, Option<&Info>)> = vec![
             ("baseColorTexture", base.base_color_texture.as_ref()),
@@ -192,13 +169,6 @@ impl Check<'_> {
             self.optional(&place, "sampler", texture.sampler, root.samplers.len())?;
             // The image is checked where a material uses the texture: files with unused textures
             // that refer to nothing are common and harmless.
-        }
-        for (i, sampler) in root.samplers.iter().enumerate() {
-            let place = format!("samplers[{i}]");
-            self.known(&place, "wrapS", &sampler.wrap_s)?;
-            self.known(&place, "wrapT", &sampler.wrap_t)?;
-            sampler.mag_filter.as_ref().map_or(Ok(()), |filter| self.known(&place, "magFilter", filter))?;
-            sampler.min_filter.as_ref().map_or(Ok(()), |filter| self.known(&place, "minFilter", filter))?;
         }
         for (i, image) in root.images.iter().enumerate() {
             self.optional(&format!("images[{i}]"), "bufferView", image.buffer_view, root.buffer_views.len())?;

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::document::Document;
 use super::hierarchy::Hierarchy;
-use crate::{Light, Warning};
+use crate::Light;
 
 /// The lights of a file.
 pub(super) fn of(root: &Root) -> &[JsonLight] {
@@ -21,12 +21,7 @@ pub(super) fn of(root: &Root) -> &[JsonLight] {
 
 /// The lights of the nodes in `order`. Scale moves a light but does not change how bright it is or
 /// how far it reaches.
-pub(super) fn place(
-    document: &Document<'_>,
-    hierarchy: &Hierarchy,
-    order: &[usize],
-    warnings: &mut Vec<Warning>,
-) -> Vec<Light> {
+pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<Light> {
     let mut lights = Vec::new();
     for &node in order {
         let extensions = document.root.nodes[node].extensions.as_ref();
@@ -37,16 +32,62 @@ pub(super) fn place(
         let world = hierarchy.world[node];
         let direction = world.transform_vector3(DVec3::NEG_Z).try_normalize();
         match light(source, world.translation, direction) {
-            Some(light) => lights.push(light),
-            None => warnings.push(Warning {
-                kind: "bad-light",
-                message: format!(
-                    "nodes[{node}]: its light has no direction, cone, or finite place and intensity; it was dropped"
-                ),
-            }),
+            Some(light) => {
+                remark(document, reference.light.value(), source);
+                lights.push(light);
+            }
+            None => {
+                let text = match source.type_ {
+                    Checked::Invalid => {
+                        let light = reference.light.value();
+                        let place = format!("extensions.KHR_lights_punctual.lights[{light}].type");
+                        format!("the type of its light {}; it was dropped", document.unknown(&place))
+                    }
+                    Checked::Valid(_) => {
+                        "its light has no direction, cone, or finite place and intensity; it was dropped"
+                            .to_owned()
+                    }
+                };
+                document.note("bad-light", format!("nodes[{node}]"), text);
+            }
         }
     }
     lights
+}
+
+/// Says what of a light was brought into range.
+fn remark(document: &Document<'_>, index: usize, source: &JsonLight) {
+    let place = format!("lights[{index}]");
+    if source.color.iter().any(|x| x * source.intensity < 0.0) {
+        let text = format!(
+            "color {:?} times intensity {} is negative, and taken as 0",
+            source.color, source.intensity
+        );
+        document.note("light-range", &place, text);
+    }
+    if let Some(range) = source.range.filter(|range| !(*range > 0.0)) {
+        document.note("light-range", &place, format!("range {range} is not above 0, and taken as unlimited"));
+    }
+    if let (Checked::Valid(Type::Spot), Some(spot)) = (source.type_, &source.spot) {
+        let Spot { inner_cone_angle: inner, outer_cone_angle: outer } = *spot;
+        if outer > FRAC_PI_2 {
+            document.note(
+                "light-range",
+                &place,
+                format!("outerConeAngle {outer} is taken as pi/2, its maximum"),
+            );
+        }
+        if inner > outer {
+            let text = format!("innerConeAngle {inner} is above outerConeAngle {outer}, and taken as that");
+            document.note("light-range", &place, text);
+        } else if inner < 0.0 {
+            document.note(
+                "light-range",
+                &place,
+                format!("innerConeAngle {inner} is negative, and taken as 0"),
+            );
+        }
+    }
 }
 
 fn light(source: &JsonLight, position: DVec3, direction: Option<DVec3>) -> Option<Light> {

@@ -5,15 +5,11 @@ use ::gltf::json::validation::Checked;
 
 use super::document::Document;
 use super::textures::{TextureReader, Use};
-use crate::{AlphaMode, Material, Scene, SceneError, Warning};
+use crate::{AlphaMode, Material, Scene, SceneError};
 
 /// Converts the materials that `scene.meshes` use, in the order of the file, and makes
 /// `Mesh::material` refer to them.
-pub(super) fn convert(
-    document: &Document<'_>,
-    scene: &mut Scene,
-    warnings: &mut Vec<Warning>,
-) -> Result<(), SceneError> {
+pub(super) fn convert(document: &Document<'_>, scene: &mut Scene) -> Result<(), SceneError> {
     let materials = &document.root.materials;
     let mut converted = vec![None; materials.len() + 1];
     for mesh in &scene.meshes {
@@ -23,7 +19,7 @@ pub(super) fn convert(
     for (i, slot) in converted.iter_mut().enumerate().filter(|(_, slot)| slot.is_some()) {
         *slot = Some(scene.materials.len());
         scene.materials.push(match materials.get(i) {
-            Some(material) => convert_one(document, i, material, &mut textures, warnings)?,
+            Some(material) => convert_one(document, i, material, &mut textures)?,
             None => Material::default(),
         });
     }
@@ -43,8 +39,7 @@ fn convert_one(
     document: &Document<'_>,
     index: usize,
     source: &JsonMaterial,
-    textures: &mut TextureReader<'_>,
-    warnings: &mut Vec<Warning>,
+    textures: &mut TextureReader<'_, '_>,
 ) -> Result<Material, SceneError> {
     let place = format!("materials[{index}]");
     let base = &source.pbr_metallic_roughness;
@@ -63,16 +58,20 @@ fn convert_one(
         source.emissive_factor.0.map(|x| range.clamp("emissiveFactor", x * strength, 0.0, f32::MAX));
     material.alpha_mode = match source.alpha_mode {
         Checked::Valid(JsonAlphaMode::Mask) => AlphaMode::Mask {
-            cutoff: range.unit("alphaCutoff", source.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0)),
+            cutoff: match source.alpha_cutoff.map_or(0.5, |cutoff| cutoff.0) {
+                // No alpha is above 1, but for rounding: as the format says, nothing is shown.
+                cutoff if cutoff > 1.0 => f32::INFINITY,
+                cutoff => range.clamp("alphaCutoff", cutoff, 0.0, 1.0),
+            },
         },
         Checked::Valid(JsonAlphaMode::Blend) => AlphaMode::Blend,
         _ => AlphaMode::Opaque,
     };
     scalar_extensions(source, &mut material, &mut range);
-    range.report(warnings);
+    range.report(document);
 
     let mut read = |wanted: Option<Use<'_>>| match wanted {
-        Some(wanted) => textures.read(&place, wanted, warnings),
+        Some(wanted) => textures.read(&place, wanted),
         None => Ok(None),
     };
     material.base_color_texture = read(base.base_color_texture.as_ref().map(Into::into))?;
@@ -83,11 +82,11 @@ fn convert_one(
         read(transmission.and_then(|found| found.transmission_texture.as_ref()).map(Into::into))?;
     if let Some(normal) = &source.normal_texture {
         let wanted = Use::of_normal(normal)
-            .map_err(|error| document.invalid(format!("{place}.normalTexture"), error.to_string()))?;
+            .map_err(|_| document.invalid(format!("{place}.normalTexture"), "has a malformed transform"))?;
         material.normal_texture = read(Some(wanted))?;
         material.normal_scale = if normal.scale.is_finite() { normal.scale } else { 1.0 };
     }
-    unused_textures(&place, source, warnings);
+    unused_textures(document, &place, source);
     Ok(material)
 }
 
@@ -117,7 +116,7 @@ fn scalar_extensions(source: &JsonMaterial, material: &mut Material, range: &mut
         material.attenuation_distance = if distance > 0.0 {
             distance
         } else {
-            range.out.push("attenuationDistance");
+            range.out.push(format!("attenuationDistance {distance}"));
             f32::INFINITY
         };
     }
@@ -129,7 +128,7 @@ fn scalar_extensions(source: &JsonMaterial, material: &mut Material, range: &mut
 }
 
 /// Warns of textures that the material model has no place for.
-fn unused_textures(place: &str, source: &JsonMaterial, warnings: &mut Vec<Warning>) {
+fn unused_textures(document: &Document<'_>, place: &str, source: &JsonMaterial) {
     let volume = extension(source, |found| found.volume.as_ref());
     let specular = extension(source, |found| found.specular.as_ref());
     let unused = [
@@ -138,17 +137,14 @@ fn unused_textures(place: &str, source: &JsonMaterial, warnings: &mut Vec<Warnin
         ("specularColorTexture", specular.is_some_and(|found| found.specular_color_texture.is_some())),
     ];
     for (name, _) in unused.iter().filter(|(_, used)| *used) {
-        warnings.push(Warning {
-            kind: "unused-texture",
-            message: format!("{place}: {name} is not supported; its factor is used alone"),
-        });
+        document.note("unused-texture", place, format!("{name} is not supported; its factor is used alone"));
     }
 }
 
 /// Brings numbers into their ranges and remembers which were outside.
 struct Range<'a> {
     place: &'a str,
-    out: Vec<&'static str>,
+    out: Vec<String>,
 }
 
 impl Range<'_> {
@@ -160,17 +156,18 @@ impl Range<'_> {
         if (low..=high).contains(&x) {
             return x;
         }
-        self.out.push(name);
+        self.out.push(format!("{name} {x}"));
         if x.is_nan() { low } else { x.clamp(low, high) }
     }
 
-    fn report(mut self, warnings: &mut Vec<Warning>) {
+    fn report(mut self, document: &Document<'_>) {
         self.out.dedup();
         if !self.out.is_empty() {
-            warnings.push(Warning {
-                kind: "material-range",
-                message: format!("{}: brought into range: {}", self.place, self.out.join(", ")),
-            });
+            document.note(
+                "material-range",
+                self.place,
+                format!("brought into range: {}", self.out.join(", ")),
+            );
         }
     }
 }

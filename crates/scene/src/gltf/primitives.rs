@@ -1,18 +1,18 @@
 //! A mesh primitive to an indexed triangle mesh.
 
-use ::gltf::json::accessor::{ComponentType, GenericComponentType};
 use ::gltf::json::mesh::Semantic::{Joints, Weights};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use glam::DAffine3;
 
-use super::accessor::{components, read_floats, read_integers};
+use super::accessor::read_integers;
+use super::attributes::{self, attribute};
 use super::document::Document;
 use super::hierarchy::Hierarchy;
 use super::{deformation, skins};
 use crate::animation::{DeformedMesh, Skin};
-use crate::check::clean_mesh;
-use crate::{Limits, Mesh, SceneError, Warning};
+use crate::remarks::Remarks;
+use crate::{Limits, Mesh, SceneError, check};
 
 /// Primitives without triangles, counted for one warning a kind.
 #[derive(Default)]
@@ -24,33 +24,37 @@ pub(super) struct Skipped {
 }
 
 impl Skipped {
-    /// One warning for each kind that occurred.
-    pub fn report(&self, warnings: &mut Vec<Warning>) {
-        let mut warn = |kind, count: usize, what: &str| {
-            if count > 0 {
-                warnings.push(Warning { kind, message: format!("{count} {what}") });
-            }
-        };
-        warn("points", self.points, "point primitives were dropped: only triangles are rendered");
-        warn("lines", self.lines, "line primitives were dropped: only triangles are rendered");
-        warn("no-positions", self.without_positions, "primitives without positions were dropped");
-        warn("empty-mesh", self.empty, "primitives without triangles were dropped");
+    /// One remark for each kind that occurred.
+    pub fn report(&self, remarks: &mut Remarks) {
+        let mut count = |kind, count, text| remarks.count(kind, "", count, text);
+        count("points", self.points, "point primitives were dropped: only triangles are rendered");
+        count("lines", self.lines, "line primitives were dropped: only triangles are rendered");
+        count("no-positions", self.without_positions, "primitives without positions were dropped");
+        count("empty-mesh", self.empty, "primitives without triangles were dropped");
     }
 
     /// How the triangles of a primitive are made, and its positions; counts it if it has none.
-    fn triangles_of(&mut self, primitive: &Primitive) -> Option<(Mode, usize)> {
+    fn triangles_of(
+        &mut self,
+        document: &Document<'_>,
+        place: &str,
+        primitive: &Primitive,
+    ) -> Result<Option<(Mode, usize)>, SceneError> {
         let count = match primitive.mode {
             Checked::Valid(Mode::Points) => &mut self.points,
             Checked::Valid(Mode::Lines | Mode::LineLoop | Mode::LineStrip) => &mut self.lines,
             Checked::Valid(mode) => match attribute(primitive, Semantic::Positions) {
-                Some(positions) => return Some((mode, positions)),
+                Some(positions) => return Ok(Some((mode, positions))),
                 None => &mut self.without_positions,
             },
-            // Refused when the file was opened.
-            Checked::Invalid => &mut self.empty,
+            Checked::Invalid => {
+                let place = format!("{place}.mode");
+                let reason = document.unknown(&place);
+                return Err(document.invalid(place, reason));
+            }
         };
         *count += 1;
-        None
+        Ok(None)
     }
 }
 
@@ -79,14 +83,14 @@ pub(super) fn read(
     skins: &[Skin],
     shown: Shown,
     skipped: &mut Skipped,
-    warnings: &mut Vec<Warning>,
 ) -> Result<Option<Read>, SceneError> {
     let source = &document.root.meshes[shown.mesh];
     let primitive = &source.primitives[shown.primitive];
     let place = format!("meshes[{}].primitives[{}]", shown.mesh, shown.primitive);
-    let Some((mode, positions)) = skipped.triangles_of(primitive) else { return Ok(None) };
+    let Some((mode, positions)) = skipped.triangles_of(document, &place, primitive)? else { return Ok(None) };
     let name = mesh_name(source.name.as_deref(), shown.mesh, shown.primitive, source.primitives.len());
-    let mut mesh = undeformed(document, primitive, name, positions)?;
+    attributes::remark(document, &place, primitive);
+    let mut mesh = attributes::undeformed(document, primitive, name, positions)?;
     let corners = match primitive.indices {
         Some(indices) => read_integers::<1>(document, indices.value())?.into_iter().flatten().collect(),
         None => (0..mesh.positions.len() as u32).collect(),
@@ -99,19 +103,15 @@ pub(super) fn read(
     let binding = match (node.skin, attribute(primitive, Joints(0)), attribute(primitive, Weights(0))) {
         (Some(skin), Some(joints), Some(weights)) => {
             if attribute(primitive, Joints(1)).is_some() {
-                warnings.push(Warning {
-                    kind: "many-joints",
-                    message: format!("mesh {}: only the first four joints of a vertex are used", mesh.name),
-                });
+                let text = "only the first four joints of a vertex are used";
+                document.note("many-joints", format!("mesh {}", mesh.name), text);
             }
             let vertices = mesh.positions.len();
             Some(skins::read_binding(document, &place, skin.value(), (joints, weights), vertices)?)
         }
         (Some(_), ..) => {
-            warnings.push(Warning {
-                kind: "skin-without-joints",
-                message: format!("mesh {}: its node has a skin, but it has no joints or weights", mesh.name),
-            });
+            let text = "its node has a skin, but it has no joints or weights";
+            document.note("skin-without-joints", format!("mesh {}", mesh.name), text);
             None
         }
         (None, ..) => None,
@@ -128,7 +128,7 @@ pub(super) fn read(
         kept.skin = binding;
         deformed = Some(kept);
     }
-    clean_mesh(document.path, &mut mesh, warnings)?;
+    check::clean(document.path, &mut mesh, &mut document.remarks.borrow_mut())?;
     if mesh.indices.is_empty() {
         skipped.empty += 1;
         return Ok(None);
@@ -136,69 +136,9 @@ pub(super) fn read(
     Ok(Some(Read { mesh, deformed, world_from_mesh }))
 }
 
-/// The vertices of a primitive, as the file has them; no triangles yet.
-fn undeformed(
-    document: &Document<'_>,
-    primitive: &Primitive,
-    name: String,
-    positions: usize,
-) -> Result<Mesh, SceneError> {
-    let normals = attribute(primitive, Semantic::Normals);
-    let tangents = attribute(primitive, Semantic::Tangents);
-    let colors = attribute(primitive, Semantic::Colors(0));
-    Ok(Mesh {
-        name,
-        positions: read_directions(document, positions)?,
-        normals: normals.map(|index| read_directions(document, index)).transpose()?,
-        tangents: tangents.map(|index| read_directions(document, index)).transpose()?,
-        uvs: [read_uvs(document, primitive, 0)?, read_uvs(document, primitive, 1)?],
-        colors: colors.map(|index| read_colors(document, index)).transpose()?,
-        indices: Vec::new(),
-        material: primitive.material.map_or(document.root.materials.len(), |material| material.value()),
-    })
-}
-
 fn mesh_name(name: Option<&str>, mesh: usize, primitive: usize, primitives: usize) -> String {
     let name = name.map_or_else(|| format!("mesh{mesh}"), str::to_owned);
     if primitives > 1 { format!("{name}.{primitive}") } else { name }
-}
-
-fn attribute(primitive: &Primitive, semantic: Semantic) -> Option<usize> {
-    primitive.attributes.get(&Checked::Valid(semantic)).map(|index| index.value())
-}
-
-/// Positions, normals, tangents and their morph displacements: floats, unless the file says that its
-/// meshes are quantised.
-pub(super) fn read_directions<const N: usize>(
-    document: &Document<'_>,
-    accessor: usize,
-) -> Result<Vec<[f32; N]>, SceneError> {
-    let quantized = document.root.extensions_used.iter().any(|name| name == "KHR_mesh_quantization");
-    let component = document.root.accessors[accessor].component_type;
-    let floats = matches!(component, Checked::Valid(GenericComponentType(ComponentType::F32)));
-    let wide = matches!(component, Checked::Valid(GenericComponentType(ComponentType::U32)));
-    if !floats && (!quantized || wide) {
-        let reason =
-            "positions, normals and tangents must be floats (or small integers with KHR_mesh_quantization)";
-        return Err(document.invalid(format!("accessors[{accessor}]"), reason));
-    }
-    read_floats(document, accessor)
-}
-
-fn read_uvs(
-    document: &Document<'_>,
-    primitive: &Primitive,
-    set: u32,
-) -> Result<Option<Vec<[f32; 2]>>, SceneError> {
-    attribute(primitive, Semantic::TexCoords(set)).map(|index| read_floats(document, index)).transpose()
-}
-
-fn read_colors(document: &Document<'_>, accessor: usize) -> Result<Vec<[f32; 4]>, SceneError> {
-    if components(document, accessor)? == 3 {
-        let opaque = |[r, g, b]: [f32; 3]| [r, g, b, 1.0];
-        return Ok(read_floats(document, accessor)?.into_iter().map(opaque).collect());
-    }
-    read_floats(document, accessor)
 }
 
 /// Three corners a triangle, in the order and winding of the format.

@@ -8,11 +8,10 @@ use ::gltf::json::extensions::texture::TextureTransform;
 use ::gltf::json::texture::{Info, MagFilter, MinFilter, Texture as JsonTexture, WrappingMode};
 use ::gltf::json::validation::Checked;
 
-use super::buffers::view_bytes;
 use super::document::Document;
 use super::uri::{Reference, resolve};
-use crate::load::read_file;
-use crate::{Filter, Image, Limits, SceneError, Texture, TextureRef, Warning, Wrap, decode_image};
+use crate::images::{Encoded, count_texels, read_image};
+use crate::{Filter, Image, SceneError, Texture, TextureRef, Wrap};
 
 /// What a texture reference says, whichever of the typed structs it came from.
 pub(super) struct Use<'a> {
@@ -52,18 +51,18 @@ pub(super) fn source(texture: &JsonTexture) -> Option<Index<::gltf::json::Image>
 }
 
 /// Textures and images read so far.
-pub(super) struct TextureReader<'a> {
-    document: &'a Document<'a>,
+pub(super) struct TextureReader<'a, 'd> {
+    document: &'a Document<'d>,
     pub textures: Vec<Texture>,
     pub images: Vec<Image>,
     known_textures: HashMap<usize, Option<usize>>,
-    known_images: HashMap<usize, usize>,
+    known_images: HashMap<usize, Option<usize>>,
     pixels: u64,
 }
 
-impl<'a> TextureReader<'a> {
+impl<'a, 'd> TextureReader<'a, 'd> {
     /// A reader that has read nothing.
-    pub fn new(document: &'a Document<'a>) -> Self {
+    pub fn new(document: &'a Document<'d>) -> Self {
         Self {
             document,
             textures: Vec::new(),
@@ -75,30 +74,26 @@ impl<'a> TextureReader<'a> {
     }
 
     /// Reads what a material uses; `None`, with a warning, if it cannot be shown.
-    pub fn read(
-        &mut self,
-        place: &str,
-        wanted: Use<'_>,
-        warnings: &mut Vec<Warning>,
-    ) -> Result<Option<TextureRef>, SceneError> {
+    pub fn read(&mut self, place: &str, wanted: Use<'_>) -> Result<Option<TextureRef>, SceneError> {
         let transform = wanted.transform.as_deref();
         let uv_set = transform.and_then(|transform| transform.tex_coord).unwrap_or(wanted.uv_set);
         if uv_set > 1 {
-            warnings.push(Warning {
-                kind: "uv-set",
-                message: format!("{place}: texture coordinates {uv_set} are not supported, only 0 and 1; the texture was dropped"),
-            });
+            let text = format!(
+                "texture coordinates {uv_set} are not supported, only 0 and 1; the texture was dropped"
+            );
+            self.document.note("uv-set", place, text);
             return Ok(None);
         }
-        let Some(texture) = self.texture(wanted.texture, warnings)? else { return Ok(None) };
-        Ok(Some(TextureRef {
-            texture,
-            uv_set,
-            uv_transform: transform.map_or(IDENTITY, |found| matrix(place, found, warnings)),
-        }))
+        let Some(texture) = self.texture(wanted.texture)? else { return Ok(None) };
+        let uv_transform = transform.map_or(Some(IDENTITY), matrix).unwrap_or_else(|| {
+            let text = "its texture transform is not finite; none is applied";
+            self.document.note("texture-transform", place, text);
+            IDENTITY
+        });
+        Ok(Some(TextureRef { texture, uv_set, uv_transform }))
     }
 
-    fn texture(&mut self, index: usize, warnings: &mut Vec<Warning>) -> Result<Option<usize>, SceneError> {
+    fn texture(&mut self, index: usize) -> Result<Option<usize>, SceneError> {
         if let Some(&known) = self.known_textures.get(&index) {
             return Ok(known);
         }
@@ -108,16 +103,13 @@ impl<'a> TextureReader<'a> {
                 let reason = format!("refers to images[{}], which does not exist", image.value());
                 return Err(self.document.invalid(format!("textures[{index}]"), reason));
             }
-            Some(image) => {
-                let image = self.image(image.value(), warnings)?;
+            Some(image) => self.image(image.value())?.map(|image| {
                 self.textures.push(sampled(self.document, texture, image));
-                Some(self.textures.len() - 1)
-            }
+                self.textures.len() - 1
+            }),
             None => {
-                warnings.push(Warning {
-                    kind: "texture-without-image",
-                    message: format!("textures[{index}] has no PNG or JPEG image; it was dropped"),
-                });
+                let text = "has no PNG or JPEG image; it was dropped";
+                self.document.note("texture-without-image", format!("textures[{index}]"), text);
                 None
             }
         };
@@ -125,41 +117,45 @@ impl<'a> TextureReader<'a> {
         Ok(read)
     }
 
-    fn image(&mut self, index: usize, warnings: &mut Vec<Warning>) -> Result<usize, SceneError> {
+    /// Position of an image in the scene; `None`, with a remark, if it cannot be read.
+    fn image(&mut self, index: usize) -> Result<Option<usize>, SceneError> {
         if let Some(&known) = self.known_images.get(&index) {
             return Ok(known);
         }
-        let Document { path, limits, root, buffers, .. } = self.document;
-        let image = &root.images[index];
+        let document = self.document;
+        let (path, limits) = (document.path, document.limits);
+        let image = &document.root.images[index];
         let place = format!("images[{index}]");
         let file_name = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
         let name = image.name.as_deref().or(file_name).unwrap_or(&place);
-        let read;
-        let bytes: &[u8] = match (image.buffer_view, &image.uri) {
-            (Some(view), _) => view_bytes(path, root, buffers, view.value())?,
-            (None, Some(uri)) => {
-                read = match resolve(path, &place, uri, limits.file_bytes)? {
-                    Reference::Data(bytes) => bytes,
-                    Reference::File(file) => read_file(&file, limits.file_bytes)?,
-                };
-                &read
-            }
+        let (data, file);
+        let encoded = match (image.buffer_view, &image.uri) {
+            (Some(view), _) => Encoded::Bytes(document.view(view.value())?),
+            (None, Some(uri)) => match resolve(path, &place, uri, limits.file_bytes)? {
+                Reference::Data(bytes) => {
+                    data = bytes;
+                    Encoded::Bytes(&data)
+                }
+                Reference::File(found) => {
+                    file = found;
+                    Encoded::File(&file)
+                }
+            },
             (None, None) => {
-                return Err(self.document.invalid(place, "has neither a reference nor a buffer view"));
+                return Err(document.invalid(place, "has neither a reference nor a buffer view"));
             }
         };
-        let decoded = decode_image(path, name, bytes, limits, warnings)?;
-        self.pixels += u64::from(decoded.width) * u64::from(decoded.height);
-        Limits::check(
-            path,
-            "the number of texels of all images",
-            self.pixels,
-            limits.total_pixels,
-            "total_pixels",
-        )?;
-        self.images.push(decoded);
-        self.known_images.insert(index, self.images.len() - 1);
-        Ok(self.images.len() - 1)
+        let read = read_image(path, name, encoded, limits, &mut document.remarks.borrow_mut())?;
+        let position = match read {
+            Some(image) => {
+                count_texels(path, &image, &mut self.pixels, limits)?;
+                self.images.push(image);
+                Some(self.images.len() - 1)
+            }
+            None => None,
+        };
+        self.known_images.insert(index, position);
+        Ok(position)
     }
 }
 
@@ -187,20 +183,14 @@ fn sampled(document: &Document<'_>, texture: &JsonTexture, image: usize) -> Text
 const IDENTITY: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Scale, then rotation (counter-clockwise as seen on the image, whose v axis points down), then offset.
-fn matrix(place: &str, transform: &TextureTransform, warnings: &mut Vec<Warning>) -> [[f32; 3]; 2] {
+/// `None` if that is not finite.
+fn matrix(transform: &TextureTransform) -> Option<[[f32; 3]; 2]> {
     let (sin, cos) = f64::from(transform.rotation.0).sin_cos();
     let [scale_u, scale_v] = transform.scale.0.map(f64::from);
     let [offset_u, offset_v] = transform.offset.0.map(f64::from);
     let rows = [[cos * scale_u, sin * scale_v, offset_u], [-sin * scale_u, cos * scale_v, offset_v]];
     let rows = rows.map(|row| row.map(|x| x as f32));
-    if rows.iter().flatten().all(|x| x.is_finite()) {
-        return rows;
-    }
-    warnings.push(Warning {
-        kind: "texture-transform",
-        message: format!("{place}: its texture transform is not finite; none is applied"),
-    });
-    IDENTITY
+    rows.iter().flatten().all(|x| x.is_finite()).then_some(rows)
 }
 
 #[cfg(test)]
@@ -219,7 +209,7 @@ mod tests {
         for (json, [u, v], tolerance) in cases {
             let transform: TextureTransform =
                 ::gltf::json::deserialize::from_str(json).expect("a well-formed transform");
-            let rows = matrix("material", &transform, &mut Vec::new());
+            let rows = matrix(&transform).expect("a finite transform");
             for (row, tip) in rows.iter().zip(tip) {
                 let found = row[0] * u + row[1] * v + row[2];
                 assert!((found - tip).abs() < tolerance, "{json}: {found} instead of {tip}");
@@ -231,8 +221,6 @@ mod tests {
     fn a_transform_that_is_not_finite_is_not_applied() {
         let transform: TextureTransform =
             ::gltf::json::deserialize::from_str(r#"{"scale":[1e39,1]}"#).expect("a well-formed transform");
-        let mut warnings = Vec::new();
-        assert_eq!(matrix("material", &transform, &mut warnings), IDENTITY);
-        assert_eq!(warnings.len(), 1);
+        assert_eq!(matrix(&transform), None);
     }
 }

@@ -5,50 +5,63 @@ use std::path::Path;
 use ::gltf::json::Value;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
+use crate::SceneError;
 use crate::animation::NodeTransform;
-use crate::{SceneError, Warning};
+use crate::remarks::Remarks;
 
 /// How far the last row of a matrix may be from (0, 0, 0, 1).
 const PROJECTIVE_TOLERANCE: f64 = 1e-6;
+
+/// Share of the volume that its columns could span below which a matrix is singular, but for rounding.
+const SINGULAR: f64 = 1e-12;
 
 /// Reads the transform of every node.
 pub(super) fn read_all(
     path: &Path,
     tree: &Value,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<Vec<NodeTransform>, SceneError> {
     let nodes = tree.get("nodes").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
-    nodes.iter().enumerate().map(|(i, node)| read(path, i, node, warnings)).collect()
+    nodes.iter().enumerate().map(|(i, node)| read(path, i, node, remarks)).collect()
 }
 
-fn read(
-    path: &Path,
-    index: usize,
-    node: &Value,
-    warnings: &mut Vec<Warning>,
-) -> Result<NodeTransform, SceneError> {
+fn read(path: &Path, index: usize, node: &Value, remarks: &mut Remarks) -> Result<NodeTransform, SceneError> {
+    let place = format!("nodes[{index}]");
     if let Some(elements) = numbers::<16>(path, index, node, "matrix")? {
         let column = |k: usize| DVec3::new(elements[4 * k], elements[4 * k + 1], elements[4 * k + 2]);
         let bottom = [elements[3], elements[7], elements[11], elements[15] - 1.0];
         if bottom.iter().any(|x| x.abs() > PROJECTIVE_TOLERANCE) {
-            let reason = "is projective: its last row must be 0 0 0 1";
+            let [x, y, z, _] = bottom;
+            let reason = format!("is projective: its last row is {x} {y} {z} {}, not 0 0 0 1", elements[15]);
             return Err(SceneError::invalid(path, format!("nodes[{index}].matrix"), reason));
         }
-        return Ok(NodeTransform::Matrix(DAffine3 {
-            matrix3: DMat3::from_cols(column(0), column(1), column(2)),
-            translation: column(3),
-        }));
+        if ["translation", "rotation", "scale"].iter().any(|part| node.get(part).is_some()) {
+            let text = "has a matrix beside a translation, rotation or scale; only the matrix is used";
+            remarks.note("matrix-and-parts", &place, text);
+        }
+        let matrix3 = DMat3::from_cols(column(0), column(1), column(2));
+        let volume = [0, 1, 2].map(|k| matrix3.col(k).length()).into_iter().product::<f64>();
+        if matrix3.determinant().abs() <= SINGULAR * volume {
+            remarks.note(
+                "singular-transform",
+                place,
+                "has a singular matrix; what it places is flat or a point",
+            );
+        }
+        return Ok(NodeTransform::Matrix(DAffine3 { matrix3, translation: column(3) }));
     }
     let translation = numbers::<3>(path, index, node, "translation")?.map_or(DVec3::ZERO, DVec3::from);
     let scale = numbers::<3>(path, index, node, "scale")?.map_or(DVec3::ONE, DVec3::from);
+    if scale.to_array().contains(&0.0) {
+        remarks.note("zero-scale", &place, "has a scale of 0; what it places is flat or a point");
+    }
     let rotation = match numbers::<4>(path, index, node, "rotation")? {
         Some(elements) => unit_rotation(elements).unwrap_or_else(|| {
-            warnings.push(Warning {
-                kind: "bad-rotation",
-                message: format!(
-                    "nodes[{index}]: the rotation {elements:?} has no direction; none is applied"
-                ),
-            });
+            remarks.note(
+                "bad-rotation",
+                &place,
+                format!("the rotation {elements:?} has no direction; none is applied"),
+            );
             DQuat::IDENTITY
         }),
         None => DQuat::IDENTITY,

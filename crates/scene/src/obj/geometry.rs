@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::reference::resolve;
+use super::skipped::Skipped;
 use super::statements::{Statement, statements};
-use crate::{Limits, Mesh, SceneError, Warning};
+use crate::{Limits, Mesh, SceneError};
 
 /// What an OBJ file holds.
 pub(super) struct Geometry {
@@ -14,7 +15,9 @@ pub(super) struct Geometry {
     /// In the order of first use by a face; the empty name stands for faces without a material.
     pub material_names: Vec<String>,
     pub libraries: Vec<Library>,
-    pub warnings: Vec<Warning>,
+    pub skipped: Skipped,
+    /// Number of `v` statements.
+    pub vertices: usize,
 }
 
 /// A `mtllib` statement.
@@ -51,6 +54,7 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         run: None,
         meshes: Vec::new(),
         triangles: 0,
+        known: false,
         face: Vec::new(),
         skipped: Skipped::default(),
     };
@@ -58,11 +62,16 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         reader.take(&statement)?;
     }
     reader.end_run();
+    if let (false, Some((word, place))) = (reader.known, &reader.skipped.first_unknown) {
+        let reason = format!("{place} begins with `{word}`, and no line is a statement of an OBJ file");
+        return Err(SceneError::syntax(path, reason));
+    }
     Ok(Geometry {
         meshes: reader.meshes,
         material_names: reader.material_names,
         libraries: reader.libraries,
-        warnings: reader.skipped.warnings(),
+        skipped: reader.skipped,
+        vertices: reader.positions.len(),
     })
 }
 
@@ -98,6 +107,8 @@ struct Reader<'a> {
     run: Option<Run>,
     meshes: Vec<Mesh>,
     triangles: u64,
+    /// Whether any statement was one of an OBJ file.
+    known: bool,
     /// Corners of the current face, kept to save an allocation for each.
     face: Vec<Corner>,
     skipped: Skipped,
@@ -137,8 +148,12 @@ impl Reader<'_> {
             // Smoothing groups only matter where normals have to be made up.
             b"s" => {}
             b"p" | b"l" => self.skipped.points_and_lines += 1,
-            _ => self.skipped.note_unknown(statement),
+            _ => {
+                self.skipped.note_unknown(statement);
+                return Ok(());
+            }
         }
+        self.known = true;
         Ok(())
     }
 
@@ -281,57 +296,14 @@ impl Reader<'_> {
 
     /// Refuses to let an array of `count` elements grow.
     fn room(&self, count: usize) -> Result<(), SceneError> {
-        // Indices are u32, whatever the limit says.
-        let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);
-        Limits::check(self.path, "the number of vertices", count as u64 + 1, limit, "vertices")
-    }
-}
-
-/// Counts of what is not shown.
-#[derive(Default)]
-struct Skipped {
-    points_and_lines: usize,
-    faces: usize,
-    colors: usize,
-    unknown: usize,
-    first_unknown: Option<(String, String)>,
-}
-
-impl Skipped {
-    fn note_unknown(&mut self, statement: &Statement<'_>) {
-        self.unknown += 1;
-        self.first_unknown.get_or_insert_with(|| {
-            (String::from_utf8_lossy(&statement.word).chars().take(40).collect(), statement.place())
-        });
-    }
-
-    fn warnings(self) -> Vec<Warning> {
-        let mut warnings = Vec::new();
-        let mut warn = |kind, count: usize, message: String| {
-            if count > 0 {
-                warnings.push(Warning { kind, message });
-            }
-        };
-        let Self { points_and_lines, faces, colors, unknown, .. } = self;
-        warn(
-            "points-and-lines",
-            points_and_lines,
-            format!(
-                "{points_and_lines} point and line statements are not shown: only triangles are rendered"
-            ),
-        );
-        warn("short-faces", faces, format!("{faces} faces have fewer than three corners and were dropped"));
-        warn(
-            "vertex-colors",
-            colors,
-            format!("{colors} vertices have colours, which are ignored in OBJ files"),
-        );
-        if let Some((word, place)) = self.first_unknown {
-            let message = format!(
-                "{unknown} statements of unknown or unsupported kinds were skipped, the first is `{word}` in {place}"
-            );
-            warn("unknown-statements", unknown, message);
+        let wanted = count as u64 + 1;
+        if wanted >= u64::from(u32::MAX) {
+            return Err(SceneError::invalid(
+                self.path,
+                "vertices",
+                "there are more than 32-bit indices can name",
+            ));
         }
-        warnings
+        Limits::check(self.path, "the number of vertices", wanted, self.limits.vertices, "vertices")
     }
 }

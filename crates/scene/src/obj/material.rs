@@ -3,13 +3,14 @@
 use super::mtl::MtlMaterial;
 use super::textures::Textures;
 use crate::default_view::plain_material;
-use crate::{AlphaMode, Material, SceneError, Warning};
+use crate::remarks::Remarks;
+use crate::{AlphaMode, Material, SceneError};
 
 /// Translates a material by the table at [`crate::obj`].
 pub(super) fn translate(
     found: &MtlMaterial,
     textures: &mut Textures<'_>,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<Material, SceneError> {
     let mut material = plain_material(&found.name);
     let unit = |color: [f32; 3]| color.map(|channel| channel.clamp(0.0, 1.0));
@@ -28,7 +29,7 @@ pub(super) fn translate(
 
     let mut emission = found.emission.unwrap_or([0.0; 3]).map(|channel| channel.max(0.0));
     if let Some(map) = &found.emission_map {
-        material.emission_texture = textures.color(map, warnings)?;
+        material.emission_texture = textures.color(map, remarks)?;
         if material.emission_texture.is_some() && emission == [0.0; 3] {
             emission = [1.0; 3];
         }
@@ -63,7 +64,7 @@ pub(super) fn translate(
         _ => {}
     }
 
-    material.base_color_texture = textures.base_color(found, warnings)?;
+    material.base_color_texture = textures.base_color(found, remarks)?;
     if material.base_color_texture.is_some() {
         if found.opacity_map.is_some() && textures.has_mask(found) {
             material.alpha_mode = AlphaMode::Mask { cutoff: 0.5 };
@@ -71,17 +72,12 @@ pub(super) fn translate(
         }
         if material.base_color[..3] == [0.0; 3] && found.diffuse_map.is_some() {
             material.base_color[..3].copy_from_slice(&[1.0; 3]);
-            warnings.push(Warning {
-                kind: "black-diffuse",
-                message: format!(
-                    "material `{}` has a black Kd with a map_Kd; Kd was taken as white",
-                    found.name
-                ),
-            });
+            let text = "has a black Kd with a map_Kd; Kd was taken as white";
+            remarks.note("black-diffuse", format!("material {}", found.name), text);
         }
     }
     if let Some(map) = &found.normal_map {
-        material.normal_texture = textures.color(map, warnings)?;
+        material.normal_texture = textures.color(map, remarks)?;
     }
     Ok(material)
 }

@@ -28,6 +28,7 @@ mod geometry;
 mod material;
 mod mtl;
 mod reference;
+mod skipped;
 mod statements;
 mod textures;
 
@@ -37,8 +38,11 @@ use std::path::Path;
 use glam::DAffine3;
 
 use crate::default_view::plain_material;
-use crate::load::{read_file, scene_name};
-use crate::{Instance, LoadOptions, Material, Mesh, Scene, SceneError, Warning};
+use crate::load::{Empty, finish, read_file, scene_name};
+use crate::recognise::{binary, recognise};
+use crate::remarks::Remarks;
+use crate::text::shown;
+use crate::{Instance, LoadOptions, Material, Mesh, Scene, SceneError};
 use geometry::{Geometry, Library};
 use mtl::MtlMaterial;
 use textures::Textures;
@@ -46,48 +50,54 @@ use textures::Textures;
 /// Loads an OBJ file, the material libraries it names, and the textures that these name.
 ///
 /// A library, material or texture that is missing is a warning; the triangles are shown in light
-/// grey, or without the texture.
+/// grey, or without the texture. A file without faces is a scene without triangles, with a warning.
 ///
 /// # Errors
 /// - [`SceneError::Read`] if the file cannot be read; [`SceneError::TooLarge`] beyond a limit.
-/// - [`SceneError::Syntax`] for a word where a number must be, with the line.
+/// - [`SceneError::NotThisFormat`] for binary data and files of other formats.
+/// - [`SceneError::Syntax`] for a word where a number must be, with the line, and where no line is a
+///   statement of the format.
 /// - [`SceneError::IndexOutOfRange`] or [`SceneError::Invalid`] for a face that refers to what is not
 ///   defined above it, with the line.
 /// - [`SceneError::UnsafeReference`] for a library or texture with an absolute path or one with `..`.
+/// - [`SceneError::NoTriangles`] if there are faces and none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let bytes = read_file(path, options.limits.file_bytes)?;
-    let Geometry { mut meshes, material_names, libraries, mut warnings } =
+    if let Some(foreign) = recognise(&bytes).or_else(|| binary(&bytes)) {
+        return Err(foreign.refuse(path, "an OBJ file"));
+    }
+    let mut remarks = Remarks::default();
+    let Geometry { mut meshes, material_names, libraries, skipped, vertices } =
         geometry::read(path, &bytes, &options.limits)?;
     drop(bytes);
+    skipped.report(&mut remarks);
 
-    let known = read_libraries(path, &libraries, options, &mut warnings)?;
+    let known = read_libraries(path, &libraries, options, &mut remarks)?;
     let mut textures = Textures::new(path, &options.limits);
-    let mut materials = translate(&material_names, &known, &mut textures, &mut warnings)?;
+    let mut materials = translate(&material_names, &known, &mut textures, &mut remarks)?;
     let (textures, images) = textures.finish();
     if materials.is_empty() {
         materials.push(plain_material("default"));
     }
-
-    let mut found = Vec::new();
     for mesh in &mut meshes {
-        crate::check::clean_mesh(path, mesh, &mut found)?;
+        crate::check::clean(path, mesh, &mut remarks)?;
     }
-    warnings.extend(first_of_each_kind(found));
-    if meshes.is_empty() {
-        warnings.push(Warning {
-            kind: "no-triangles",
-            message: "the file has no faces; the scene shows only the background".to_owned(),
-        });
-    }
-    Ok(Scene {
+    let has_faces = !meshes.is_empty() || skipped.faces > 0;
+    let scene = Scene {
         name: scene_name(path),
         instances: place(&meshes),
         meshes,
         materials,
         textures,
         images,
-        warnings,
         ..Scene::default()
+    };
+    finish(path, scene, remarks, |remarks| {
+        Some(if has_faces {
+            Empty::Dropped(remarks.sentence(&["short-faces", "dropped-triangles"]))
+        } else {
+            Empty::Bare(format!("the file has {vertices} vertices and no faces"))
+        })
     })
 }
 
@@ -96,25 +106,31 @@ fn read_libraries(
     path: &Path,
     libraries: &[Library],
     options: &LoadOptions,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<HashMap<String, MtlMaterial>, SceneError> {
     let mut known = HashMap::new();
     let folder = path.parent().unwrap_or(Path::new(""));
     for library in libraries {
         let mut read = 0;
         for file in library.files(path, folder)? {
+            let mut missing = |reason: String| {
+                let text = format!("{reason}; its materials are shown in light grey");
+                remarks.note("missing-material-library", file.display().to_string(), text);
+            };
             match read_file(&file, options.limits.file_bytes) {
-                Ok(bytes) => {
-                    read += 1;
-                    for material in mtl::parse(&file, &bytes, warnings)? {
-                        known.entry(material.name.clone()).or_insert(material);
+                Ok(bytes) => match recognise(&bytes).filter(|_| !bytes.is_empty()).or_else(|| binary(&bytes))
+                {
+                    Some(foreign) => missing(format!("is {}, not a material library", foreign.what)),
+                    None => {
+                        read += 1;
+                        let materials = mtl::parse(&file, &bytes, remarks);
+                        for material in materials.map_err(|error| error.of_scene(path))? {
+                            known.entry(material.name.clone()).or_insert(material);
+                        }
                     }
-                }
-                Err(SceneError::Read { source, .. }) => warnings.push(Warning {
-                    kind: "missing-material-library",
-                    message: format!("{}: {source}; its materials are shown in light grey", file.display()),
-                }),
-                Err(error) => return Err(error),
+                },
+                Err(SceneError::Read { source, .. }) => missing(source.to_string()),
+                Err(error) => return Err(error.of_scene(path)),
             }
         }
         tracing::debug!(library = library.name, files = read, "material library");
@@ -127,13 +143,13 @@ fn translate(
     names: &[String],
     known: &HashMap<String, MtlMaterial>,
     textures: &mut Textures<'_>,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<Vec<Material>, SceneError> {
     let mut materials = Vec::with_capacity(names.len());
     let mut missing = Vec::new();
     for name in names {
         materials.push(match known.get(name) {
-            Some(found) => material::translate(found, textures, warnings)?,
+            Some(found) => material::translate(found, textures, remarks)?,
             None if name.is_empty() => plain_material("default"),
             None => {
                 missing.push(name.as_str());
@@ -142,11 +158,11 @@ fn translate(
         });
     }
     if let Some(first) = missing.first() {
-        let count = missing.len();
-        let message = format!(
-            "{count} materials are not defined, the first is `{first}`; their triangles are shown in light grey"
+        let first = shown(first);
+        let text = format!(
+            "materials are not defined, the first is `{first}`; their triangles are shown in light grey"
         );
-        warnings.push(Warning { kind: "missing-material", message });
+        remarks.count("missing-material", "", missing.len(), text);
     }
     Ok(materials)
 }
@@ -162,22 +178,4 @@ fn place(meshes: &[Mesh]) -> Vec<Instance> {
         instances.push(Instance { name, mesh: index, world_from_mesh: DAffine3::IDENTITY });
     }
     instances
-}
-
-/// Hundreds of meshes may share a fault: the first warning of a kind stands for all, with a count.
-pub(crate) fn first_of_each_kind(found: Vec<Warning>) -> Vec<Warning> {
-    let mut kept: Vec<(Warning, usize)> = Vec::new();
-    for warning in found {
-        match kept.iter_mut().find(|(first, _)| first.kind == warning.kind) {
-            Some((_, more)) => *more += 1,
-            None => kept.push((warning, 0)),
-        }
-    }
-    let told = |(mut warning, more): (Warning, usize)| {
-        if more > 0 {
-            warning.message = format!("{} (and the like in {more} more meshes)", warning.message);
-        }
-        warning
-    };
-    kept.into_iter().map(told).collect()
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::reference::resolve;
 use super::statements::{Statement, number, statements};
-use crate::{SceneError, Warning};
+use crate::SceneError;
+use crate::remarks::Remarks;
 
 /// One `newmtl` section. `None` where the file does not say.
 #[derive(Clone, Debug, Default)]
@@ -54,7 +55,7 @@ pub(super) struct Map {
 pub(super) fn parse(
     path: &Path,
     bytes: &[u8],
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<Vec<MtlMaterial>, SceneError> {
     let mut materials: Vec<MtlMaterial> = Vec::new();
     let mut ignored = Ignored::default();
@@ -67,7 +68,7 @@ pub(super) fn parse(
             ignored.note(&String::from_utf8_lossy(&statement.word));
         }
     }
-    ignored.warn(path, warnings);
+    ignored.note_all(path, remarks);
     Ok(materials)
 }
 
@@ -216,24 +217,23 @@ impl Ignored {
         *self.counts.entry(if known { what } else { "others".to_owned() }).or_default() += 1;
     }
 
-    fn warn(self, path: &Path, warnings: &mut Vec<Warning>) {
+    fn note_all(self, path: &Path, remarks: &mut Remarks) {
         // Height fields have a warning of their own: what they would show is missed most.
         let is_bump = |what: &str| what.starts_with("map_bump") || what.starts_with("bump");
         let (bumps, others): (Vec<_>, Vec<_>) = self.counts.into_iter().partition(|(what, _)| is_bump(what));
         let list = |counts: &[(String, usize)]| {
             counts.iter().map(|(what, count)| format!("{what} ({count})")).collect::<Vec<_>>().join(", ")
         };
+        let place = path.display().to_string();
         if !bumps.is_empty() {
-            let message = format!(
-                "{}: height maps are not supported and were ignored: {}; convert them to normal maps and name them by `norm`",
-                path.display(),
+            let text = format!(
+                "height maps are not supported and were ignored: {}; convert them to normal maps and name them by `norm`",
                 list(&bumps)
             );
-            warnings.push(Warning { kind: "height-map", message });
+            remarks.note("height-map", &place, text);
         }
         if !others.is_empty() {
-            let message = format!("{}: ignored: {}", path.display(), list(&others));
-            warnings.push(Warning { kind: "unsupported-material-statements", message });
+            remarks.note("unsupported-material-statements", place, format!("ignored: {}", list(&others)));
         }
     }
 }

@@ -7,8 +7,10 @@ use image::imageops::{FilterType, resize};
 use image::{Rgba, RgbaImage};
 
 use super::mtl::{Map, MtlMaterial};
-use crate::load::read_file;
-use crate::{Filter, Image, Limits, SceneError, Texture, TextureRef, Warning, Wrap, decode_image};
+use crate::images::{Encoded, count_texels, read_image};
+use crate::remarks::Remarks;
+use crate::text::shown;
+use crate::{Filter, Image, Limits, SceneError, Texture, TextureRef, Wrap};
 
 /// Images and textures as materials ask for them.
 pub(super) struct Textures<'a> {
@@ -45,12 +47,8 @@ impl<'a> Textures<'a> {
     }
 
     /// A file as it is. `None`, with a warning, if it is missing or cannot be decoded.
-    pub fn color(
-        &mut self,
-        map: &Map,
-        warnings: &mut Vec<Warning>,
-    ) -> Result<Option<TextureRef>, SceneError> {
-        if !self.decode(map, warnings)? {
+    pub fn color(&mut self, map: &Map, remarks: &mut Remarks) -> Result<Option<TextureRef>, SceneError> {
+        if !self.decode(map, remarks)? {
             return Ok(None);
         }
         self.texture(Source { color: Some(map.file.clone()), mask: None }, map).map(Some)
@@ -60,30 +58,26 @@ impl<'a> Textures<'a> {
     pub fn base_color(
         &mut self,
         found: &MtlMaterial,
-        warnings: &mut Vec<Warning>,
+        remarks: &mut Remarks,
     ) -> Result<Option<TextureRef>, SceneError> {
         let mut source = Source { color: None, mask: None };
         let mut placed = None;
         if let Some(map) = &found.opacity_map
-            && self.decode(map, warnings)?
+            && self.decode(map, remarks)?
         {
             source.mask = Some(map.file.clone());
             placed = Some(map);
         }
         if let Some(map) = &found.diffuse_map
-            && self.decode(map, warnings)?
+            && self.decode(map, remarks)?
         {
             source.color = Some(map.file.clone());
             if placed.is_some_and(|mask| {
                 (mask.scale, mask.offset, mask.clamp) != (map.scale, map.offset, map.clamp)
             }) {
-                warnings.push(Warning {
-                    kind: "mask-placement",
-                    message: format!(
-                        "material `{}` places map_d otherwise than map_Kd; the mask follows map_Kd",
-                        found.name
-                    ),
-                });
+                let place = format!("material {}", shown(&found.name));
+                let text = "places map_d otherwise than map_Kd; the mask follows map_Kd";
+                remarks.note("mask-placement", place, text);
             }
             placed = Some(map);
         }
@@ -101,34 +95,14 @@ impl<'a> Textures<'a> {
     }
 
     /// Makes sure that a file is decoded; false if it cannot be.
-    fn decode(&mut self, map: &Map, warnings: &mut Vec<Warning>) -> Result<bool, SceneError> {
+    fn decode(&mut self, map: &Map, remarks: &mut Remarks) -> Result<bool, SceneError> {
         if let Some(known) = self.files.get(&map.file) {
             return Ok(known.is_some());
         }
-        let decoded = match read_file(&map.file, self.limits.file_bytes) {
-            Ok(bytes) => match decode_image(self.path, &map.name, &bytes, self.limits, warnings) {
-                Ok(image) => Some(image),
-                Err(error @ SceneError::TooLarge { .. }) => return Err(error),
-                Err(error) => {
-                    warnings.push(Warning {
-                        kind: "unreadable-texture",
-                        message: format!("texture {} is not shown: {error}", map.file.display()),
-                    });
-                    None
-                }
-            },
-            Err(SceneError::Read { source, .. }) => {
-                warnings.push(Warning {
-                    kind: "missing-texture",
-                    message: format!("texture {} is not shown: {source}", map.file.display()),
-                });
-                None
-            }
-            Err(error) => return Err(error),
-        };
-        let shown = decoded.is_some();
+        let decoded = read_image(self.path, &map.name, Encoded::File(&map.file), self.limits, remarks)?;
+        let is_shown = decoded.is_some();
         self.files.insert(map.file.clone(), decoded);
-        Ok(shown)
+        Ok(is_shown)
     }
 
     fn texture(&mut self, source: Source, map: &Map) -> Result<TextureRef, SceneError> {
@@ -147,15 +121,7 @@ impl<'a> Textures<'a> {
                         });
                     }
                 };
-                self.pixels += u64::from(image.width) * u64::from(image.height);
-                let limit = self.limits.total_pixels;
-                Limits::check(
-                    self.path,
-                    "the number of texels of all images",
-                    self.pixels,
-                    limit,
-                    "total_pixels",
-                )?;
+                count_texels(self.path, &image, &mut self.pixels, self.limits)?;
                 self.images.push(image);
                 self.made.insert(source, self.images.len() - 1);
                 self.images.len() - 1

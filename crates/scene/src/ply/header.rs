@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use crate::SceneError;
+use crate::recognise::{binary, recognise};
+use crate::text::shown;
 
 /// How numbers stand in the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,21 +93,27 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header, SceneError> {
     let mut header = Header { encoding: Encoding::Ascii, elements: Vec::new(), body: 0, lines: 0 };
     let mut encoding = None;
     loop {
+        let line = next_line(&bytes[..bytes.len().min(MAX_HEADER)], header.body);
+        if header.lines == 0 && line.is_none_or(|(line, _)| line.trim_ascii() != b"ply") {
+            let foreign = recognise(bytes).or_else(|| binary(bytes));
+            return Err(foreign.map_or_else(
+                || SceneError::syntax(path, "line 1: a PLY file begins with the line `ply`"),
+                |foreign| foreign.refuse(path, "a PLY file"),
+            ));
+        }
         let fail = |line: usize, reason: &str| SceneError::syntax(path, format!("line {line}: {reason}"));
-        let Some((line, next)) = next_line(&bytes[..bytes.len().min(MAX_HEADER)], header.body) else {
+        let Some((line, next)) = line else {
             return Err(fail(header.lines + 1, "the header does not end; it must end with `end_header`"));
         };
         header.body = next;
         header.lines += 1;
         let number = header.lines;
-        let text = String::from_utf8_lossy(line);
-        let words: Vec<&str> = text.split_whitespace().collect();
         if number == 1 {
-            if words != ["ply"] {
-                return Err(fail(1, "a PLY file begins with the line `ply`"));
-            }
             continue;
         }
+        let text = String::from_utf8_lossy(line);
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let unknown = |what: &str, word: &str| fail(number, &format!("`{}` is {what}", shown(word)));
         match words[..] {
             [] | ["comment" | "obj_info", ..] => {}
             ["format", form, version] => {
@@ -114,51 +122,39 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Header, SceneError> {
                     "binary_little_endian" => Encoding::LittleEndian,
                     "binary_big_endian" => Encoding::BigEndian,
                     _ => {
-                        return Err(fail(
-                            number,
-                            "the format must be ascii, binary_little_endian or binary_big_endian",
-                        ));
+                        let what = "no format; there are ascii, binary_little_endian and binary_big_endian";
+                        return Err(unknown(what, form));
                     }
                 });
                 if version != "1.0" {
-                    return Err(fail(number, "only version 1.0 of the format exists"));
+                    return Err(unknown("no version of the format; there is only 1.0", version));
                 }
             }
             ["element", name, count] => {
-                let count = count
-                    .parse()
-                    .map_err(|_| fail(number, "the number of elements is not a whole number"))?;
+                let count = count.parse().map_err(|_| unknown("not a whole number of elements", count))?;
                 header.elements.push(Element { name: name.to_owned(), count, properties: Vec::new() });
             }
-            ["property", "list", length, entry, name] => {
-                let (Some(length), Some(scalar)) = (Scalar::named(length), Scalar::named(entry)) else {
-                    return Err(fail(number, "a property has an unknown type"));
+            ["property", ref types @ .., name] if matches!(types, [_] | ["list", _, _]) => {
+                let scalar =
+                    |word: &str| Scalar::named(word).ok_or_else(|| unknown("no type of the format", word));
+                let (length, scalar) = match *types {
+                    [_, length, entry] => (Some(scalar(length)?), scalar(entry)?),
+                    _ => (None, scalar(types[0])?),
                 };
-                if length.is_float() {
+                if length.is_some_and(Scalar::is_float) {
                     return Err(fail(number, "the length of a list must have a type of whole numbers"));
                 }
-                let property = Property { name: name.to_owned(), scalar, length: Some(length) };
-                push(&mut header, property)
-                    .ok_or_else(|| fail(number, "a property stands before any element"))?;
-            }
-            ["property", scalar, name] => {
-                let scalar =
-                    Scalar::named(scalar).ok_or_else(|| fail(number, "a property has an unknown type"))?;
-                let property = Property { name: name.to_owned(), scalar, length: None };
-                push(&mut header, property)
-                    .ok_or_else(|| fail(number, "a property stands before any element"))?;
+                let property = Property { name: name.to_owned(), scalar, length };
+                let element = header.elements.last_mut();
+                let element = element.ok_or_else(|| fail(number, "a property stands before any element"))?;
+                element.properties.push(property);
             }
             ["end_header"] => break,
-            _ => return Err(fail(number, "this is no line of a PLY header")),
+            _ => return Err(unknown("no line of a PLY header", text.trim())),
         }
     }
     header.encoding = encoding.ok_or_else(|| SceneError::syntax(path, "the header has no line `format`"))?;
     Ok(header)
-}
-
-fn push(header: &mut Header, property: Property) -> Option<()> {
-    header.elements.last_mut()?.properties.push(property);
-    Some(())
 }
 
 /// The line that begins at `start`, and where the next begins. Ends with LF, CR LF or CR; a CR that

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use super::body::Body;
 use super::header::{Element, Header, Property, Scalar};
-use crate::{Limits, Mesh, SceneError, Warning};
+use crate::remarks::Remarks;
+use crate::text::shown;
+use crate::{Limits, Mesh, SceneError};
 
 /// Reads all elements of the body.
 pub(super) fn read(
@@ -12,7 +14,7 @@ pub(super) fn read(
     bytes: &[u8],
     header: &Header,
     limits: &Limits,
-    warnings: &mut Vec<Warning>,
+    remarks: &mut Remarks,
 ) -> Result<Mesh, SceneError> {
     let mut body = Body::new(path, bytes, header);
     let mut mesh = Mesh::default();
@@ -27,9 +29,11 @@ pub(super) fn read(
         match element.name.as_str() {
             "vertex" if !has_vertices => {
                 has_vertices = true;
-                // Indices are u32, whatever the limit says.
-                let limit = limits.vertices.min(u64::from(u32::MAX));
-                Limits::check(path, "the number of vertices", element.count, limit, "vertices")?;
+                if element.count > u64::from(u32::MAX) {
+                    let reason = format!("{} vertices are more than 32-bit indices can name", element.count);
+                    return Err(SceneError::invalid(path, "element vertex", reason));
+                }
+                Limits::check(path, "the number of vertices", element.count, limits.vertices, "vertices")?;
                 read_vertices(path, &mut body, element, &mut mesh)?;
             }
             "face" => faces.read(path, &mut body, element, limits, &mut mesh)?,
@@ -41,11 +45,8 @@ pub(super) fn read(
             }
         }
     }
-    if faces.short > 0 {
-        let message =
-            format!("{} faces or strips have fewer than three corners and were dropped", faces.short);
-        warnings.push(Warning { kind: "short-faces", message });
-    }
+    let text = "faces or strips have fewer than three corners and were dropped";
+    remarks.count("short-faces", "", faces.short, text);
     Ok(mesh)
 }
 
@@ -55,9 +56,10 @@ fn check_room(body: &Body<'_>, element: &Element) -> Result<(), SceneError> {
     let least = element.count.saturating_mul(element.properties.len() as u64);
     if least > body.left() as u64 {
         let Element { name, count, .. } = element;
-        return Err(
-            body.error(&format!("{count} elements `{name}` are promised, more than the file can hold"))
-        );
+        return Err(body.error(&format!(
+            "{count} elements `{}` are promised, more than the file can hold",
+            shown(name)
+        )));
     }
     Ok(())
 }
@@ -186,7 +188,7 @@ fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
 #[derive(Default)]
 struct Faces {
     /// Faces with fewer than three corners.
-    short: u64,
+    short: usize,
 }
 
 impl Faces {
@@ -238,7 +240,7 @@ impl Faces {
             for _ in 0..count {
                 let index = body.number(scalar)?;
                 if index < 0.0 {
-                    self.short += u64::from(std::mem::take(&mut strip).is_short());
+                    self.short += usize::from(std::mem::take(&mut strip).is_short());
                     continue;
                 }
                 // Strips may stand before the vertices: the finished mesh is checked for the upper end.
@@ -249,7 +251,7 @@ impl Faces {
                     self.add(path, &corners, limits, mesh)?;
                 }
             }
-            self.short += u64::from(strip.is_short());
+            self.short += usize::from(strip.is_short());
             skip(body, &element.properties[list + 1..])?;
         }
         Ok(())

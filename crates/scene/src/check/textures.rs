@@ -1,0 +1,38 @@
+//! Textures that meshes have no coordinates for.
+
+use crate::remarks::Remarks;
+use crate::{Material, Scene, TextureRef};
+
+/// Remarks on every mesh whose material has a texture that the mesh has no coordinates for.
+pub(crate) fn textured(scene: &Scene, remarks: &mut Remarks) {
+    for mesh in &scene.meshes {
+        let Some(material) = scene.materials.get(mesh.material) else { continue };
+        for (what, texture) in textures(material) {
+            let Some(TextureRef { uv_set, .. }) = texture else { continue };
+            if mesh.uvs.get(uv_set as usize).is_none_or(Option::is_none) {
+                // A tangent follows from coordinates unless the mesh has its own.
+                let flat = what == "normal map" && mesh.tangents.is_none();
+                let effect =
+                    if flat { "it has no effect" } else { "the same texel of it is used everywhere" };
+                remarks.note(
+                    "texture-without-coordinates",
+                    super::place(mesh),
+                    format!(
+                        "its material has a {what}, but it has no texture coordinates {uv_set}: {effect}"
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// The textures of a material with their names.
+fn textures(material: &Material) -> [(&'static str, Option<TextureRef>); 5] {
+    [
+        ("base colour texture", material.base_color_texture),
+        ("metallic-roughness texture", material.metallic_roughness_texture),
+        ("normal map", material.normal_texture),
+        ("emission texture", material.emission_texture),
+        ("transmission texture", material.transmission_texture),
+    ]
+}

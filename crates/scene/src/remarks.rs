@@ -1,0 +1,159 @@
+//! What a reader has to say of a file: collected while it is read, told once.
+
+use std::collections::HashMap;
+
+use crate::Warning;
+use crate::text::{sentence, shown};
+
+/// Different texts of one kind that are told; more are counted, so that no file can make the list long.
+const TEXTS: usize = 16;
+
+/// Remarks on the places of a file. The same remark on many places becomes one warning.
+#[derive(Debug, Default)]
+pub(crate) struct Remarks {
+    list: Vec<Remark>,
+    /// Position in `list` by kind and text.
+    known: HashMap<(&'static str, String), usize>,
+    /// Number of texts, and the position of the last that is told, by kind.
+    kinds: HashMap<&'static str, (usize, usize)>,
+}
+
+#[derive(Debug)]
+struct Remark {
+    kind: &'static str,
+    /// Where it was first made; empty for the file as a whole.
+    place: String,
+    /// Where it was last made.
+    last: String,
+    /// Places after the first.
+    more: usize,
+    /// Sum over all places, where things are counted.
+    count: Option<u64>,
+    text: String,
+    /// Remarks of the same kind that are not told.
+    untold: usize,
+}
+
+impl Remarks {
+    /// A remark on a place: `mesh a: text`. An empty place is the file as a whole.
+    pub fn note(&mut self, kind: &'static str, place: impl Into<String>, text: impl Into<String>) {
+        self.add(kind, place.into(), None, text.into());
+    }
+
+    /// A remark on `count` things in a place, unless there are none: `mesh a: 3 text`. Counts of several places are added.
+    pub fn count(
+        &mut self,
+        kind: &'static str,
+        place: impl Into<String>,
+        count: usize,
+        text: impl Into<String>,
+    ) {
+        if count > 0 {
+            self.add(kind, place.into(), Some(count as u64), text.into());
+        }
+    }
+
+    fn add(&mut self, kind: &'static str, place: String, count: Option<u64>, text: String) {
+        if let Some(&position) = self.known.get(&(kind, text.clone())) {
+            let remark = &mut self.list[position];
+            remark.count = remark.count.zip(count).map(|(sum, count)| sum.saturating_add(count));
+            if remark.last != place {
+                remark.more += 1;
+                remark.last = place;
+            }
+            return;
+        }
+        let (texts, last) = self.kinds.entry(kind).or_insert((0, 0));
+        if *texts == TEXTS {
+            self.list[*last].untold += 1;
+            return;
+        }
+        (*texts, *last) = (*texts + 1, self.list.len());
+        self.known.insert((kind, text.clone()), self.list.len());
+        let last = place.clone();
+        self.list.push(Remark { kind, place, last, more: 0, count, text, untold: 0 });
+    }
+
+    /// The messages of some kinds as one sentence.
+    pub fn sentence(&self, kinds: &[&str]) -> String {
+        let chosen = self.list.iter().filter(|remark| kinds.contains(&remark.kind));
+        chosen.map(Remark::message).collect::<Vec<_>>().join("; ")
+    }
+
+    /// One warning a text, in the order in which they were first made.
+    pub fn into_warnings(self) -> impl Iterator<Item = Warning> {
+        self.list.into_iter().map(|remark| Warning { kind: remark.kind, message: remark.message() })
+    }
+}
+
+impl Remark {
+    fn message(&self) -> String {
+        let mut message = shown(&self.place);
+        if self.more > 0 {
+            message += &format!(" and {} more", self.more);
+        }
+        if !message.is_empty() {
+            message += ": ";
+        }
+        if let Some(count) = self.count {
+            message += &format!("{count} ");
+        }
+        message += &sentence(&self.text);
+        if self.untold > 0 {
+            message += &format!(" ({} more remarks of this kind are not listed)", self.untold);
+        }
+        message
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn messages(remarks: Remarks) -> Vec<String> {
+        remarks.into_warnings().map(|warning| warning.message).collect()
+    }
+
+    #[test]
+    fn the_same_remark_on_many_places_is_one_warning() {
+        let mut remarks = Remarks::default();
+        for mesh in 0..98 {
+            remarks.count("normals", format!("mesh {mesh}"), 2, "normals are bad");
+            remarks.note("flat", format!("mesh {mesh}"), "is flat");
+        }
+        remarks.count("normals", "mesh 7", 0, "normals are missing");
+        remarks.note("flat", "", "all is flat");
+        assert_eq!(
+            messages(remarks),
+            ["mesh 0 and 97 more: 196 normals are bad", "mesh 0 and 97 more: is flat", "all is flat"]
+        );
+    }
+
+    #[test]
+    fn a_place_counts_once() {
+        let mut remarks = Remarks::default();
+        remarks.count("a", "mesh", 2, "things");
+        remarks.count("a", "mesh", 3, "things");
+        assert_eq!(messages(remarks), ["mesh: 5 things"]);
+    }
+
+    #[test]
+    fn no_file_makes_the_list_long() {
+        let mut remarks = Remarks::default();
+        for number in 0..1000 {
+            remarks.note("many", "file", format!("remark {number} {}", "x".repeat(10_000)));
+        }
+        remarks.note("other", "file", "is told");
+        let messages = messages(remarks);
+        assert_eq!(messages.len(), TEXTS + 1);
+        assert!(messages[TEXTS - 1].ends_with("(984 more remarks of this kind are not listed)"));
+        assert!(messages.iter().all(|message| message.len() < 1000));
+    }
+
+    #[test]
+    fn names_cannot_command_the_terminal() {
+        let mut remarks = Remarks::default();
+        remarks.note("a", "mesh \u{1b}[2J", "is called\na\u{9b}b");
+        assert_eq!(messages(remarks), [r"mesh \u{1b}[2J: is called\na\u{9b}b"]);
+    }
+}
