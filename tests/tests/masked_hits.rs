@@ -7,6 +7,7 @@ use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::builtin::builtin;
 use rasray_scene::default_view::default_camera;
 use rasray_scene::needs::Needs;
+use rasray_scene::{AlphaMode, Scene};
 use rasray_systems::Spec;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::Subject;
@@ -30,11 +31,14 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
 const KEEPERS: &[&str] = &["brute-force robust", "bvh robust", "dirt robust"];
 
 /// The hall whose banners and plants are cut out by masks.
-fn stage(bench: &Bench) -> GpuScene {
-    let scene = builtin("atrium:detail=0.25").expect("it is built in").expect("its parameter is valid");
-    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::from(&Needs::all())).expect("valid tables");
+fn hall() -> Scene {
+    builtin("atrium:detail=0.25").expect("it is built in").expect("its parameter is valid")
+}
+
+fn stage(bench: &Bench, scene: &Scene) -> GpuScene {
+    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene));
+    let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(scene, origin, &Parts::from(&Needs::all())).expect("valid tables");
     let view = View { camera, width: 16, height: 16, seed: 1 };
     GpuScene::upload(bench.device(), &tables, &view).expect("it fits")
 }
@@ -62,7 +66,7 @@ fn different(found: &[Hit], expected: &[Hit]) -> usize {
 #[test]
 fn masks_are_looked_up_where_rays_meet_triangles() {
     let bench = Bench::new();
-    let scene = stage(&bench);
+    let scene = stage(&bench, &hall());
     let rays = rays(&scene);
     let brute = |binding| {
         let structure = BruteForce::new(bench.device(), scene.geometry(), binding, false).expect("kernels");
@@ -80,18 +84,71 @@ fn masks_are_looked_up_where_rays_meet_triangles() {
     for name in KEEPERS {
         assert!(presets.iter().any(|subject| subject.name() == *name), "{name} promises every hit no more");
     }
-    let more = EXACT.iter().map(|(system, options)| {
+    for spec in presets.into_iter().map(|subject| subject.spec).chain(exact()) {
+        let name = format!("{} {:?}", spec.system().name, spec.options());
+        let (kind, found) = built_hits(&bench, &spec, &scene, &rays);
+        assert_eq!(kind, StructureKind::Primitive, "{name}");
+        assert_eq!(different(&found, &expected), 0, "{name}");
+    }
+}
+
+/// The specs of [`EXACT`].
+fn exact() -> impl Iterator<Item = Spec> {
+    EXACT.iter().map(|(system, options)| {
         let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
         Spec::new(system, "robust", given).expect("the options are valid")
-    });
-    for spec in presets.into_iter().map(|subject| subject.spec).chain(more) {
+    })
+}
+
+/// Kind and hits of a structure of the scene as seen from its eye.
+fn built_hits(bench: &Bench, spec: &Spec, scene: &GpuScene, rays: &[Ray]) -> (StructureKind, Vec<Hit>) {
+    let mut structure =
+        spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("it is made");
+    build_until_complete(bench.device(), &mut *structure, scene.eye(), Timing::None).expect("it is built");
+    (structure.kind(), hits(bench, &*structure, rays))
+}
+
+/// Above 1, the cutoff hides a surface whole, textured as it is: what is behind is hit, bit for bit.
+#[test]
+fn a_cutoff_above_one_hides_its_triangles_from_every_structure() {
+    let bench = Bench::new();
+    let mut scene = hall();
+    let mut textured = 0;
+    for material in &mut scene.materials {
+        if let AlphaMode::Mask { cutoff } = &mut material.alpha_mode {
+            *cutoff = f32::INFINITY;
+            textured += usize::from(material.base_color_texture.is_some());
+        }
+    }
+    assert!(textured > 0, "the hall has no textured mask");
+    let hidden = |scene: &Scene, mesh: usize| {
+        matches!(scene.materials[scene.meshes[mesh].material].alpha_mode, AlphaMode::Mask { .. })
+    };
+    let triangles: Vec<bool> = scene
+        .instances
+        .iter()
+        .flat_map(|instance| {
+            std::iter::repeat_n(hidden(&scene, instance.mesh), scene.meshes[instance.mesh].triangle_count())
+        })
+        .collect();
+    let stage = stage(&bench, &scene);
+    let rays = rays(&stage);
+    let brute = |binding| {
+        let structure = BruteForce::new(bench.device(), stage.geometry(), binding, false).expect("kernels");
+        hits(&bench, &structure, &rays)
+    };
+    let on_hidden = |found: &[Hit]| {
+        found.iter().filter(|hit| triangles.get(hit.primitive as usize) == Some(&true)).count()
+    };
+    let (expected, opaque) = (brute(Some(stage.binding())), brute(None));
+    assert!(on_hidden(&opaque) > RAYS / 100, "{} rays hit what is to be hidden", on_hidden(&opaque));
+    assert_eq!(on_hidden(&expected), 0);
+    for spec in Subject::all(&bench).into_iter().map(|subject| subject.spec).chain(exact()) {
         let name = format!("{} {:?}", spec.system().name, spec.options());
-        let mut structure =
-            spec.create(bench.device(), scene.geometry(), Some(scene.binding())).expect("it is made");
-        assert_eq!(structure.kind(), StructureKind::Primitive, "{name}");
-        build_until_complete(bench.device(), &mut *structure, scene.eye(), Timing::None)
-            .expect("it is built");
-        let wrong = different(&hits(&bench, &*structure, &rays), &expected);
-        assert_eq!(wrong, 0, "{name}");
+        let (kind, found) = built_hits(&bench, &spec, &stage, &rays);
+        assert_eq!(on_hidden(&found), 0, "{name}");
+        if kind == StructureKind::Primitive {
+            assert_eq!(different(&found, &expected), 0, "{name}");
+        }
     }
 }

@@ -142,9 +142,15 @@ impl AppError {
 fn scene_help(error: &SceneError) -> &'static str {
     match error {
         SceneError::Read { .. } => "check the name and that you may read the file",
+        SceneError::Missing { .. } => {
+            "put that file where the scene looks for it, and check that you may read it"
+        }
         SceneError::TooLarge { .. } => "split or simplify the scene",
-        SceneError::Syntax { .. } | SceneError::Invalid { .. } | SceneError::IndexOutOfRange { .. } => {
-            "the file is damaged or breaks its format: export it again"
+        SceneError::Syntax { .. }
+        | SceneError::Invalid { .. }
+        | SceneError::IndexOutOfRange { .. }
+        | SceneError::NoTriangles { .. } => {
+            "the file is damaged or breaks its format: correct it, or export it again"
         }
         SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
         SceneError::Builtin { .. } => {
@@ -154,9 +160,9 @@ fn scene_help(error: &SceneError) -> &'static str {
     }
 }
 
-/// Joins the words of a text with single spaces.
+/// Joins the words of a text with single spaces; what a terminal would obey becomes visible.
 pub(crate) fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    rasray_scene::printable(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]
@@ -179,5 +185,7 @@ mod tests {
     fn messages_stay_on_one_line_and_name_the_file() {
         let error = AppError::input(Path::new("scene.gltf"), "unexpected end\n of file", "export\nagain");
         assert_eq!(error.lines(), "error: scene.gltf: unexpected end of file\nhelp: export again\n");
+        let error = AppError::input(Path::new("a\u{1b}[2J\u{9b}.gltf"), "b\u{7}", "c\u{202e}");
+        assert_eq!(error.lines(), "error: a\\u{1b}[2J\\u{9b}.gltf: b\\u{7}\nhelp: c\\u{202e}\n");
     }
 }

@@ -34,7 +34,8 @@ pub(crate) fn warn_of_scene(scene: &Scene, triangles: u64) {
     for warning in &scene.warnings {
         warn(&format!("{}: {} ({})", scene.name, warning.message, warning.kind));
     }
-    if triangles == 0 {
+    // The reader may have said so, and why.
+    if triangles == 0 && !scene.warnings.iter().any(|warning| warning.kind == "no-triangles") {
         warn(&format!(
             "{}: the scene has no triangles; only its environment will be seen (no-triangles)",
             scene.name

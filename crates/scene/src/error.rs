@@ -49,12 +49,12 @@ pub enum SceneError {
         /// The scene file.
         path: PathBuf,
     },
-    /// The file is something else than its name says, or of a version that is not read.
-    #[error("{}: is {}; {fix}", printable(path.display()), sentence(found))]
+    /// The file, or one that it needs, is something else than its name says, or of a version that is not read.
+    #[error("{}: {}; {fix}", printable(path.display()), sentence(found))]
     NotThisFormat {
         /// The scene file.
         path: PathBuf,
-        /// What it is, such as `an HTML page, not glTF`.
+        /// What was found, such as `is an HTML page, not glTF`.
         found: String,
         /// How to get a file that can be loaded.
         fix: &'static str,

@@ -79,7 +79,7 @@ pub enum AlphaMode {
     Opaque,
     /// A point counts iff its alpha is at least the cutoff.
     Mask {
-        /// In [0, 1].
+        /// At least 0. Above 1, which files give as infinity, no point counts.
         cutoff: f32,
     },
     /// Stochastic opacity in integrators.

@@ -17,7 +17,7 @@ impl Foreign {
     pub fn refuse(self, path: &Path, format: &str) -> SceneError {
         SceneError::NotThisFormat {
             path: path.to_owned(),
-            found: format!("{}, not {format}", self.what),
+            found: format!("is {}, not {format}", self.what),
             fix: self.fix,
         }
     }
@@ -27,7 +27,7 @@ const DOWNLOAD: &str = "download the file itself, not a page about it";
 const FETCH: &str = "fetch the file it stands for with `git lfs pull`";
 const ANNEX: &str = "fetch the file it stands for with `git annex get`";
 const UNPACK: &str = "unpack it first";
-const RENAME: &str = "give the file the extension of its format";
+pub(crate) const RENAME: &str = "give the file the extension of its format";
 const CONVERT: &str = "convert it to glTF, OBJ or PLY";
 const AGAIN: &str = "export or download the file again";
 

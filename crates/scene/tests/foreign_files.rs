@@ -41,7 +41,7 @@ fn what_is_no_scene_is_named() {
     }
     let prose = load_in(folder.path(), "readme.obj", b"Hello there.\n\nThis is a page.\n");
     let text = prose.map(drop).expect_err("prose").to_string();
-    assert!(text.contains("line 1 begins with `Hello`, and no line is a statement"), "{text}");
+    assert!(text.contains("no line is a statement of an OBJ file, line 1 begins with `Hello`"), "{text}");
     for (name, bytes) in [("a.obj", &b"glTF\x02\0\0\0"[..]), ("b.glb", b"ply\nformat ascii 1.0\n")] {
         let text = load_in(folder.path(), name, bytes).map(drop).expect_err(name).to_string();
         assert!(text.contains("give the file the extension of its format"), "{text}");
@@ -154,7 +154,8 @@ fn foreign_references_are_named() {
     let buffer = GLTF.replace("BUFFER", "page").replace("IMAGE", "gone.png");
     let text = load_in(folder, "scene.gltf", buffer.as_bytes()).map(drop).expect_err("a page").to_string();
     assert!(
-        text.contains("scene.gltf: buffers[0]: ") && text.contains("page is an HTML page, not the buffer"),
+        text.contains("scene.gltf: buffers[0] needs ")
+            && text.contains("page, which is an HTML page; download"),
         "{text}"
     );
     let image = GLTF.replace("BUFFER", "good.bin").replace("IMAGE", "page");

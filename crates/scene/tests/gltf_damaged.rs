@@ -6,6 +6,8 @@ mod gltf_support;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use ::gltf::json::Value;
+use ::gltf::json::deserialize::from_slice;
 use gltf_support::rich::{rich_glb, rich_gltf};
 use gltf_support::{assert_well_formed, kinds, load_bytes, placed_triangles};
 use rasray_scene::{Limits, LoadOptions, Scene, SceneError, decode_image, load};
@@ -38,7 +40,9 @@ fn survives(what: &str, attempt: impl FnOnce() -> Result<Scene, SceneError>) -> 
         // A caught panic is a panic all the same.
         Err(SceneError::Internal { reason, .. }) => panic!("{what}: {reason}"),
         Err(error) => {
-            assert!(!error.to_string().is_empty());
+            let text = error.to_string();
+            // The schema must refuse, with a place, whatever the typed tree would.
+            assert!(!text.is_empty() && !text.contains("a value of the wrong kind"), "{what}: {text}");
             false
         }
     }
@@ -80,6 +84,41 @@ fn flipped_bits_of_gltf_do_no_harm() {
         // The test would show nothing if all files were refused, or none.
         assert!((flips / 50..flips).contains(&loaded), "{what}: {loaded} of {flips} flips load");
     }
+}
+
+/// JSON pointers to all values below one.
+fn pointers(value: &Value, place: &str, found: &mut Vec<String>) {
+    found.push(place.to_owned());
+    for (i, item) in value.as_array().into_iter().flatten().enumerate() {
+        pointers(item, &format!("{place}/{i}"), found);
+    }
+    for (name, member) in value.as_object().into_iter().flatten() {
+        pointers(member, &format!("{place}/{name}"), found);
+    }
+}
+
+/// Each value of a file in turn becomes one of another kind.
+#[test]
+fn values_of_another_kind_do_no_harm() {
+    let tree: Value = from_slice(&rich_gltf()).expect("the file is JSON");
+    let mut places = Vec::new();
+    pointers(&tree, "", &mut places);
+    let others: Vec<Value> =
+        ["null", "true", "-1", "0.5", "1e300", "4294967296", "\"x\"", "[]", "{}", "[[]]"]
+            .iter()
+            .map(|text| from_slice(text.as_bytes()).expect("the value is JSON"))
+            .collect();
+    let mut loaded = 0;
+    for place in &places {
+        for other in &others {
+            let mut damaged = tree.clone();
+            *damaged.pointer_mut(place).expect("the place is there") = other.clone();
+            let text = damaged.to_string();
+            loaded += usize::from(survives(&format!("{place}: {other}"), || load_bytes(text.as_bytes())));
+        }
+    }
+    let attempts = places.len() * others.len();
+    assert!((attempts / 50..attempts / 2).contains(&loaded), "{loaded} of {attempts} load");
 }
 
 #[test]

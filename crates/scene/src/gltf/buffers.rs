@@ -57,13 +57,11 @@ impl<'a> Document<'a> {
                     if (bytes.len() as u64) < buffer.byte_length.0
                         && let Some(foreign) = recognise(&bytes)
                     {
-                        let reason = format!(
-                            "{} is {}, not the buffer; {}",
-                            file.display(),
-                            foreign.what,
-                            foreign.fix
-                        );
-                        return Err(self.invalid(place, reason));
+                        return Err(SceneError::NotThisFormat {
+                            path: path.to_path_buf(),
+                            found: format!("{place} needs {}, which is {}", file.display(), foreign.what),
+                            fix: foreign.fix,
+                        });
                     }
                     bytes
                 }

@@ -36,7 +36,7 @@ pub(super) fn split<'a>(
     if version != 2 {
         return Err(SceneError::NotThisFormat {
             path: path.to_owned(),
-            found: format!("GLB version {version}, and only version 2 is read"),
+            found: format!("is GLB version {version}, and only version 2 is read"),
             fix: "export it as glTF 2.0",
         });
     }

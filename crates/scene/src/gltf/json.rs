@@ -85,11 +85,11 @@ fn check_version(path: &Path, tree: &Value) -> Result<(), SceneError> {
         return Err(SceneError::invalid(path, "asset.version", reason));
     };
     if version.as_str().is_some_and(|text| text.split('.').next() != Some("2")) {
-        return Err(refused(format!("glTF of version {}, and only glTF 2.0 is read", shown(version))));
+        return Err(refused(format!("is glTF of version {}, and only glTF 2.0 is read", shown(version))));
     }
     match asset.get("minVersion") {
         Some(version) if version != "2.0" && !version.is_null() => {
-            Err(refused(format!("glTF that needs version {}, and only glTF 2.0 is read", shown(version))))
+            Err(refused(format!("needs glTF of version {}, and only glTF 2.0 is read", shown(version))))
         }
         _ => Ok(()),
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::reference::resolve;
 use super::skipped::Skipped;
 use super::statements::{Statement, statements};
+use crate::recognise::RENAME;
 use crate::{Limits, Mesh, SceneError};
 
 /// What an OBJ file holds.
@@ -63,8 +64,11 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
     }
     reader.end_run();
     if let (false, Some((word, place))) = (reader.known, &reader.skipped.first_unknown) {
-        let reason = format!("{place} begins with `{word}`, and no line is a statement of an OBJ file");
-        return Err(SceneError::syntax(path, reason));
+        return Err(SceneError::NotThisFormat {
+            path: path.to_owned(),
+            found: format!("no line is a statement of an OBJ file, {place} begins with `{word}`"),
+            fix: RENAME,
+        });
     }
     Ok(Geometry {
         meshes: reader.meshes,
@@ -296,14 +300,8 @@ impl Reader<'_> {
 
     /// Refuses to let an array of `count` elements grow.
     fn room(&self, count: usize) -> Result<(), SceneError> {
-        let wanted = count as u64 + 1;
-        if wanted >= u64::from(u32::MAX) {
-            return Err(SceneError::invalid(
-                self.path,
-                "vertices",
-                "there are more than 32-bit indices can name",
-            ));
-        }
-        Limits::check(self.path, "the number of vertices", wanted, self.limits.vertices, "vertices")
+        // Indices are u32, whatever the limit says.
+        let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);
+        Limits::check(self.path, "the number of vertices", count as u64 + 1, limit, "vertices")
     }
 }

@@ -29,11 +29,9 @@ pub(super) fn read(
         match element.name.as_str() {
             "vertex" if !has_vertices => {
                 has_vertices = true;
-                if element.count > u64::from(u32::MAX) {
-                    let reason = format!("{} vertices are more than 32-bit indices can name", element.count);
-                    return Err(SceneError::invalid(path, "element vertex", reason));
-                }
-                Limits::check(path, "the number of vertices", element.count, limits.vertices, "vertices")?;
+                // Indices are u32, whatever the limit says.
+                let limit = limits.vertices.min(u64::from(u32::MAX));
+                Limits::check(path, "the number of vertices", element.count, limit, "vertices")?;
                 read_vertices(path, &mut body, element, &mut mesh)?;
             }
             "face" => faces.read(path, &mut body, element, limits, &mut mesh)?,

@@ -111,16 +111,18 @@ fn blended_emitters_are_met_by_scattered_rays_alone() {
 
 #[test]
 fn masked_surfaces_are_there_or_not() {
-    for (alpha, expected) in [(0.49, 1.0), (0.51, 0.0)] {
+    for (alpha, cutoff, expected) in
+        [(0.49, 0.5, 1.0), (0.51, 0.5, 0.0), (1.0, 1.0, 0.0), (1.0, f32::INFINITY, 1.0)]
+    {
         let masked = Material {
             base_color: [0.0, 0.0, 0.0, alpha],
-            alpha_mode: AlphaMode::Mask { cutoff: 0.5 },
+            alpha_mode: AlphaMode::Mask { cutoff },
             ..diffuse(0.0)
         };
         let scene = white_sky(masked, sheet());
         let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
         let image = posed.render_path(&view([0.0, 0.0, 5.0], [0.0; 3], 4, 1), 1).expect("rendered");
-        assert!(image.pixels.iter().flatten().all(|value| *value == expected), "{alpha}");
+        assert!(image.pixels.iter().flatten().all(|value| *value == expected), "{alpha} {cutoff}");
     }
 }
 
