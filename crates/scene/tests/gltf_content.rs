@@ -213,6 +213,21 @@ fn copies_turn_and_scale() {
     // x scaled by 1, turned to y, moved by (1, 2, 3); then x scaled by 2 and moved by (2, 3, 4).
     assert!((corner(0) - DVec3::new(1.0, 3.0, 3.0)).length() < 1e-12, "{}", corner(0));
     assert!((corner(1) - DVec3::new(4.0, 3.0, 4.0)).length() < 1e-12, "{}", corner(1));
+    let odd = bytes.len() - 8;
+    let flat = instancing(r#"{"SCALE":2,"ROTATION":3}"#).replace(&data_uri(&bytes), &{
+        let mut flat = bytes.clone();
+        // The first scale's x and the first rotation become 0.
+        flat[44..48].fill(0);
+        flat[odd..odd + 4].fill(0);
+        data_uri(&flat)
+    });
+    let scene = load_text(&flat);
+    assert_eq!(kinds(&scene), ["bad-rotation", "zero-scale"]);
+    assert!(
+        scene.warnings.iter().all(|warning| warning.message.starts_with("nodes[0]: 1 ")),
+        "{:?}",
+        scene.warnings
+    );
     let refused = |attributes: &str| {
         load_bytes(instancing(attributes).as_bytes()).map(drop).expect_err("refused").to_string()
     };

@@ -49,16 +49,23 @@ pub(super) fn transforms(document: &Document<'_>, node: usize) -> Result<Option<
     let vector = |list: &Option<Vec<[f32; 3]>>, i: usize, absent: DVec3| {
         list.as_ref().map_or(absent, |list| DVec3::from(list[i].map(f64::from)))
     };
-    Ok(Some(
-        (0..copies)
-            .map(|i| {
-                let rotation = rotations.as_ref().and_then(|list| unit_rotation(list[i].map(f64::from)));
-                DAffine3::from_scale_rotation_translation(
-                    vector(&scales, i, DVec3::ONE),
-                    rotation.unwrap_or_default(),
-                    vector(&translations, i, DVec3::ZERO),
-                )
-            })
-            .collect(),
-    ))
+    let mut turned_nowhere = 0;
+    let transforms: Vec<DAffine3> = (0..copies)
+        .map(|i| {
+            let rotation = rotations.as_ref().map(|list| unit_rotation(list[i].map(f64::from)));
+            turned_nowhere += usize::from(rotation == Some(None));
+            DAffine3::from_scale_rotation_translation(
+                vector(&scales, i, DVec3::ONE),
+                rotation.flatten().unwrap_or_default(),
+                vector(&translations, i, DVec3::ZERO),
+            )
+        })
+        .collect();
+    let flat = transforms.iter().filter(|copy| copy.matrix3.determinant() == 0.0).count();
+    let mut remarks = document.remarks.borrow_mut();
+    let text = "rotations of its copies have no direction; none is applied to them";
+    remarks.count("bad-rotation", format!("nodes[{node}]"), turned_nowhere, text);
+    let text = "copies have a scale of 0; they are flat or a point";
+    remarks.count("zero-scale", format!("nodes[{node}]"), flat, text);
+    Ok(Some(transforms))
 }
