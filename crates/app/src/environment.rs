@@ -37,6 +37,10 @@ pub fn read(value: &str) -> Result<Environment, AppError> {
 fn read_map(path: &Path) -> Result<Environment, AppError> {
     let fix = "give a Radiance .hdr file of at most 2^27 pixels";
     let failed = |error: &dyn std::fmt::Display| AppError::input(path, error, fix);
+    // Opening a pipe would wait for its writer.
+    if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return Err(failed(&"it is not a regular file but a folder, a pipe, a socket or a device"));
+    }
     let mut reader = ImageReader::open(path).map_err(|error| failed(&error))?;
     reader.set_format(ImageFormat::Hdr);
     let mut limits = Limits::default();
@@ -94,5 +98,17 @@ mod tests {
             assert!(error.to_string().contains("sky.hdr"), "{error}");
         }
         assert!(read("missing.hdr").expect_err("no file").to_string().contains("missing.hdr"));
+    }
+
+    /// Not after a wait for whoever writes into it.
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_refused_at_once() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("sky.hdr");
+        let made = std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo runs");
+        assert!(made.success());
+        let error = read(&path.to_string_lossy()).expect_err("a pipe");
+        assert!(error.to_string().contains("not a regular file"), "{error}");
     }
 }

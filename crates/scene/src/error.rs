@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::text::{printable, sentence, shown};
+use crate::text::{printable, reason, sentence, shown};
 
 /// Why a scene could not be loaded. Every message names the scene file and the place at fault, and no
 /// message holds control characters, whatever the names in the file.
@@ -10,7 +10,7 @@ use crate::text::{printable, sentence, shown};
 #[non_exhaustive]
 pub enum SceneError {
     /// The scene file could not be read.
-    #[error("cannot read {}: {}", printable(path.display()), printable(source))]
+    #[error("cannot read {}: {}", printable(path.display()), reason(source))]
     Read {
         /// The scene file.
         path: PathBuf,
@@ -18,7 +18,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// A file that the scene refers to, and cannot be shown without, could not be read.
-    #[error("{}: {} needs {}, which cannot be read: {}", printable(path.display()), shown(place), printable(file.display()), printable(source))]
+    #[error("{}: {} needs {}, which cannot be read: {}", printable(path.display()), shown(place), printable(file.display()), reason(source))]
     Missing {
         /// The scene file.
         path: PathBuf,

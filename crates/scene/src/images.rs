@@ -6,6 +6,7 @@ use std::path::Path;
 use crate::decode::decode;
 use crate::load::read_file;
 use crate::remarks::Remarks;
+use crate::text::reason;
 use crate::{Image, Limits, SceneError};
 
 /// Where the encoded bytes of an image are.
@@ -35,7 +36,7 @@ pub(crate) fn read_image(
             }
             Err(SceneError::Read { source, .. }) => {
                 let place = format!("texture {}", file.display());
-                remarks.note("missing-texture", place, format!("is not shown: {source}"));
+                remarks.note("missing-texture", place, format!("is not shown: {}", reason(&source)));
                 return Ok(None);
             }
             Err(error) => return Err(error.of_scene(path)),
@@ -43,11 +44,11 @@ pub(crate) fn read_image(
     };
     match decode(path, name, bytes, limits, remarks) {
         Ok(image) => Ok(Some(image)),
-        Err(SceneError::Image { reason, .. }) => {
+        Err(SceneError::Image { reason: fault, .. }) => {
             remarks.note(
                 "unreadable-texture",
                 format!("texture {name}"),
-                format!("is not shown: it {reason}"),
+                format!("is not shown: it {fault}"),
             );
             Ok(None)
         }

@@ -71,10 +71,13 @@ pub(crate) fn recognise(bytes: &[u8]) -> Option<Foreign> {
     found.map(|&(_, what, fix)| Foreign { what, fix })
 }
 
+/// What no text is.
+pub(crate) const BINARY: Foreign = Foreign { what: "binary data", fix: AGAIN };
+
 /// Whether bytes that should be text are not: text has no zero bytes.
 pub(crate) fn binary(bytes: &[u8]) -> Option<Foreign> {
     let head = &bytes[..bytes.len().min(4096)];
-    head.contains(&0).then_some(Foreign { what: "binary data", fix: AGAIN })
+    head.contains(&0).then_some(BINARY)
 }
 
 #[cfg(test)]

@@ -39,6 +39,15 @@ pub(crate) fn sentence(text: impl Display) -> String {
     cut(printable(text), LONGEST_SENTENCE)
 }
 
+/// What the operating system said, without the number it says it by.
+pub(crate) fn reason(error: &std::io::Error) -> String {
+    let whole = sentence(error);
+    match whole.rfind(" (os error ") {
+        Some(end) => whole[..end].to_owned(),
+        None => whole,
+    }
+}
+
 fn cut(whole: String, longest: usize) -> String {
     match whole.char_indices().nth(longest) {
         Some((end, _)) => format!("{}…", &whole[..end]),
@@ -55,6 +64,14 @@ mod tests {
         assert_eq!(printable("Würfel 立方体"), "Würfel 立方体");
         assert_eq!(printable("a\u{1b}[31mb\r\n\u{9b}c\u{7f}"), r"a\u{1b}[31mb\r\n\u{9b}c\u{7f}");
         assert_eq!(printable("a\u{202e}b\u{2066}c\u{2028}d"), r"a\u{202e}b\u{2066}c\u{2028}d");
+    }
+
+    #[test]
+    fn reasons_have_no_numbers() {
+        let error = std::fs::File::open("/nowhere/at/all").expect_err("there is no such file");
+        let shown = reason(&error);
+        assert!(!shown.is_empty() && !shown.contains("os error"), "{shown}");
+        assert_eq!(reason(&std::io::Error::other("a pipe")), "a pipe");
     }
 
     #[test]

@@ -39,6 +39,8 @@ fn what_is_no_scene_is_named() {
             }
         }
     }
+    let comment = load_in(folder.path(), "noise.obj", b"#\xe1\xb8\xa5\x1f\xff");
+    assert!(matches!(comment, Err(SceneError::NotThisFormat { .. })), "{comment:?}");
     let prose = load_in(folder.path(), "readme.obj", b"Hello there.\n\nThis is a page.\n");
     let text = prose.map(drop).expect_err("prose").to_string();
     assert!(text.contains("no line is a statement of an OBJ file, line 1 begins with `Hello`"), "{text}");

@@ -156,8 +156,8 @@ fn contradictions_are_named() {
         ("[]", "not an object"),
         ("{}", "asset.version"),
         ("{\"a\":\n", "the text ends in line 2"),
-        ("{\"a\":\n\n7x}", "line 3, column 2 is no JSON, near `{\"a\":\\n\\n7x}`"),
-        ("text", "line 1, column 2 is no JSON, near `text`"),
+        ("{\"a\":\n\n7x}", "line 3, column 2 is no JSON, or a number out of range, near `{\"a\":\\n\\n7x}`"),
+        ("text", "begins with bytes 74 65 78 74, neither `glTF` nor the `{` of JSON"),
         ("v 0 0 0\0", "is binary data, not glTF"),
     ] {
         let found = message(text);
@@ -343,6 +343,7 @@ fn a_small_file_cannot_ask_for_much() {
 fn containers_must_be_whole() {
     let whole = glb(r#"{"asset":{"version":"2.0"}}"#, &floats(&[1.0]));
     assert!(load_bytes(&whole).is_ok());
+    assert!(load_bytes(&glb("\u{feff}{\"asset\":{\"version\":\"2.0\"}}", &floats(&[1.0]))).is_ok());
     let mut wrong_version = whole.clone();
     wrong_version[4] = 1;
     let mut long = whole.clone();
@@ -354,7 +355,11 @@ fn containers_must_be_whole() {
     for (bytes, words) in [
         (wrong_version, "GLB version 1"),
         (long, "truncated"),
-        (no_json, "is not JSON"),
+        (no_json, "does not begin with a chunk of JSON"),
+        (
+            whole[..12].iter().enumerate().map(|(i, &byte)| if i == 8 { 12 } else { byte }).collect(),
+            "no whole chunk",
+        ),
         (long_chunk, "ends behind the file"),
         (b"glTF".to_vec(), "truncated"),
     ] {

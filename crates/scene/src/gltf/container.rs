@@ -25,7 +25,7 @@ pub(super) fn split<'a>(
     remarks: &mut Remarks,
 ) -> Result<Container<'a>, SceneError> {
     if bytes.get(..4) != Some(MAGIC) {
-        return Ok(Container { json: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), binary: None });
+        return Ok(Container { json: without_mark(bytes), binary: None });
     }
     let truncated =
         || SceneError::syntax(path, format!("the GLB container is truncated at byte {}", bytes.len()));
@@ -82,9 +82,20 @@ pub(super) fn split<'a>(
         // A chunk ends on a multiple of four; writers that forget the padding are forgiven.
         at = start + size;
     }
-    let json =
-        json.ok_or_else(|| SceneError::syntax(path, "the first chunk of the GLB container is not JSON"))?;
+    let json = json.ok_or_else(|| {
+        let reason = if at + CHUNK_HEADER > length {
+            "has no whole chunk; is the file cut short?"
+        } else {
+            "does not begin with a chunk of JSON"
+        };
+        SceneError::syntax(path, format!("the GLB container {reason}"))
+    })?;
     // Padding is meant to be spaces; some writers use zeros.
     let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
-    Ok(Container { json: &json[..end], binary })
+    Ok(Container { json: without_mark(&json[..end]), binary })
+}
+
+/// Text without the mark of its byte order, which the format forbids and some writers add.
+fn without_mark(text: &[u8]) -> &[u8] {
+    text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text)
 }

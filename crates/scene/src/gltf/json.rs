@@ -54,10 +54,13 @@ pub(super) fn parse(path: &Path, text: &[u8], remarks: &mut Remarks) -> Result<P
 /// The error of text that is no JSON: what it is instead, or where it stops being JSON.
 fn malformed(path: &Path, text: &[u8], error: &::gltf::json::Error) -> SceneError {
     let begins = text.trim_ascii_start().first();
-    if !matches!(begins, Some(b'{' | b'['))
-        && let Some(foreign) = recognise(text).or_else(|| binary(text))
-    {
-        return foreign.refuse(path, "glTF");
+    if !matches!(begins, Some(b'{' | b'[')) {
+        if let Some(foreign) = recognise(text).or_else(|| binary(text)) {
+            return foreign.refuse(path, "glTF");
+        }
+        let head: Vec<String> = text.iter().take(4).map(|byte| format!("{byte:02x}")).collect();
+        let reason = format!("begins with bytes {}, neither `glTF` nor the `{{` of JSON", head.join(" "));
+        return SceneError::syntax(path, reason);
     }
     let (line, column) = (error.line(), error.column());
     let reason = if error.is_eof() {
@@ -67,7 +70,7 @@ fn malformed(path: &Path, text: &[u8], error: &::gltf::json::Error) -> SceneErro
         let at = (start.sum::<usize>() + column.saturating_sub(1)).min(text.len());
         let around = &text[at.saturating_sub(AROUND)..(at + AROUND).min(text.len())];
         let near = shown(String::from_utf8_lossy(around).trim());
-        format!("line {line}, column {column} is no JSON, near `{near}`")
+        format!("line {line}, column {column} is no JSON, or a number out of range, near `{near}`")
     };
     SceneError::syntax(path, format!("malformed glTF JSON: {reason}"))
 }

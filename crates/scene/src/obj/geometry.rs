@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::reference::resolve;
 use super::skipped::Skipped;
 use super::statements::{Statement, statements};
-use crate::recognise::RENAME;
+use crate::recognise::{BINARY, RENAME};
 use crate::{Limits, Mesh, SceneError};
 
 /// What an OBJ file holds.
@@ -63,12 +63,18 @@ pub(super) fn read(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Geometr
         reader.take(&statement)?;
     }
     reader.end_run();
-    if let (false, Some((word, place))) = (reader.known, &reader.skipped.first_unknown) {
-        return Err(SceneError::NotThisFormat {
-            path: path.to_owned(),
-            found: format!("no line is a statement of an OBJ file, {place} begins with `{word}`"),
-            fix: RENAME,
-        });
+    if !reader.known {
+        if let Some((word, place)) = &reader.skipped.first_unknown {
+            return Err(SceneError::NotThisFormat {
+                path: path.to_owned(),
+                found: format!("no line is a statement of an OBJ file, {place} begins with `{word}`"),
+                fix: RENAME,
+            });
+        }
+        // Comments alone are a file that is not written yet, unless they are noise.
+        if std::str::from_utf8(bytes).is_err() {
+            return Err(BINARY.refuse(path, "an OBJ file"));
+        }
     }
     Ok(Geometry {
         meshes: reader.meshes,

@@ -41,7 +41,7 @@ use crate::default_view::plain_material;
 use crate::load::{Empty, finish, read_file, scene_name};
 use crate::recognise::{binary, recognise};
 use crate::remarks::Remarks;
-use crate::text::shown;
+use crate::text::{reason, shown};
 use crate::{Instance, LoadOptions, Material, Mesh, Scene, SceneError};
 use geometry::{Geometry, Library};
 use mtl::MtlMaterial;
@@ -113,8 +113,8 @@ fn read_libraries(
     for library in libraries {
         let mut read = 0;
         for file in library.files(path, folder)? {
-            let mut missing = |reason: String| {
-                let text = format!("{reason}; its materials are shown in light grey");
+            let mut missing = |why: String| {
+                let text = format!("{why}; its materials are shown in light grey");
                 remarks.note("missing-material-library", file.display().to_string(), text);
             };
             match read_file(&file, options.limits.file_bytes) {
@@ -129,7 +129,7 @@ fn read_libraries(
                         }
                     }
                 },
-                Err(SceneError::Read { source, .. }) => missing(source.to_string()),
+                Err(SceneError::Read { source, .. }) => missing(reason(&source)),
                 Err(error) => return Err(error.of_scene(path)),
             }
         }
