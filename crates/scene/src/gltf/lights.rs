@@ -65,7 +65,7 @@ fn remark(document: &Document<'_>, index: usize, source: &JsonLight) {
         );
         document.note("light-range", &place, text);
     }
-    if let Some(range) = source.range.filter(|range| !(*range > 0.0)) {
+    if let Some(range) = source.range.filter(|range| *range <= 0.0) {
         document.note("light-range", &place, format!("range {range} is not above 0, and taken as unlimited"));
     }
     if let (Checked::Valid(Type::Spot), Some(spot)) = (source.type_, &source.spot) {
