@@ -4,14 +4,18 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::{Camera, Material, Projection, Scene};
 
+mod emission;
 mod light;
 mod room;
 mod sight;
+mod sky;
 
 pub use light::{default_light, emits, ensure_lit, is_lit};
 
 /// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;
+/// How much more than the bounds of the scene is in its picture.
+const MARGIN: f64 = 1.05;
 
 /// A perspective camera at `eye` (metres) that looks at `target`, upright; `fov_y` is the full
 /// vertical angle in radians. Looking straight up or down, -z is up in the picture. If eye and target
@@ -59,25 +63,38 @@ fn used_positions(mesh: &crate::Mesh) -> Vec<DVec3> {
 
 /// A camera for a scene that has none, upright with +y; the same for the same scene.
 ///
-/// If the scene is a room, the camera stands in it: clear of the walls, looking along the longest free
-/// way, almost level, with a vertical angle of 60 to 70 degrees. A scene is a room if most of what is
-/// seen from its middle turns its front (counter-clockwise) side there and nothing is close; a solid
-/// turns its back to its own inside. Into a room with one open side the camera looks from before that
-/// side. Scenes of more than 2^23 triangles are not examined.
+/// It stands outside and sees the whole scene from the front, somewhat to the right and above, in a picture that is
+/// at least as wide as high; around the origin if the scene has no triangles. Two kinds of scene are seen in
+/// another way:
 ///
-/// Otherwise the camera sees the whole scene from the front, somewhat to the right and above, in a
-/// picture that is at least as wide as high. Around the origin if the scene has no triangles.
+/// - A room with one open side is looked into from before that side. A scene is a room if most of what is seen from
+///   its middle turns its front (counter-clockwise) side there and nothing is close; a solid turns its back to its
+///   own inside.
+/// - In a room that closes it in on all sides, but perhaps above, the camera stands: clear of the walls, looking
+///   along the longest free way, almost level, with a vertical angle of 60 to 70 degrees. Less than about two
+///   fifths of the surface may lie outside; so a hollow thing with walls of its own, such as a helmet, is no room,
+///   and neither is a house as large outside as inside.
+///
+/// Scenes of more than 2^23 triangles are not examined.
 pub fn default_camera(scene: &Scene) -> Camera {
     room::camera_inside(scene).unwrap_or_else(|| camera_outside(scene))
 }
 
 fn camera_outside(scene: &Scene) -> Camera {
     let (low, high) = bounds(scene).unwrap_or((DVec3::NEG_ONE, DVec3::ONE));
-    let centre = low * 0.5 + high * 0.5;
-    // A point or a speck still gets a picture with a scale.
-    let radius = ((high - low).length() * 0.5).max(centre.abs().max_element() * 1.0e-6).max(1.0e-6);
-    let distance = radius / (FOV_Y * 0.5).sin() * 1.05;
+    let (centre, half) = (low * 0.5 + high * 0.5, high * 0.5 - low * 0.5);
     let direction = DVec3::new(0.45, 0.35, 1.0).normalize();
+    let toward = camera_looking_at("default", centre + direction, centre, FOV_Y as f32);
+    let axes = toward.world_from_camera.matrix3;
+    // From where a corner of the bounds is still in the picture. What is as thin as the view's axis keeps its distance.
+    let needed = |corner: DVec3| {
+        let aside = axes.x_axis.dot(corner).abs().max(axes.y_axis.dot(corner).abs()).max(0.1 * half.length());
+        axes.z_axis.dot(corner) + MARGIN * aside / (FOV_Y * 0.5).tan()
+    };
+    let corner = |bits: u32| half * DVec3::from([0, 1, 2].map(|axis| f64::from(bits >> axis & 1) * 2.0 - 1.0));
+    // A point or a speck still gets a picture with a scale.
+    let least = (centre.abs().max_element() * 1.0e-6).max(1.0e-6);
+    let distance = (0..8).map(|bits| needed(corner(bits))).fold(least, f64::max);
     camera_looking_at("default", centre + direction * distance, centre, FOV_Y as f32)
 }
 

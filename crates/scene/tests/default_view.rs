@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
-use rasray_scene::default_view::{bounds, default_camera, ensure_lit, is_lit};
+use rasray_scene::default_view::{bounds, default_camera, default_light, ensure_lit, is_lit};
 use rasray_scene::needs::{Integrator, Needs, Term, Workload};
 use rasray_scene::{
-    Camera, Environment, Instance, Light, LoadOptions, Material, Mesh, Projection, Scene, TextureRef,
+    Camera, Environment, Filter, Image, Instance, Light, LoadOptions, Material, Mesh, Projection, Scene, Texture,
+    TextureRef, Wrap,
 };
 
 /// The quads of a box, seen counter-clockwise from outside, by the corners' bits (x, y, z).
@@ -111,17 +112,55 @@ fn size_and_place_in_the_world_do_not_matter() {
     }
 }
 
+/// A box with walls of its own on both sides, without some sides of both.
+fn lined(without: &[usize]) -> Vec<(Mesh, DAffine3)> {
+    vec![
+        (box_mesh([2.0; 3], false, without), DAffine3::IDENTITY),
+        (box_mesh([1.9; 3], true, without), DAffine3::IDENTITY),
+    ]
+}
+
 #[test]
-fn a_hollow_thing_without_a_floor_is_no_room() {
-    let bell = |inner: &[usize]| {
-        let shell = box_mesh([2.0; 3], false, &[FLOOR]);
-        scene_of(vec![
-            (shell, DAffine3::IDENTITY),
-            (box_mesh([1.9; 3], true, inner), DAffine3::from_translation(DVec3::Y * 0.01)),
-        ])
-    };
-    assert!(!stands_inside(&bell(&[FLOOR])));
-    assert!(stands_inside(&bell(&[])), "with a floor it is a house");
+fn hollow_things_are_seen_from_outside() {
+    for without in [&[][..], &[FLOOR], &[FRONT], &[0], &[FLOOR, FRONT]] {
+        assert!(!stands_inside(&scene_of(lined(without))), "without {without:?}");
+    }
+    // What is in it, as in a machine, makes no room of it.
+    let part = |x: f64| (box_mesh([0.3; 3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.5, 0.0)));
+    let machine = [lined(&[]), vec![part(-0.6), part(0.0), part(0.6)]].concat();
+    assert!(!stands_inside(&scene_of(machine)));
+}
+
+#[test]
+fn a_building_made_for_its_inside_is_seen_from_inside() {
+    // A house around four rows of columns, with more surface in it than on it.
+    let mut parts = vec![
+        (box_mesh([10.4, 3.4, 4.4], false, &[]), DAffine3::IDENTITY),
+        (box_mesh(HALL, true, &[]), DAffine3::IDENTITY),
+    ];
+    for place in 0..36 {
+        let (x, z) = (f64::from(place % 9) - 4.0, [-1.8, -1.4, 1.4, 1.8][place as usize / 9]);
+        parts.push((box_mesh([0.3, 3.0, 0.3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.0, z))));
+    }
+    assert!(stands_inside(&scene_of(parts.clone())));
+    parts.truncate(2);
+    assert!(!stands_inside(&scene_of(parts)), "as large outside as inside");
+}
+
+#[test]
+fn the_outside_view_fills_its_picture() {
+    for size in [[2.0; 3], [4.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]] {
+        let scene = one(box_mesh(size, false, &[]));
+        let camera = default_camera(&scene);
+        let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
+        let camera_from_world = camera.world_from_camera.inverse();
+        let reach = |point: &[f32; 3]| {
+            let seen = camera_from_world.transform_point3(DVec3::from_array(point.map(f64::from)));
+            seen.x.abs().max(seen.y.abs()) / (-seen.z * f64::from(fov_y / 2.0).tan())
+        };
+        let furthest = scene.meshes[0].positions.iter().map(reach).fold(0.0, f64::max);
+        assert!((0.94..=0.9525).contains(&furthest), "{size:?}: {furthest}");
+    }
 }
 
 #[test]
@@ -190,6 +229,7 @@ fn real_scenes_are_judged_right() {
     };
     for (file, inside) in [
         ("architecture/crytek_sponza/sponza.obj", true),
+        ("architecture/samplebuilding_instanced/subpass_scene_opaque.gltf", true),
         ("architecture/medieval_building/Medieval_building.obj", false),
         ("organic/stanford-bunny/stanford-bunny.obj", false),
         ("organic/teapot/teapot.obj", false),
@@ -206,39 +246,122 @@ fn real_scenes_are_judged_right() {
     }
 }
 
+/// A sky of one colour everywhere is no sky, and one that outshines white surfaces or leaves them dark no default.
 #[test]
-fn emission_through_a_texture_is_decoration() {
-    let texture = TextureRef { texture: 0, uv_set: 0, uv_transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] };
-    let glowing = Material { emission: [1.0; 3], emission_texture: Some(texture), ..Material::default() };
-    let with = |material: &Material| {
-        let mut scene = one(box_mesh(HALL, false, &[]));
-        scene.materials[0] = material.clone();
-        scene
+fn the_default_light_shows_grey_things_before_grey() {
+    let Environment::LatLong { width, height, radiance } = default_light() else { panic!("a map") };
+    assert_eq!(radiance.len(), (width * height) as usize);
+    assert!(radiance.iter().all(|[red, green, blue]| red == green && green == blue), "neutral");
+    let direction = |index: usize| {
+        let (column, row) = ((index as u32 % width) as f64, (index as u32 / width) as f64);
+        let azimuth = std::f64::consts::TAU * (column + 0.5) / f64::from(width);
+        let polar = std::f64::consts::PI * (row + 0.5) / f64::from(height);
+        let solid_angle = polar.sin() * 2.0 * std::f64::consts::PI.powi(2) / f64::from(width * height);
+        (DVec3::new(polar.sin() * azimuth.cos(), polar.cos(), polar.sin() * azimuth.sin()), solid_angle)
     };
+    // What a surface of base colour 0.8 shows, by the direction it faces.
+    let shown = |normal: DVec3| -> f64 {
+        let light = radiance.iter().enumerate().map(|(index, radiance)| {
+            let (direction, solid_angle) = direction(index);
+            f64::from(radiance[0]) * direction.dot(normal).max(0.0) * solid_angle
+        });
+        0.8 / std::f64::consts::PI * light.sum::<f64>()
+    };
+    let key = DVec3::new(-0.42, 1.19, 0.91).normalize();
+    let (lit, front, shadow) = (shown(key), shown(DVec3::Z), shown(DVec3::new(1.0, -1.0, -1.0).normalize()));
+    assert!((0.65..0.75).contains(&lit), "towards the key light: {lit}");
+    assert!(front > 1.3 * shown(DVec3::X) && lit > 1.5 * front, "form is shown: {front}");
+    assert!((0.08..0.2).contains(&shadow), "no shadow is black: {shadow}");
+    let behind = |index: &usize| direction(*index).0.dot(forward(&default_camera(&Scene::default()))) > 0.8;
+    for index in (0..radiance.len()).filter(behind).step_by(97) {
+        assert!((0.1..0.3).contains(&radiance[index][0]), "the background is grey: {:?}", radiance[index]);
+    }
+}
+
+/// Two triangles of a square metre each: one grey, and one of this material with these corners in the texture.
+fn beside(material: Material, uv: [f32; 2]) -> Scene {
+    let triangle = |x: f32, material| Mesh {
+        positions: vec![[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 1.0, 0.0]],
+        indices: vec![0, 1, 2],
+        uvs: [Some(vec![uv; 3]), None],
+        material,
+        ..Mesh::default()
+    };
+    let mut scene = scene_of(vec![
+        (triangle(0.0, 0), DAffine3::IDENTITY),
+        (triangle(5.0, 1), DAffine3::IDENTITY),
+    ]);
+    scene.materials.push(material);
+    scene.images = vec![Image {
+        name: "black, white".to_owned(),
+        width: 2,
+        height: 1,
+        rgba8: vec![0, 0, 0, 255, 255, 255, 255, 255],
+    }];
+    let (wrap_u, wrap_v) = (Wrap::Repeat, Wrap::Clamp);
+    scene.textures = vec![Texture { image: 0, wrap_u, wrap_v, filter: Filter::Linear, mipmapped: true }];
+    scene
+}
+
+#[test]
+fn what_glows_a_little_is_no_light() {
+    let glow = |emission: f32| Material { emission: [emission; 3], ..Material::default() };
+    // Half of the surface glows, from one side: 0.1 is 0.05 on average.
+    assert!(is_lit(&beside(glow(0.101), [0.0; 2])));
+    assert!(!is_lit(&beside(glow(0.099), [0.0; 2])));
+    assert!(is_lit(&beside(Material { double_sided: true, ..glow(0.051) }, [0.0; 2])), "from both");
+    // By luminance.
+    assert!(!is_lit(&beside(Material { emission: [0.0, 0.0, 1.0], ..Material::default() }, [0.0; 2])));
+    assert!(is_lit(&beside(Material { emission: [0.0, 1.0, 0.0], ..Material::default() }, [0.0; 2])));
+    // Unlit surfaces emit their base colour.
+    let unlit = |base_color| Material { unlit: true, base_color, ..Material::default() };
+    assert!(is_lit(&beside(unlit([0.051, 0.051, 0.051, 1.0]), [0.0; 2])));
+    assert!(!is_lit(&beside(unlit([0.049, 0.049, 0.049, 1.0]), [0.0; 2])));
+    // Where nothing is placed nothing glows, and lights that are out light nothing.
+    let mut nothing = beside(glow(1.0), [0.0; 2]);
+    nothing.instances.pop();
+    assert!(!is_lit(&nothing));
+    nothing.lights.push(Light::Directional { direction: DVec3::NEG_Y, irradiance: [0.0; 3] });
+    assert!(!is_lit(&nothing));
+    nothing.lights.push(Light::Directional { direction: DVec3::NEG_Y, irradiance: [0.0, 0.1, 0.0] });
+    assert!(is_lit(&nothing));
+}
+
+#[test]
+fn emission_is_what_its_texture_leaves_of_it() {
+    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let with = |uv_transform| Material {
+        emission: [1.0; 3],
+        emission_texture: Some(TextureRef { texture: 0, uv_set: 0, uv_transform }),
+        ..Material::default()
+    };
+    let (black, white) = ([0.25, 0.5], [0.75, 0.5]);
+    assert!(is_lit(&beside(with(identity), white)));
+    assert!(!is_lit(&beside(with(identity), black)));
+    let shifted = [[1.0, 0.0, 1.5], [0.0, 1.0, 0.0]];
+    assert!(is_lit(&beside(with(shifted), black)) && !is_lit(&beside(with(shifted), white)), "repeated");
+    let mut mirrored = beside(with([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), black);
+    assert!(!is_lit(&mirrored));
+    mirrored.textures[0].wrap_u = Wrap::Mirror;
+    assert!(is_lit(&mirrored));
+    // A texture that is not there counts as white.
+    mirrored.images.clear();
+    assert!(is_lit(&mirrored));
+
     let workload = Workload { integrator: Integrator::Path, bounces: 2 };
-    let mut scene = with(&glowing);
-    assert!(!is_lit(&scene));
+    let mut scene = beside(with(identity), black);
     assert!(!Needs::of(&scene, workload).requires(Term::Environment));
     assert!(ensure_lit(&mut scene));
-    assert!(matches!(scene.environment, Environment::Constant([1.0, 1.0, 1.0])));
+    assert!(matches!(scene.environment, Environment::LatLong { .. }));
     assert_eq!(scene.warnings.len(), 1);
     assert_eq!(scene.warnings[0].kind, "default-light");
-    assert!(scene.warnings[0].message.contains("emission textures"), "{}", scene.warnings[0].message);
+    assert!(scene.warnings[0].message.contains("too little"), "{}", scene.warnings[0].message);
     let needs = Needs::of(&scene, workload);
     assert!(needs.requires(Term::Environment), "it is a light now");
     assert!(needs.requires(Term::Emission), "and what glows still does");
 
-    let mut dark = with(&Material::default());
+    let mut dark = one(box_mesh(HALL, false, &[]));
     assert!(ensure_lit(&mut dark));
-    assert!(!dark.warnings[0].message.contains("textures"), "{}", dark.warnings[0].message);
-
-    let mut lamp = with(&glowing);
-    lamp.materials.push(Material { emission: [0.0, 0.0, 2.0], ..Material::default() });
-    assert!(!is_lit(&lamp), "nothing is made of it");
-    lamp.meshes[0].material = 1;
-    assert!(!ensure_lit(&mut lamp) && lamp.warnings.is_empty());
-    let mut sun = with(&glowing);
-    sun.lights.push(Light::Directional { direction: DVec3::NEG_Y, irradiance: [1.0; 3] });
-    assert!(!ensure_lit(&mut sun));
-    assert!(!ensure_lit(&mut with(&Material { unlit: true, ..glowing })), "unlit surfaces show themselves");
+    assert!(dark.warnings[0].message.contains("nothing"), "{}", dark.warnings[0].message);
+    assert!(!ensure_lit(&mut dark), "it is lit now");
 }

@@ -46,13 +46,14 @@ fn what_does_not_emit_gets_light_once() {
     let mut scene = triangle_scene([[0.0; 3]; 3], DAffine3::IDENTITY);
     assert!(!is_lit(&scene));
     assert!(ensure_lit(&mut scene));
-    assert!(matches!(scene.environment, Environment::Constant([1.0, 1.0, 1.0])));
+    assert!(matches!(scene.environment, Environment::LatLong { .. }));
     assert_eq!(scene.warnings[0].kind, "default-light");
     assert!(!ensure_lit(&mut scene), "it is lit now");
     assert_eq!(scene.warnings.len(), 1);
 
     let lit = |change: &dyn Fn(&mut Scene)| {
-        let mut scene = triangle_scene([[0.0; 3]; 3], DAffine3::IDENTITY);
+        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut scene = triangle_scene(corners, DAffine3::IDENTITY);
         change(&mut scene);
         is_lit(&scene)
     };

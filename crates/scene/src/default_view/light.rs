@@ -1,29 +1,38 @@
-//! Whether a scene is lit, and the light it gets if it is not.
+//! Whether a scene is lit, and what lights it if it is not.
 
-use crate::{Environment, Material, Scene, Warning};
+use super::emission::mean_emission;
+use super::sky::sky;
+use crate::{Environment, Light, Material, Scene, Warning};
 
-/// Whether anything lights the scene: a light, an environment that is not black, or a material that
-/// emits everywhere (unlit ones do) and is used by a placed mesh with triangles.
+/// What the surfaces of a scene emit lights it from this much on: the mean radiance over all of its surfaces,
+/// W/(sr m^2). The lamp of a Cornell box gives the box 0.09; a white surface that saw 0.05 all around would be
+/// shown as a dark grey.
+const LEAST_EMISSION: f64 = 0.05;
+
+/// Whether anything lights the scene: a punctual light that is not black, an environment that is not black, or
+/// surfaces that emit a mean radiance of at least 0.05 W/(sr m^2). That mean is over the area of all placed
+/// triangles, with emission by luminance, as textures shape it, once for each side that emits; surfaces of unlit
+/// materials emit their base colour on both sides.
 ///
-/// Emission that an emission texture shapes does not count. Such textures draw lamps, screens and
-/// glowing marks on objects that are meant to stand in somebody else's light.
+/// So lamps light a room, while eyes, screens and marks that glow on an object leave it to somebody else's light.
 pub fn is_lit(scene: &Scene) -> bool {
     let environment = match &scene.environment {
-        Environment::Constant(radiance) => radiance.iter().any(|channel| *channel > 0.0),
-        Environment::LatLong { radiance, .. } => radiance.iter().flatten().any(|channel| *channel > 0.0),
+        Environment::Constant(radiance) => shines(radiance),
+        Environment::LatLong { radiance, .. } => radiance.iter().any(|texel| shines(texel)),
     };
-    environment || !scene.lights.is_empty() || shown_materials(scene).any(lights_scene)
+    environment || scene.lights.iter().any(light_shines) || mean_emission(scene) >= LEAST_EMISSION
 }
 
 /// Whether surfaces of this material send out light by themselves.
 pub fn emits(material: &Material) -> bool {
-    let shown = |color: &[f32]| color.iter().any(|channel| *channel > 0.0);
-    shown(&material.emission) || (material.unlit && shown(&material.base_color[..3]))
+    shines(&material.emission) || (material.unlit && shines(&material.base_color[..3]))
 }
 
-/// The light of a scene that brings none: white from everywhere, radiance 1 W/(sr m^2).
+/// The light of a scene that brings none, as a map of 256 x 128 texels: a neutral sky, grey at the horizon, with a
+/// broad soft key light half way up, to the left of a camera that looks along -z. A surface of base colour 0.8
+/// that faces the key light has a radiance of about 0.7 W/(sr m^2).
 pub fn default_light() -> Environment {
-    Environment::Constant([1.0; 3])
+    sky()
 }
 
 /// Gives a scene that nothing lights (see [`is_lit`]) the [`default_light`], with a warning
@@ -33,22 +42,29 @@ pub fn ensure_lit(scene: &mut Scene) -> bool {
         return false;
     }
     let reason = if shown_materials(scene).any(emits) {
-        "nothing lights the scene: what glows does so through emission textures, which count as decoration"
+        "what glows in the scene is too little to light it"
     } else {
         "nothing in the scene emits light"
     };
     scene.environment = default_light();
-    let message = format!("{reason}; a white environment of radiance 1 was added");
+    let message = format!("{reason}; a neutral sky with a soft key light was added");
     scene.warnings.push(Warning { kind: "default-light", message });
     true
 }
 
-fn lights_scene(material: &Material) -> bool {
-    emits(material) && (material.unlit || material.emission_texture.is_none())
+fn shines(color: &[f32]) -> bool {
+    color.iter().any(|channel| *channel > 0.0)
+}
+
+fn light_shines(light: &Light) -> bool {
+    match light {
+        Light::Point { intensity, .. } | Light::Spot { intensity, .. } => shines(intensity),
+        Light::Directional { irradiance, .. } => shines(irradiance),
+    }
 }
 
 /// Materials of placed meshes that have triangles; one for every instance.
-fn shown_materials(scene: &Scene) -> impl Iterator<Item = &Material> {
+pub(super) fn shown_materials(scene: &Scene) -> impl Iterator<Item = &Material> {
     scene.instances.iter().filter_map(|instance| {
         let mesh = scene.meshes.get(instance.mesh)?;
         let material = scene.materials.get(mesh.material)?;

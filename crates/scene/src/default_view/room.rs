@@ -17,6 +17,18 @@ const DIRECTIONS: usize = 96;
 /// hollow thing with walls of its own, such as a helmet, lacks the floor.
 const FRONTS: f64 = 0.6;
 const FRONTS_BELOW: f64 = 0.9;
+/// To be stood in, a room must be one in all directions: of those that do not rise by more than 30 degrees this
+/// share ends on fronts, in each quarter of the horizon. The face of a mask is open.
+const FRONTS_AROUND: f64 = 0.85;
+/// Cosine between straight up and the steepest of them.
+const STEEPEST: f64 = 0.5;
+/// The share of the surface that may lie outside. Of a hollow thing that is lined, such as a helmet or the shell
+/// of a machine, more than half does, since a lining is smaller than what it lines; of a building that is modelled
+/// for its inside, with its outer walls, a third and less.
+const OUTER: f64 = 0.42;
+/// Places on the surface that are looked at for that, and directions from each of which three in four must be free.
+const PLACES_ON_SURFACE: usize = 1024;
+const DIRECTIONS_FROM_SURFACE: usize = 12;
 /// An open side, as a box for show has one, takes at least this share of the directions, and the
 /// mean of all that end nowhere is at least this long (1: all the same).
 const OPEN_SIDE: f64 = 0.08;
@@ -59,6 +71,9 @@ pub(super) fn camera_inside(scene: &Scene) -> Option<Camera> {
     if let Some(camera) = room.camera_at_open_side(middle) {
         return Some(camera);
     }
+    if !(room.is_around_everywhere(middle) && room.outer_share() <= OUTER) {
+        return None;
+    }
     let mut best: Option<View> = None;
     for middle in middles {
         room.look_from(middle, &mut best);
@@ -95,6 +110,31 @@ impl Room<'_> {
     fn is_around(&self, point: DVec3) -> bool {
         let seen = self.surroundings(point);
         seen.nearest >= self.clearance && seen.fronts >= FRONTS && seen.fronts_below >= FRONTS_BELOW
+    }
+
+    fn is_around_everywhere(&self, point: DVec3) -> bool {
+        let (mut all, mut fronts) = ([0_u32; 4], [0_u32; 4]);
+        for direction in sphere().filter(|direction| direction.y <= STEEPEST) {
+            let quarter = 2 * usize::from(direction.x + direction.z > 0.0) + usize::from(direction.x > direction.z);
+            all[quarter] += 1;
+            fronts[quarter] += u32::from(self.sight.first(point, direction).is_some_and(|hit| hit.front));
+        }
+        all.iter().zip(fronts).all(|(&all, fronts)| f64::from(fronts) >= FRONTS_AROUND * f64::from(all))
+    }
+
+    /// The share of the surface, by area, whose front is open to the outside: from where three in four directions,
+    /// by the cosine law, meet nothing.
+    fn outer_share(&self) -> f64 {
+        let places = self.sight.places(PLACES_ON_SURFACE);
+        // What is closer than this is the surface that the place lies on.
+        let own = self.clearance * 1.0e-4;
+        let is_outside = |&(place, normal): &(DVec3, DVec3)| {
+            let ways = sphere_of(DIRECTIONS_FROM_SURFACE).map(|point| (normal + point).normalize_or(normal));
+            let free = ways.filter(|&way| self.sight.first_beyond(place, way, own).is_none()).count();
+            4 * free >= 3 * DIRECTIONS_FROM_SURFACE
+        };
+        let outside = places.iter().filter(|place| is_outside(place)).count();
+        outside as f64 / places.len().max(1) as f64
     }
 
     fn surroundings(&self, point: DVec3) -> Surroundings {
@@ -199,11 +239,15 @@ fn level(angle: f64) -> DVec3 {
     DVec3::new(-angle.sin(), 0.0, -angle.cos())
 }
 
-/// Directions evenly over the sphere: a spiral that turns by the golden angle.
 fn sphere() -> impl Iterator<Item = DVec3> {
+    sphere_of(DIRECTIONS)
+}
+
+/// Directions evenly over the sphere: a spiral that turns by the golden angle.
+fn sphere_of(count: usize) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
-    (0..DIRECTIONS).map(move |step| {
-        let height = 1.0 - (2.0 * step as f64 + 1.0) / DIRECTIONS as f64;
+    (0..count).map(move |step| {
+        let height = 1.0 - (2.0 * step as f64 + 1.0) / count as f64;
         let radius = (1.0 - height * height).sqrt();
         let (sine, cosine) = (golden * step as f64).sin_cos();
         DVec3::new(radius * cosine, height, radius * sine)

@@ -97,6 +97,11 @@ impl<'a> Sight<'a> {
     /// The nearest hit of the ray, at distance 0 too. The origin lies in the bounds. Once too much has
     /// been looked at, as where many large triangles lie on each other, there are no more hits.
     pub fn first(&self, origin: DVec3, direction: DVec3) -> Option<Hit> {
+        self.first_beyond(origin, direction, 0.0)
+    }
+
+    /// The same of hits at a distance of at least `least`.
+    pub fn first_beyond(&self, origin: DVec3, direction: DVec3, least: f64) -> Option<Hit> {
         let mut cell = self.cell_at(origin);
         let mut best: Option<Hit> = None;
         loop {
@@ -108,6 +113,7 @@ impl<'a> Sight<'a> {
             for &entry in entries {
                 let hit = self.meet(self.triangles[entry as usize], origin, direction);
                 if let Some(hit) = hit
+                    && hit.t >= least
                     && best.is_none_or(|best| hit.t < best.t)
                 {
                     best = Some(hit);
@@ -130,6 +136,33 @@ impl<'a> Sight<'a> {
             }
             cell[axis] = if forward { cell[axis] + 1 } else { cell[axis] - 1 };
         }
+    }
+
+    /// So many places evenly over the area of the surfaces, each with the unit normal of its front. Fewer where
+    /// triangles are too thin to have a normal, none without area.
+    pub fn places(&self, count: usize) -> Vec<(DVec3, DVec3)> {
+        let placed = |triangle: &[u32; 2]| {
+            let (points, mirrored) = corners(self.scene, *triangle).unwrap_or_default();
+            let normal = (points[1] - points[0]).cross(points[2] - points[0]);
+            (points, if mirrored { -normal } else { normal })
+        };
+        let doubled_area: f64 = self.triangles.iter().map(|triangle| placed(triangle).1.length()).sum();
+        let step = doubled_area / count as f64;
+        let mut places = Vec::with_capacity(count);
+        let mut passed = 0.0;
+        for triangle in &self.triangles {
+            let ([a, b, c], normal) = placed(triangle);
+            passed += normal.length();
+            while places.len() < count && passed > step * (places.len() as f64 + 0.5) {
+                let Some(normal) = normal.try_normalize() else { break };
+                // Two numbers that fill the square evenly (Roberts 2018), folded into the triangle.
+                let [u, v] = [0.754_877_666, 0.569_840_291].map(|turn| (turn * places.len() as f64).fract());
+                let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+                let place = a + (b - a) * u + (c - a) * v;
+                places.push((place.clamp(self.low, self.high), normal));
+            }
+        }
+        places
     }
 
     fn fill(&mut self) {
