@@ -19,7 +19,7 @@ const FRONTS: f64 = 0.6;
 const FRONTS_BELOW: f64 = 0.9;
 /// To be stood in, a room must be one in all directions: of those that do not rise by more than 30 degrees this
 /// share ends on fronts, in each quarter of the horizon. The face of a mask is open.
-const FRONTS_AROUND: f64 = 0.85;
+const FRONTS_AROUND: f64 = 0.75;
 /// Cosine between straight up and the steepest of them.
 const STEEPEST: f64 = 0.5;
 /// The share of the surface that may lie outside. Of a hollow thing that is lined, such as a helmet or the shell
