@@ -2,19 +2,97 @@
 
 use crate::arguments::ViewArguments;
 use crate::error::AppError;
+use crate::report::CameraRecord;
 use glam::DVec3;
 use rasray_scene::default_view::{camera_looking_at, default_camera};
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{Camera, Projection, Scene};
 
 /// Full vertical angle of view with `--eye`, degrees, unless told.
 const DEFAULT_FOV: f64 = 45.0;
 
-/// The camera that was asked for; else the scene's first; else one that
-/// stands in the room that the scene is, or outside and sees all of it.
+/// A camera, and whose it is.
+#[derive(Clone, Debug)]
+pub(crate) struct Chosen {
+    /// The camera.
+    pub(crate) camera: Camera,
+    /// Its position among the scene's cameras, if it is one of them.
+    pub(crate) index: Option<usize>,
+}
+
+impl Chosen {
+    /// What reports say of it.
+    pub(crate) fn record(&self) -> CameraRecord {
+        let frame = &self.camera.world_from_camera;
+        let (kind, fov_y_degrees, height_m) = match self.camera.projection {
+            Projection::Perspective { fov_y } => ("perspective", Some(f64::from(fov_y).to_degrees()), None),
+            Projection::Orthographic { half_height } => ("orthographic", None, Some(2.0 * f64::from(half_height))),
+        };
+        CameraRecord {
+            name: self.camera.name.clone(),
+            index: self.index.map(|index| index as u64),
+            kind: kind.to_owned(),
+            fov_y_degrees,
+            height_m,
+            eye: frame.translation.to_array(),
+            forward: (-frame.matrix3.z_axis).normalize_or_zero().to_array(),
+            up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
+        }
+    }
+}
+
+/// A camera in a few words: whose it is, where it stands, and the options that put one there.
+pub(crate) fn described(record: &CameraRecord) -> String {
+    let whose = match record.index {
+        Some(index) => format!("{index} '{}'", record.name),
+        None => record.name.clone(),
+    };
+    format!("{whose}, {}", placed(record))
+}
+
+/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is rolled.
+pub(crate) fn placed(record: &CameraRecord) -> String {
+    let (eye, forward) = (DVec3::from_array(record.eye), DVec3::from_array(record.forward));
+    // A target as far away as the eye is from the origin keeps as many digits.
+    let target = eye + forward * eye.length().max(1.0);
+    let point = |point: DVec3| point.to_array().map(short).join(",");
+    match (record.fov_y_degrees, record.height_m) {
+        (Some(fov), _) => {
+            let upright = camera_looking_at("", eye, target, 1.0).world_from_camera.matrix3.y_axis;
+            let rolled = if upright.dot(DVec3::from_array(record.up)) < 0.999_99 { ", and rolled" } else { "" };
+            format!("--eye {} --target {} --fov {}{rolled}", point(eye), point(target), short(fov))
+        }
+        (_, height) => format!(
+            "parallel, {} m high, from {} towards {}",
+            short(height.unwrap_or_default()),
+            point(eye),
+            point(target)
+        ),
+    }
+}
+
+/// A number with at most three digits after the point, or in powers of ten.
+fn short(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude != 0.0 && !(1.0e-2..1.0e7).contains(&magnitude) && magnitude >= 1.0e-12 {
+        return format!("{value:.4e}");
+    }
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
+/// is, or outside and sees all of it.
+pub(crate) fn by_default(scene: &Scene) -> Chosen {
+    let first = scene.cameras.first().cloned().map(|camera| Chosen { camera, index: Some(0) });
+    first.unwrap_or_else(|| Chosen { camera: default_camera(scene), index: None })
+}
+
+/// The camera that was asked for; else [`by_default`].
 ///
 /// # Errors
 /// A camera that the scene lacks, and an eye at its own target.
-pub fn choose(scene: &Scene, view: &ViewArguments) -> Result<Camera, AppError> {
+pub(crate) fn choose(scene: &Scene, view: &ViewArguments) -> Result<Chosen, AppError> {
     if let (Some(eye), Some(target)) = (view.eye, view.target) {
         let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
         let distance = (target - eye).length();
@@ -25,18 +103,18 @@ pub fn choose(scene: &Scene, view: &ViewArguments) -> Result<Camera, AppError> {
             ));
         }
         let fov = view.fov.unwrap_or(DEFAULT_FOV).to_radians() as f32;
-        return Ok(camera_looking_at("command line", eye, target, fov));
+        return Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None });
     }
-    if let Some(name) = &view.camera {
-        return named(scene, name);
+    match &view.camera {
+        Some(name) => named(scene, name),
+        None => Ok(by_default(scene)),
     }
-    Ok(scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene)))
 }
 
-fn named(scene: &Scene, name: &str) -> Result<Camera, AppError> {
-    let by_name = scene.cameras.iter().find(|camera| camera.name == name);
-    let by_position = || name.parse::<usize>().ok().and_then(|position| scene.cameras.get(position));
-    by_name.or_else(by_position).cloned().ok_or_else(|| {
+fn named(scene: &Scene, name: &str) -> Result<Chosen, AppError> {
+    let by_name = scene.cameras.iter().position(|camera| camera.name == name);
+    let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
+    let index = by_name.or_else(by_position).ok_or_else(|| {
         let known: Vec<_> =
             scene.cameras.iter().enumerate().map(|(i, camera)| format!("{i} '{}'", camera.name)).collect();
         let help = if known.is_empty() {
@@ -45,13 +123,13 @@ fn named(scene: &Scene, name: &str) -> Result<Camera, AppError> {
             format!("its cameras: {}", known.join(", "))
         };
         AppError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
-    })
+    })?;
+    Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_scene::Projection;
 
     fn scene(names: &[&str]) -> Scene {
         let camera = |name: &&str| camera_looking_at(name, DVec3::X, DVec3::ZERO, 0.5);
@@ -65,10 +143,10 @@ mod tests {
     #[test]
     fn names_go_before_positions() {
         let scene = scene(&["1", "door"]);
-        assert_eq!(choose(&scene, &view("door")).expect("by name").name, "door");
-        assert_eq!(choose(&scene, &view("1")).expect("by name").name, "1");
-        assert_eq!(choose(&scene, &view("0")).expect("by position").name, "1");
-        assert_eq!(choose(&scene, &ViewArguments::default()).expect("the first").name, "1");
+        assert_eq!(choose(&scene, &view("door")).expect("by name").camera.name, "door");
+        assert_eq!(choose(&scene, &view("1")).expect("by name").camera.name, "1");
+        assert_eq!(choose(&scene, &view("0")).expect("by position").camera.name, "1");
+        assert_eq!(choose(&scene, &ViewArguments::default()).expect("the first").camera.name, "1");
         let error = choose(&scene, &view("window")).expect_err("no such camera");
         assert!(error.help().contains("'door'"), "{}", error.help());
     }
@@ -76,12 +154,35 @@ mod tests {
     #[test]
     fn an_eye_looks_at_its_target() {
         let view = ViewArguments { eye: Some([0.0, 0.0, 5.0]), target: Some([0.0; 3]), ..Default::default() };
-        let camera = choose(&scene(&[]), &view).expect("a camera");
+        let camera = choose(&scene(&[]), &view).expect("a camera").camera;
         let forward = camera.world_from_camera.transform_vector3(DVec3::NEG_Z);
         assert!((forward - DVec3::NEG_Z).length() < 1.0e-12);
         let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
         assert!((fov_y - 45.0_f32.to_radians()).abs() < 1.0e-6);
         let still = ViewArguments { eye: Some([1.0; 3]), target: Some([1.0; 3]), ..Default::default() };
         assert_eq!(choose(&scene(&[]), &still).expect_err("no direction").exit_code(), 2);
+    }
+
+    #[test]
+    fn a_camera_in_words_is_the_options_that_make_it() {
+        let eye = DVec3::new(1.5, -0.001_234_56, 30.0);
+        let camera = camera_looking_at("front", eye, DVec3::new(-2.0, 0.25, 1.0), 0.5);
+        let scene = Scene { cameras: vec![camera.clone()], ..Scene::default() };
+        let chosen = choose(&scene, &ViewArguments::default()).expect("the first");
+        let text = described(&chosen.record());
+        let words: Vec<_> = text.split_whitespace().collect();
+        let ["0", "'front',", "--eye", eye, "--target", target, "--fov", fov] = words[..] else { panic!("{text}") };
+        let point = |text: &str| Some(crate::arguments::values::point(text).expect("a point"));
+        let fov = Some(fov.parse().expect("degrees"));
+        let view = ViewArguments { eye: point(eye), target: point(target), fov, ..Default::default() };
+        let again = choose(&scene, &view).expect("a camera").camera;
+        assert!(again.world_from_camera.abs_diff_eq(camera.world_from_camera, 1.0e-3), "{text}");
+        assert_eq!(chosen.record().index, Some(0));
+
+        let mut rolled = chosen;
+        rolled.camera.world_from_camera.matrix3 *= glam::DMat3::from_rotation_z(0.1);
+        assert!(described(&rolled.record()).ends_with("rolled"));
+        rolled.camera.projection = Projection::Orthographic { half_height: 1.25 };
+        assert!(described(&rolled.record()).contains("2.5 m high"));
     }
 }

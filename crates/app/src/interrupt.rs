@@ -40,8 +40,11 @@ impl Interrupt {
                     watched.leave();
                 }
                 let stopping = watched.clone();
-                // This thread stays free for the second signal. Without another, the work ends between waves.
-                _ = std::thread::Builder::new().name("stopping".to_owned()).spawn(move || stopping.stop());
+                // This thread stays free for the second signal, if there can be another.
+                let other = std::thread::Builder::new().name("stopping".to_owned());
+                if other.spawn(move || stopping.stop()).is_err() {
+                    watched.stop();
+                }
             }
         })?;
         Ok(interrupt)
@@ -50,10 +53,10 @@ impl Interrupt {
     /// Ends the process after a while, unless something is finished that the work will write.
     fn stop(&self) {
         let keeps = || self.keeps.load(Ordering::SeqCst);
-        terminal::complain(if keeps() {
-            "stopping after the current wave; a second signal stops at once, without a result\n"
+        terminal::note(if keeps() {
+            "stopping as soon as what is finished can be written; a second signal stops at once, without a result"
         } else {
-            "stopping; nothing is finished yet\n"
+            "stopping; nothing is finished yet"
         });
         std::thread::sleep(GRACE);
         if !keeps() {

@@ -23,9 +23,10 @@ pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, 
 pub use interrupt::Interrupt;
 pub use scene_source::LoadedScene;
 
-use arguments::{Command, Refusal};
+use arguments::{Command, CommandLine, Refusal, TalkArguments};
 use backend::OpenBackend;
 use std::ffi::OsString;
+use terminal::Talk;
 
 /// Version of the command.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -52,7 +53,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend
     let words = arguments.iter().skip(1).map(|word| word.to_string_lossy());
     let line = std::iter::once("rasray".into()).chain(words).collect::<Vec<_>>().join(" ");
     let result = match arguments::parse(arguments) {
-        Ok(command) => execute(command, &line, open),
+        Ok(parsed) => execute(parsed, &line, open),
         Err(Refusal::Text(text)) => terminal::print(&text),
         Err(Refusal::Error(error)) => Err(error),
     };
@@ -65,7 +66,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, open: &mut OpenBackend
     }
 }
 
-fn execute(command: Command, line: &str, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
+fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
+    terminal::set_talk(match parsed.talk {
+        TalkArguments { quiet: true, .. } => Talk::Quiet,
+        TalkArguments { verbose: true, .. } => Talk::Verbose,
+        TalkArguments { .. } => Talk::Usual,
+    });
     terminal::start_logging();
     let interrupt = Interrupt::install().map_err(|error| {
         AppError::device(
@@ -73,9 +79,11 @@ fn execute(command: Command, line: &str, open: &mut OpenBackend<'_>) -> Result<(
             "run in an environment that lets programs handle SIGINT and SIGTERM",
         )
     })?;
-    match command {
+    match parsed.command {
         Command::Render(given) => commands::render(&given, line, open, &interrupt),
         Command::Compare(given) => commands::compare(&given, line, open, &interrupt),
         Command::Info(given) => commands::info(&given, open),
+        Command::Completions(given) => commands::completions(&given),
+        Command::Man(given) => commands::man(&given),
     }
 }

@@ -68,7 +68,7 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
 
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light. An
 /// environment that was asked for stays as it is, a black one too; else a scene that nothing lights
-/// gets white from everywhere, with a warning.
+/// gets [`default_view::default_light`], with a warning.
 ///
 /// # Errors
 /// Those of [`load`] and of the environment.
@@ -130,15 +130,18 @@ mod tests {
     fn an_environment_that_was_asked_for_stays() {
         let mut file = tempfile::Builder::new().suffix(".obj").tempfile().expect("a file");
         std::io::Write::write_all(&mut file, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("bytes");
-        for (asked, expected) in [(None, 1.0), (Some("0,0,0"), 0.0), (Some("2,2,2"), 2.0)] {
+        for (asked, expected) in [(None, None), (Some("0,0,0"), Some(0.0)), (Some("2,2,2"), Some(2.0))] {
             let reading = SceneArguments {
                 environment: asked.map(str::to_owned),
                 alpha: Switch::On,
                 needs: crate::arguments::NeedsName::Observed,
             };
             let scene = prepare(file.path().as_os_str(), &reading).expect("a triangle").scene;
-            let rasray_scene::Environment::Constant(radiance) = scene.environment else { panic!("constant") };
-            assert_eq!(radiance, [expected; 3], "{asked:?}");
+            let constant = match scene.environment {
+                rasray_scene::Environment::Constant(radiance) => Some(radiance),
+                rasray_scene::Environment::LatLong { .. } => None,
+            };
+            assert_eq!(constant, expected.map(|radiance| [radiance; 3]), "{asked:?}");
             let warned = scene.warnings.iter().any(|warning| warning.kind == "default-light");
             assert_eq!(warned, asked.is_none());
         }

@@ -45,24 +45,24 @@ pub enum Preset {
 #[command(next_help_heading = "Structure (defaults follow the system and its preset)")]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct StructureOptions {
-    /// Cells along each side of a view
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
+    /// Cells along each side of a view, 1 to 8192
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8192))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
-    /// With a camera among --views: cells along each side of its view; as --resolution if not given
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8192))]
+    /// With a camera among --views: cells along each side of its view; as --resolution if not given, 1 to 8192
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8192))]
     #[serde(rename = "camera-resolution", skip_serializing_if = "Option::is_none")]
     pub camera_resolution: Option<u32>,
-    /// Pixels along each side of a tile: lists are kept per tile
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    /// Pixels along each side of a tile: lists are kept per tile, 1 to 64
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tile: Option<u32>,
-    /// Cells along each side of a block of cells, a power of two
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    /// Cells along each side of a block of cells, a power of two, 1 to 64
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub block: Option<u32>,
-    /// Levels of blocks of cells
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=2))]
+    /// Levels of blocks of cells, 1 or 2
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 2))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub levels: Option<u32>,
     /// What a block of cells says of the depths in it
@@ -73,12 +73,12 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub build: Option<LayerBuild>,
-    /// With --build peel: most layers, a scene with more is refused
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    /// With --build peel: most layers, a scene with more is refused, 1 to 1024
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layers: Option<u32>,
-    /// Depth buckets per cell
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    /// Depth buckets per cell, 1 to 64
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub buckets: Option<u32>,
     /// Keep the nearest fragments of each cell alone
@@ -89,8 +89,8 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ids: Option<Switch>,
-    /// With --storage bricks: depth slices, the same for all tiles
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    /// With --storage bricks: depth slices, the same for all tiles, 1 to 1024
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slices: Option<u32>,
     /// With --storage bricks: keep triangles' corners once more, one behind the other
@@ -110,12 +110,12 @@ pub struct StructureOptions {
     #[serde(skip)]
     pub decoupled: bool,
     /// With --storage paged: fragments of a page, 1 to 8; of mmrt 1, 2, 4 or 8
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=8))]
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub page: Option<u32>,
     /// Voxels along each side of the scene's cube, balanced with --resolution if not given; with --views axes
-    /// of triangles, or --storage bricks of voxels, cells along the longest side of the scene
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    /// of triangles, or --storage bricks of voxels, cells along the longest side of the scene, 1 to 1024
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<u32>,
     /// In which of the views along the axes a fragment is kept
@@ -134,8 +134,8 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub march: Option<March>,
-    /// With --march samples: most samples on a face, or steps in a voxel
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65535))]
+    /// With --march samples: most samples on a face, or steps in a voxel, 1 to 65535
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 65535))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
     /// When what a ray meets is a hit
@@ -190,8 +190,8 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub builder: Option<Builder>,
-    /// With --builder sah: most triangles of a leaf
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=16))]
+    /// With --builder sah: most triangles of a leaf, 1 to 16
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 16))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub leaf: Option<u32>,
     /// How shaders reach the structure's memory

@@ -61,7 +61,7 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
     assert_eq!((run.seed, run.bounces, run.width, run.spp), (Some(9), Some(2), Some(4), Some(16)));
     assert_eq!((run.times.build_ms, run.memory.is_none(), run.accuracy.is_none()), (None, true, true));
     let text = String::from_utf8_lossy(&output.stdout);
-    assert!(text.contains("trace") && text.contains("2.000 ms") && text.contains("1,000"), "{text}");
+    assert!(text.contains("trace 2.0 ms") && text.contains("1,000 rays"), "{text}");
 }
 
 #[test]

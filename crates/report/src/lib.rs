@@ -7,7 +7,8 @@ mod tests;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use schema::{
-    Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, Spread, Statistics, Timer, Times,
+    CameraRecord, Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, Spread, Statistics, Timer,
+    Times,
 };
 
 use rasray_metrics::confidence_of_each;
@@ -43,9 +44,17 @@ impl Report {
             command: origin.command,
             device,
             scene,
+            camera: None,
             statistics,
             runs,
         }
+    }
+
+    /// The same with the camera that it was seen from.
+    #[must_use]
+    pub fn seen_from(mut self, camera: CameraRecord) -> Self {
+        self.camera = Some(camera);
+        self
     }
 
     /// The report as JSON text with a line break at its end. A number that is not finite is left out

@@ -31,6 +31,9 @@ pub struct Report {
     pub device: Device,
     /// What it ran on.
     pub scene: SceneRecord,
+    /// From where it was seen; absent for hard cases, which have an eye of their own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<CameraRecord>,
     /// What the intervals of all rates hold together; absent where no rate was estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Statistics>,
@@ -75,6 +78,31 @@ pub struct SceneRecord {
     /// Of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
+}
+
+/// From where a scene was seen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CameraRecord {
+    /// As the scene has it; `default` or `command line` for a camera that is not the scene's.
+    pub name: String,
+    /// Position among the scene's cameras, from 0; absent for a camera that is not the scene's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub index: Option<u64>,
+    /// `perspective` or `orthographic`.
+    pub kind: String,
+    /// Full vertical angle of view, degrees; of a perspective.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fov_y_degrees: Option<f64>,
+    /// Metres of the world from the lower to the upper edge; of a parallel projection.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height_m: Option<f64>,
+    /// Metres, world.
+    pub eye: [f64; 3],
+    /// Unit direction in which it looks, world.
+    pub forward: [f64; 3],
+    /// Unit direction that is up in the picture, world.
+    pub up: [f64; 3],
 }
 
 /// One system, preset and ray set or image.

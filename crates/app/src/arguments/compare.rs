@@ -45,11 +45,11 @@ pub struct CompareArguments {
     /// Where the rays come from [default: incoherent,camera; none with --rays-file]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub ray_set: Vec<RaySet>,
-    /// Rays per set [default: 200000; 2000 for hard cases]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
+    /// Rays per set, 1 to 100000000 [default: 200000; 2000 for hard cases]
+    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 100_000_000))]
     pub rays: Option<u32>,
-    /// Times that each build and each set of rays is timed, after once to warm up
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    /// Times that each build and each set of rays is timed, after once to warm up, 1 to 10000
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = crate::arguments::values::whole(1, 10_000))]
     pub repetitions: u32,
     /// With a hard case: meshes in the size of the catalogue
     #[arg(long)]
@@ -63,7 +63,7 @@ pub struct CompareArguments {
     /// Also render an image with each system and compare it with the reference
     #[arg(long)]
     pub image: bool,
-    /// JSON with everything that was measured
+    /// JSON with everything that was measured; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
     /// Page with tables, pictures and graphs, whole in one file

@@ -8,9 +8,10 @@ const AFTER_HELP: &str = "\
 Examples:
   rasray info
   rasray info scene.glb --integrator ao
+  rasray info scene.glb --json
 
 Without a scene: the devices, what the one in use offers, and which way each structure takes on it.
-With a scene: what is in it, and what of that an image can show.";
+With a scene: what is in it, its cameras and the view where none is named, and what of it an image can show.";
 
 /// Options of `rasray info`.
 #[derive(Debug, Args)]
@@ -22,6 +23,9 @@ pub struct InfoArguments {
     /// With a scene: the integrator whose needs are shown
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,
+    /// The same as JSON
+    #[arg(long)]
+    pub json: bool,
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,

@@ -1,6 +1,7 @@
 //! The command line: what can be said, and how mistakes are answered.
 
 mod compare;
+mod documents;
 mod info;
 mod ray_files;
 mod render;
@@ -8,10 +9,13 @@ mod shared;
 pub mod values;
 
 pub use compare::CompareArguments;
+pub use documents::{CompletionsArguments, ManArguments};
 pub use info::InfoArguments;
 pub use ray_files::{NamedFile, RayFileArguments};
 pub use render::{Aov, RenderArguments};
-pub use shared::{DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, ViewArguments};
+pub use shared::{
+    DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
+};
 
 use crate::error::{AppError, one_line};
 use clap::parser::ValueSource;
@@ -37,16 +41,19 @@ Exit codes:
   4    refused to lose data: the result could not be written, or was not complete
   130  stopped by SIGINT or SIGTERM; what was finished is written, unless stopped twice
 
-RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug.";
+RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps colours out of it.";
 
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(name = "rasray", version = crate::version_text(), about = ABOUT, after_help = AFTER_HELP)]
-#[command(arg_required_else_help = true, disable_help_subcommand = true)]
+#[command(arg_required_else_help = true)]
 pub struct CommandLine {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// How much is said.
+    #[command(flatten)]
+    pub talk: TalkArguments,
 }
 
 /// What the command can do.
@@ -58,10 +65,14 @@ pub enum Command {
     Compare(Box<CompareArguments>),
     /// Show the device, or what a scene holds and needs
     Info(InfoArguments),
+    /// Print completions of this command line for a shell
+    Completions(CompletionsArguments),
+    /// Print a page of the manual
+    Man(ManArguments),
 }
 
 /// The words of [`Command`].
-const COMMANDS: [&str; 3] = ["render", "compare", "info"];
+const COMMANDS: [&str; 5] = ["render", "compare", "info", "completions", "man"];
 
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]
@@ -76,16 +87,16 @@ pub enum Refusal {
 ///
 /// # Errors
 /// Help and version as text; everything else as a usage error.
-pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, Refusal> {
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLine, Refusal> {
     let arguments: Vec<_> = arguments.into_iter().collect();
     let command = arguments.get(1).and_then(|word| word.to_str()).filter(|word| COMMANDS.contains(word));
     match read(&arguments) {
-        Ok(command) => Ok(command),
+        Ok(line) => Ok(line),
         Err(error) => Err(match error.kind() {
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Refusal::Error(AppError::usage(
                 "nothing was asked for",
-                "say render, compare or info; 'rasray --help' explains them, with examples",
+                "say render, compare or info; 'rasray help' explains them, with examples",
             )),
             _ => Refusal::Error(usage_error(&error, "", command)),
         }),
@@ -93,13 +104,13 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Command, R
 }
 
 /// Reads the words, and which options are among them.
-fn read(arguments: &[OsString]) -> Result<Command, clap::Error> {
+fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
     let matches = CommandLine::command().try_get_matches_from(arguments)?;
-    let mut command = CommandLine::from_arg_matches(&matches)?.command;
-    if let Command::Compare(given) = &mut command {
+    let mut line = CommandLine::from_arg_matches(&matches)?;
+    if let Command::Compare(given) = &mut line.command {
         given.typed = matches.subcommand().map(|(_, own)| typed(own)).unwrap_or_default();
     }
-    Ok(command)
+    Ok(line)
 }
 
 /// Long names of the options that were typed, not left to their defaults.

@@ -4,6 +4,7 @@ use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArgumen
 use super::values;
 use crate::backend::AovSelection;
 use crate::error::AppError;
+use crate::output::ImageFormat;
 use crate::structure::{Preset, Storage, StructureOptions, SystemName};
 use crate::systems::{self, SystemConfig};
 use clap::{Args, ValueEnum};
@@ -17,11 +18,13 @@ Examples:
   rasray render scene.glb --integrator ao --ao-distance 2 --output ao.exr --aov depth,normal,primitive
   rasray render scene.obj --eye 0,1.6,4 --target 0,1,0 --fov 60 --environment 1,1,1 --output view.png
   rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
+  rasray render cornell --output - --format png | display
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
 Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id (triangle, 4294967295:
-miss). Files are written beside their place and renamed, so a file there is always whole.
+miss). Files are written beside their place and renamed, so a file there is always whole; of a link it is
+the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command
 ends within two seconds and writes nothing. A second one stops at once and writes nothing.";
@@ -39,20 +42,23 @@ pub struct RenderArguments {
     /// How closely the system follows its paper
     #[arg(long, value_enum, default_value_t = Preset::Robust)]
     pub preset: Preset,
-    /// Image to write: .png or .exr
+    /// Image to write: .png or .exr; - is standard output
     #[arg(long, short, value_name = "FILE", required_unless_present = "report")]
     pub output: Option<PathBuf>,
+    /// How the image is stored [default: as the name of --output ends]
+    #[arg(long, value_enum, requires = "output")]
+    pub format: Option<ImageFormat>,
     /// Images beside the colours, kept in the .exr
     #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
     /// Stops of exposure for .png
     #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, requires = "output")]
     pub exposure: Option<f32>,
-    /// JSON with times, bytes and counts
+    /// JSON with times, bytes and counts; - is standard output
     #[arg(long, value_name = "FILE")]
     pub report: Option<PathBuf>,
-    /// Builds that are timed after the first, for the medians of a report [default: none]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    /// Builds that are timed after the first, for the medians of a report, 1 to 10000 [default: none]
+    #[arg(long, value_name = "N", value_parser = values::whole(1, 10_000))]
     pub repetitions: Option<u32>,
     /// The image and what light does.
     #[command(flatten)]

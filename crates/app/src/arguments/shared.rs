@@ -34,6 +34,17 @@ impl IntegratorName {
 /// before it is seen on what stands behind, eight times where two such glasses stand in a row.
 const DEFAULT_BOUNCES: u32 = 8;
 
+/// How much is said beside results and errors.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct TalkArguments {
+    /// Say nothing but errors and what was asked for
+    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    pub quiet: bool,
+    /// Print every number of a run, not the short summary
+    #[arg(long, short, global = true)]
+    pub verbose: bool,
+}
+
 /// The image and what light does.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Image")]
@@ -44,12 +55,12 @@ pub struct FrameArguments {
     /// Pixels
     #[arg(long, value_name = "WxH", value_parser = values::size, default_value = "640x360")]
     pub size: Size,
-    /// Samples per pixel
-    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    /// Samples per pixel, 1 to 1048576
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = values::whole(1, 1_048_576))]
     pub spp: u32,
     /// With --integrator path: at most this many scatterings (0: emission alone, 1: direct light; through
-    /// glass each surface is one) [default: 8]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=64))]
+    /// glass each surface is one), 0 to 64 [default: 8]
+    #[arg(long, value_name = "N", value_parser = values::whole(0, 64))]
     pub bounces: Option<u32>,
     /// With --integrator ao: metres within which something occludes [default: any distance]
     #[arg(long, value_name = "METRES", value_parser = values::positive)]
@@ -91,7 +102,7 @@ impl FrameArguments {
 
 /// From where the scene is seen.
 #[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Camera (default: the scene's first, or one in the room or before the scene)")]
+#[command(next_help_heading = "Camera (default: the scene's first, or one before the scene, within it if it is a room)")]
 pub struct ViewArguments {
     /// A camera of the scene, by name or by position from 0
     #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]
@@ -120,8 +131,9 @@ pub enum NeedsName {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Scene")]
 pub struct SceneArguments {
-    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour [default: the scene's, or
-    /// white where nothing lights the scene; glow that only a texture draws does not]
+    /// Radiance from outside: a latitude-longitude map (.hdr), or one colour, black too [default: the scene's; where
+    /// nothing lights the scene, a neutral sky with a soft key light. Surfaces that emit light it from a mean
+    /// radiance of 0.05 over all surfaces on: lamps in a room do, marks that glow on an object do not]
     #[arg(long, value_name = "FILE.hdr|R,G,B")]
     pub environment: Option<String>,
     /// Let alpha cut holes and blend; off makes every surface opaque

@@ -11,7 +11,7 @@ fn arguments(line: &str) -> Vec<OsString> {
 
 fn render(line: &str) -> RenderArguments {
     match parse(arguments(line)) {
-        Ok(Command::Render(render)) => *render,
+        Ok(CommandLine { command: Command::Render(render), .. }) => *render,
         other => panic!("{line}: {other:?}"),
     }
 }
@@ -59,7 +59,7 @@ fn a_comparison_takes_lists_and_addressed_options() {
     let line = "compare cornell --systems mmrt,brute-force --presets published,robust --ray-set eye,bounce \
                 mmrt.march=samples --rays 10";
     match parse(arguments(line)) {
-        Ok(Command::Compare(given)) => {
+        Ok(CommandLine { command: Command::Compare(given), .. }) => {
             assert_eq!(given.systems, [SystemName::Mmrt, SystemName::BruteForce]);
             assert_eq!(given.ray_set, [RaySet::Eye, RaySet::Bounce]);
             assert_eq!(given.assignments, ["mmrt.march=samples"]);
@@ -80,7 +80,7 @@ fn options_of_another_integrator_are_refused() {
 #[test]
 fn mistakes_are_two_lines_with_a_way_out() {
     let cases = [
-        ("", "nothing was asked for", "rasray --help"),
+        ("", "nothing was asked for", "rasray help"),
         ("rendr cornell", "rendr", "render"),
         ("render", "<SCENE>", "rasray render --help"),
         ("render cornell", "--output", "rasray render --help"),
@@ -92,6 +92,10 @@ fn mistakes_are_two_lines_with_a_way_out() {
         ("render cornell -o a.png --camera a --eye 0,0,0 --target 1,0,0", "--eye", "--help"),
         ("render cornell --report r.json --aov depth", "--output", "--help"),
         ("compare cornell", "--systems", "rasray compare --help"),
+        ("render cornell -o a.png --march jump --samples 65536", "from 1 to 65535", "rasray render --help"),
+        ("render cornell -o a.png -q -v", "--verbose", "--help"),
+        ("help rendr", "rendr", "render"),
+        ("completions powder", "powder", "bash"),
         ("view cornell", "view", "--help"),
     ];
     for (line, message, help) in cases {
@@ -105,7 +109,9 @@ fn mistakes_are_two_lines_with_a_way_out() {
 
 #[test]
 fn help_and_version_are_text() {
-    for line in ["--help", "render --help", "compare --help", "info --help", "--version"] {
+    for line in
+        ["--help", "render --help", "compare --help", "info --help", "--version", "help", "help render", "help man"]
+    {
         assert!(
             matches!(parse(arguments(line)), Err(Refusal::Text(text)) if text.contains("rasray")),
             "{line}"
@@ -121,4 +127,46 @@ fn without_a_system_only_options_of_the_exact_structure_are_taken() {
         let error = render(&format!("render cornell -o a.png {line}")).system().expect_err(line);
         assert!(error.exit_code() == 2 && error.help().contains("--system"), "{line}: {error}");
     }
+}
+
+#[test]
+fn how_much_is_said_stands_before_the_command_or_after_it() {
+    for (line, quiet, verbose) in [
+        ("info", false, false),
+        ("-q info", true, false),
+        ("info --quiet", true, false),
+        ("info -v", false, true),
+    ] {
+        let talk = parse(arguments(line)).expect(line).talk;
+        assert_eq!((talk.quiet, talk.verbose), (quiet, verbose), "{line}");
+    }
+}
+
+/// What the help says of whole numbers is what is taken.
+#[test]
+fn ranges_in_the_help_are_those_of_the_values() {
+    let line = CommandLine::command();
+    let mut tried = 0;
+    for (word, rest) in [("render", &["cornell", "--output=a.png"][..]), ("compare", &["cornell", "--systems=mmrt"])] {
+        let command = line.find_subcommand(word).expect("a command");
+        for argument in command.get_arguments().filter(|argument| argument.get_long().is_some()) {
+            let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
+            let words: Vec<_> = help.split([' ', ',', ';', ')']).filter(|word| !word.is_empty()).collect();
+            let range = words.windows(3).find_map(|three| {
+                let is_range = matches!(three[1], "to" | "or");
+                Some((three[0].parse::<u64>().ok()?, three[2].parse::<u64>().ok()?)).filter(|_| is_range)
+            });
+            let Some((least, most)) = range else { continue };
+            let option = argument.get_long().expect("filtered");
+            let takes = |value: u64| {
+                let own = format!("--{option}={value}");
+                let words = ["rasray", word].into_iter().chain(rest.iter().copied()).chain([own.as_str()]);
+                CommandLine::command().try_get_matches_from(words).is_ok()
+            };
+            assert!(takes(least) && takes(most), "--{option} {least} to {most}");
+            assert!(!takes(most + 1) && (least == 0 || !takes(least - 1)), "--{option} {least} to {most}");
+            tried += 1;
+        }
+    }
+    assert!(tried > 20, "{tried}");
 }

@@ -29,6 +29,17 @@ pub fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width: side(width)?, height: side(height)? })
 }
 
+/// A parser of whole numbers from `least` to `most`.
+///
+/// # Errors
+/// Of the parser: says what is allowed.
+pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
+    move |text| match text.trim().parse() {
+        Ok(value) if (least..=most).contains(&value) => Ok(value),
+        _ => Err(format!("must be a whole number from {least} to {most}")),
+    }
+}
+
 /// Reads three finite numbers, `1,-2.5,0`.
 ///
 /// # Errors
@@ -97,6 +108,15 @@ mod tests {
         assert_eq!(size("640x360"), Ok(Size { width: 640, height: 360 }));
         for bad in ["", "640", "640x", "x360", "0x10", "10x0", "-1x5", "99999x1", "1x2x3", "1.5x2"] {
             assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers() {
+        let parse = whole(2, 65_535);
+        assert_eq!((parse("2"), parse(" 65535 ")), (Ok(2), Ok(65_535)));
+        for bad in ["1", "65536", "-2", "2.5", "", "4294967298", "two"] {
+            assert_eq!(parse(bad), Err("must be a whole number from 2 to 65535".to_owned()), "{bad}");
         }
     }
 

@@ -1,6 +1,8 @@
 //! `rasray compare`.
 
-use super::{check_whole, destination, hard, keep_inputs, stop_if_requested, with_progress};
+use super::{
+    check_whole, destination, hard, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
+};
 use crate::arguments::CompareArguments;
 use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
@@ -9,7 +11,8 @@ use crate::output::Destination;
 use crate::ray_files::{self, SaveTargets};
 use crate::report::figures::Figures;
 use crate::report::{Report, html, markdown, origin, table};
-use crate::{camera, scene_source, systems, terminal};
+use crate::systems;
+use crate::terminal::{self, Talk};
 use std::ffi::OsStr;
 
 /// Rays per set unless told.
@@ -47,19 +50,17 @@ pub(crate) fn compare(
     let hits_files = given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-    let loaded = scene_source::prepare(&given.scene, &given.reading)?;
-    let camera = camera::choose(&loaded.scene, &given.view)?;
-    terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
     shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
 
-    let mut backend = open(&given.device.choice())?;
+    let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {
         scene: &loaded.scene,
-        camera,
+        camera: chosen.camera.clone(),
         systems,
         ray_sets,
         rays: given.rays.unwrap_or(DEFAULT_RAYS),
@@ -74,7 +75,7 @@ pub(crate) fn compare(
         needs: given.reading.needs(&loaded.scene, frame.workload()),
     };
     let Comparison { runs, figures, kept, replay } =
-        with_progress(interrupt, |progress| backend.compare(&job, progress))?;
+        with_progress(interrupt, |progress| progress.done > 0, |progress| backend.compare(&job, progress))?;
     if let Some(text) = replay {
         return terminal::print(&text);
     }
@@ -83,10 +84,11 @@ pub(crate) fn compare(
         return Err(AppError::interrupted("stopped before the first run was whole; nothing was written", ""));
     }
 
-    let report = Report::new(origin(line), backend.device(), loaded.record(), runs);
+    let report =
+        Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
     ray_files::save(&targets.save, &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
-    terminal::print(&table(&report))?;
+    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     report.runs.iter().try_for_each(check_whole)?;
     if finished < wanted && interrupt.requested() {
         let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
@@ -135,6 +137,11 @@ impl Targets {
     /// Whether a page is wanted, and with it figures.
     pub(super) fn has_page(&self) -> bool {
         self.html.is_some()
+    }
+
+    /// Whether a file goes to standard output, which then carries nothing else.
+    pub(super) fn take_stdout(&self) -> bool {
+        [&self.report, &self.html, &self.markdown].into_iter().flatten().any(Destination::is_stdout)
     }
 
     /// Where rays and hits go.

@@ -1,7 +1,7 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
 use super::compare::Targets;
-use super::{check_whole, stop_if_requested, with_progress};
+use super::{check_whole, open_device, stop_if_requested, with_progress};
 use crate::arguments::CompareArguments;
 use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
 use crate::error::AppError;
@@ -9,7 +9,7 @@ use crate::interrupt::Interrupt;
 use crate::ray_files::{self, HitsFile};
 use crate::report::{HardRecord, Report, Run, SceneRecord, columns, origin, table};
 use crate::systems::{self, SystemConfig};
-use crate::terminal;
+use crate::terminal::{self, Talk};
 use rasray_hard_cases::{HardFile, Loading, Scale};
 use rasray_scene::LoadOptions;
 use std::ffi::OsStr;
@@ -42,7 +42,7 @@ pub(super) fn compare(
     let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
-    let mut backend = open(&given.device.choice())?;
+    let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
 
     let mut whole = Comparison::default();
@@ -87,7 +87,7 @@ pub(super) fn compare(
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, sha256: None };
     let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
-    terminal::print(&table(&report))?;
+    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     if let Some(error) = failed {
         terminal::warn(&format!(
             "{finished} of {} cases were whole before the error, and only they are reported",
@@ -200,7 +200,7 @@ fn trace(
         keep: subject.targets.save().any(),
         replay: given.replay,
     };
-    let comparison = with_progress(interrupt, |progress| backend.hard(&job, progress))?;
+    let comparison = with_progress(interrupt, |progress| progress.done > 0, |progress| backend.hard(&job, progress))?;
     Ok((comparison, case.triangles.len() as u64))
 }
 

@@ -1,20 +1,26 @@
 //! What each word of the command does.
 
 mod compare;
+mod documents;
 mod hard;
 mod info;
 mod render;
 
 pub(crate) use compare::compare;
+pub(crate) use documents::{completions, man};
 pub(crate) use info::info;
 pub(crate) use render::render;
 
-use crate::backend::{Frame, Integrator, Progress};
+use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
+use crate::backend::{Backend, Frame, Integrator, OpenBackend, Progress};
+use crate::camera::{self, Chosen};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
-use crate::progress::ProgressLine;
+use crate::progress::{ProgressLine, during};
 use crate::report::Run;
+use crate::scene_source::{self, LoadedScene};
+use crate::terminal;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -47,21 +53,40 @@ fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Res
     match output {
         Some(output) if scene.is_file() && output.is(scene) => Err(AppError::usage(
             format!("{option} names the scene file"),
-            "name another file, such as report.json",
+            "name another file, such as result.png or report.json",
         )),
         _ => Ok(()),
     }
 }
 
-/// Does `work` with a progress line; a signal asks it to end early.
+/// Opens the wanted device.
+fn open_device(open: &mut OpenBackend<'_>, given: &DeviceArguments) -> Result<Box<dyn Backend>, AppError> {
+    during("device", "opening", || open(&given.choice()))
+}
+
+/// Reads a scene as the command line asks and chooses the camera; warns of what was left out of it.
+fn read_scene(
+    name: &OsStr,
+    reading: &SceneArguments,
+    view: &ViewArguments,
+) -> Result<(LoadedScene, Chosen), AppError> {
+    let loaded = during("scene", "reading", || scene_source::prepare(name, reading))?;
+    let chosen = during("scene", "looking for a view", || camera::choose(&loaded.scene, view))?;
+    terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    Ok((loaded, chosen))
+}
+
+/// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on something
+/// is finished that an early end keeps: before that, a signal does not wait for it.
 fn with_progress<T>(
     interrupt: &Interrupt,
+    is_kept: impl Fn(&Progress<'_>) -> bool,
     work: impl FnOnce(&mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> Result<T, AppError>,
 ) -> Result<T, AppError> {
     let mut line = ProgressLine::new();
     let result = work(&mut |progress| {
         line.show(progress);
-        if progress.done > 0 {
+        if is_kept(&progress) {
             interrupt.keep();
         }
         if interrupt.requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

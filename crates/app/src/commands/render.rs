@@ -1,16 +1,19 @@
 //! `rasray render`.
 
 use super::{
-    bounces, check_whole, destination, integrator_name, keep_inputs, stop_if_requested, with_progress,
+    bounces, check_whole, destination, integrator_name, keep_inputs, open_device, read_scene, stop_if_requested,
+    with_progress,
 };
 use crate::arguments::RenderArguments;
-use crate::backend::{AovSelection, Frame, OpenBackend, RenderJob, RenderOutput};
+use crate::backend::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
 use crate::report::{Report, Run, origin, table};
 use crate::systems::{SystemConfig, word};
-use crate::{camera, scene_source, terminal};
+use crate::terminal::{self, Talk};
+use std::io::IsTerminal;
+use std::path::Path;
 
 /// Renders a scene and writes what was asked for; `line` is the command as it was typed.
 ///
@@ -32,26 +35,29 @@ pub(crate) fn render(
     {
         return Err(AppError::usage("--output and --report name the same file", "name two files"));
     }
+    keep_inputs("--output", image.as_ref().map(|(place, _)| place), &given.scene)?;
     keep_inputs("--report", report_target.as_ref(), &given.scene)?;
 
-    let loaded = scene_source::prepare(&given.scene, &given.reading)?;
-    let camera = camera::choose(&loaded.scene, &given.view)?;
-    terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
-    let mut backend = open(&given.device.choice())?;
+    let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     let job = RenderJob {
         scene: &loaded.scene,
-        camera,
+        camera: chosen.camera.clone(),
         system: system.clone(),
         frame,
         aovs,
         needs,
         repetitions: given.repetitions.unwrap_or(0),
     };
-    let output = with_progress(interrupt, |progress| backend.render(&job, progress))?;
+    // A sample takes several waves; an early end keeps whole ones.
+    let is_kept = |progress: &Progress<'_>| {
+        progress.total > 0 && progress.done.saturating_mul(frame.spp.into()) >= progress.total
+    };
+    let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, progress))?;
     if output.samples_done == 0 {
         return Err(AppError::interrupted(
             "stopped before the first sample was whole; nothing was written",
@@ -61,7 +67,8 @@ pub(crate) fn render(
 
     let run = run_of(&system, system.spec()?.structure(), &frame, &output);
     let whole = check_whole(&run);
-    let report = Report::new(origin(line), backend.device(), loaded.record(), vec![run]);
+    let report =
+        Report::new(origin(line), backend.device(), loaded.record(), vec![run]).seen_from(chosen.record());
     if let Some(place) = &report_target {
         place.write(report.to_json().as_bytes(), interrupt)?;
     }
@@ -77,13 +84,16 @@ pub(crate) fn render(
             samples: output.samples_done,
             seed: frame.seed,
         };
-        write_image(place, *format, &output, &metadata, given.exposure.unwrap_or(0.0), interrupt)?;
+        let exposure = given.exposure.unwrap_or(0.0);
+        write_image(place, *format, &output, &metadata, exposure, interrupt)?;
+        output::hint(&output, *format, exposure).iter().for_each(|text| terminal::note(text));
     }
-    terminal::print(&table(&report))?;
+    let takes_stdout = image.iter().map(|(place, _)| place).chain(&report_target).any(Destination::is_stdout);
+    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), takes_stdout)?;
     if output.samples_done < frame.spp {
         let written = image.map_or_else(
             || "no image was asked for".to_owned(),
-            |(place, _)| format!("the image in {} is valid and holds them", place.named().display()),
+            |(place, _)| format!("the image in {} is valid and holds them", named(&place)),
         );
         return Err(AppError::interrupted(
             format!("stopped after {} of {} samples per pixel; {written}", output.samples_done, frame.spp),
@@ -99,22 +109,43 @@ fn image_target(
     aovs: AovSelection,
 ) -> Result<Option<(Destination, ImageFormat)>, AppError> {
     let Some(path) = given.output.as_deref() else { return Ok(None) };
-    let format = ImageFormat::of(path)?;
+    let to_stdout = path == Path::new("-");
+    let format = match given.format {
+        Some(format) => format,
+        None if to_stdout => {
+            return Err(AppError::usage(
+                "--output - is standard output, which has no name that says how to write the image",
+                "say --format png or --format exr",
+            ));
+        }
+        None => ImageFormat::of(path)?,
+    };
+    if to_stdout && std::io::stdout().is_terminal() {
+        return Err(AppError::usage(
+            "--output - would write an image to a terminal",
+            "send standard output to a file or to a program that shows images",
+        ));
+    }
     if format == ImageFormat::Png && aovs != AovSelection::default() {
         return Err(AppError::input(
             path,
-            "a .png cannot hold what --aov asks for",
-            "name an .exr, or leave --aov out",
+            "a PNG cannot hold what --aov asks for",
+            "write an .exr, or leave --aov out",
         ));
     }
     if format == ImageFormat::Exr && given.exposure.is_some() {
         return Err(AppError::input(
             path,
-            "an .exr holds linear values, which --exposure does not change",
-            "leave --exposure out, or name a .png",
+            "an EXR holds linear values, which --exposure does not change",
+            "leave --exposure out, or write a .png",
         ));
     }
     Ok(Some((Destination::check(path)?, format)))
+}
+
+/// A place in words.
+fn named(place: &Destination) -> String {
+    if place.is_stdout() { "standard output".to_owned() } else { place.named().display().to_string() }
 }
 
 fn write_image(
@@ -137,7 +168,7 @@ fn write_image(
     };
     let bytes = encoded.map_err(|error| {
         AppError::refused(
-            format!("{}: the image could not be encoded: {error}", place.named().display()),
+            format!("{}: the image could not be encoded: {error}", named(place)),
             "nothing was written; choose the other format",
         )
     })?;

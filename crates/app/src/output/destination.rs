@@ -2,6 +2,7 @@
 
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
+use crate::terminal;
 use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
@@ -17,33 +18,51 @@ pub struct Destination {
     named: PathBuf,
     /// With links followed.
     path: PathBuf,
-    /// A device or a pipe: written directly, as nothing can be renamed over it.
-    special: bool,
+    kind: Kind,
 }
+
+/// How bytes get to a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// Written beside it and renamed.
+    File,
+    /// A device or a pipe: written directly, as nothing can be renamed over it.
+    Special,
+    /// Standard output.
+    Stdout,
+}
+
+/// The name that stands for standard output; a file of that name is `./-`.
+const STDOUT: &str = "-";
+
+/// Links that are followed, one after the other.
+const LINKS: usize = 40;
 
 impl Destination {
     /// Checks that a file can be put at `path`: the folder exists and takes new files, and no folder
-    /// is in the way. A link is followed, so that it stays a link.
+    /// is in the way. A link is followed, so that it stays a link, also where it leads to no file yet. `-` is
+    /// standard output.
     ///
     /// # Errors
     /// Names the path, what is in the way and what to do.
     pub fn check(path: &Path) -> Result<Self, AppError> {
-        let resolved = std::fs::canonicalize(path);
+        if path == Path::new(STDOUT) {
+            return Ok(Self { named: path.to_owned(), path: path.to_owned(), kind: Kind::Stdout });
+        }
         if let Ok(metadata) = std::fs::metadata(path) {
             if metadata.is_dir() {
                 return Err(AppError::input(path, "is a folder", "name a file in it"));
             }
             if !metadata.is_file() {
-                return Ok(Self { named: path.to_owned(), path: path.to_owned(), special: true });
+                return Ok(Self { named: path.to_owned(), path: path.to_owned(), kind: Kind::Special });
             }
         }
-        let destination = Self {
-            named: path.to_owned(),
-            path: resolved.unwrap_or_else(|_| path.to_owned()),
-            special: false,
-        };
+        let destination = Self { named: path.to_owned(), path: followed(path), kind: Kind::File };
+        if destination.path.is_symlink() {
+            return Err(AppError::input(path, "is a link that leads in a circle", "name a file"));
+        }
         let folder = destination.folder();
-        if path.file_name().is_none() {
+        if destination.path.file_name().is_none() {
             return Err(AppError::input(
                 path,
                 "is not the name of a file",
@@ -73,14 +92,22 @@ impl Destination {
         }
     }
 
-    /// Whether two names lead to the same file.
+    /// Whether two names lead to the same file, or both to standard output.
     pub fn same_as(&self, other: &Self) -> bool {
-        absolute(&self.path) == absolute(&other.path)
+        match (self.is_stdout(), other.is_stdout()) {
+            (false, false) => absolute(&self.path) == absolute(&other.path),
+            (one, two) => one && two,
+        }
     }
 
     /// Whether the file will be put where `path` leads.
     pub fn is(&self, path: &Path) -> bool {
-        absolute(&self.path) == absolute(path)
+        !self.is_stdout() && absolute(&self.path) == absolute(path)
+    }
+
+    /// Whether it is standard output, which then carries nothing else.
+    pub fn is_stdout(&self) -> bool {
+        self.kind == Kind::Stdout
     }
 
     /// The path as the user wrote it.
@@ -88,13 +115,20 @@ impl Destination {
         &self.named
     }
 
-    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it
+    /// Puts a file with these bytes in place, and says so on stderr unless quiet was asked for. Whatever fails, a file that was there before stays as it
     /// was and nothing else is left behind; an end at once through `interrupt` leaves nothing either.
     ///
     /// # Errors
     /// [`AppError::Refused`], as the bytes exist and could not be kept.
     pub fn write(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
-        let result = if self.special { self.write_directly(bytes) } else { self.replace(bytes, interrupt) };
+        let result = match self.kind {
+            Kind::File => self.replace(bytes, interrupt),
+            Kind::Special => self.write_directly(bytes),
+            Kind::Stdout => terminal::write_out(bytes),
+        };
+        if result.is_ok() && !self.is_stdout() {
+            terminal::note(&format!("wrote {}", self.named.display()));
+        }
         result.map_err(|error| {
             AppError::refused(
                 format!("{}: {} bytes could not be written: {error}", self.named.display(), bytes.len()),
@@ -182,6 +216,17 @@ impl Destination {
     }
 }
 
+/// Where a name leads: the end of its links, whether or not there is a file yet.
+fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(target) = std::fs::read_link(&path) else { break };
+        // The target of a link is named from the link's own folder.
+        path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
+    }
+    std::fs::canonicalize(&path).unwrap_or(path)
+}
+
 /// A path without links or `..`, whether or not there is a file yet.
 fn absolute(path: &Path) -> PathBuf {
     let folder = match path.parent() {
@@ -233,6 +278,41 @@ mod tests {
         assert_eq!(std::fs::read(&file).expect("the file"), b"new");
         assert_eq!(std::fs::metadata(&file).expect("the file").permissions().mode() & 0o777, 0o640);
         assert!(destination.same_as(&Destination::check(&file).expect("writable")));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_file_that_is_not_there_yet_makes_it_and_stays_a_link() {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::create_dir(folder.path().join("far")).expect("a folder");
+        let links = [("far/a.png", "b.png"), ("b.png", "c.png")];
+        for (target, link) in links {
+            std::os::unix::fs::symlink(target, folder.path().join(link)).expect("a link");
+        }
+        let destination = Destination::check(&folder.path().join("c.png")).expect("writable");
+        assert_eq!(entries(folder.path()), ["b.png", "c.png", "far"]);
+        assert!(destination.is(&folder.path().join("far/a.png")));
+        destination.write(b"new", &Interrupt::default()).expect("written");
+        assert_eq!(std::fs::read(folder.path().join("far/a.png")).expect("the file"), b"new");
+        assert_eq!(entries(&folder.path().join("far")), ["a.png"]);
+        for (_, link) in links {
+            assert!(std::fs::symlink_metadata(folder.path().join(link)).expect("the link").is_symlink());
+        }
+        let (circle, lost) = (folder.path().join("circle"), folder.path().join("lost"));
+        std::os::unix::fs::symlink("circle", &circle).expect("a link");
+        std::os::unix::fs::symlink("missing/a.png", &lost).expect("a link");
+        assert_eq!(Destination::check(&lost).expect_err("no such folder").exit_code(), 2);
+        assert_eq!(Destination::check(&circle).expect_err("a circle").exit_code(), 2);
+        assert_eq!(entries(folder.path()).len(), 5);
+    }
+
+    #[test]
+    fn a_dash_is_standard_output_and_no_file() {
+        let (out, again) = (Destination::check(Path::new("-")), Destination::check(Path::new("-")));
+        let (out, again) = (out.expect("stdout"), again.expect("stdout"));
+        assert!(out.is_stdout() && out.same_as(&again) && !out.is(Path::new("-")));
+        let file = Destination::check(Path::new("./-")).expect("a file");
+        assert!(!file.is_stdout() && !file.same_as(&out) && !out.same_as(&file));
     }
 
     #[test]

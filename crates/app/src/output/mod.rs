@@ -2,10 +2,12 @@
 
 mod destination;
 mod exr;
+mod levels;
 mod png;
 
 pub use self::exr::{Metadata, encode as encode_exr};
 pub use destination::Destination;
+pub use levels::hint;
 pub use png::{encode as encode_png, tone_map};
 
 use crate::backend::{AovSelection, RenderOutput};
@@ -13,11 +15,11 @@ use crate::error::AppError;
 use std::path::Path;
 
 /// How an image is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum ImageFormat {
-    /// 8-bit sRGB.
+    /// 8-bit sRGB
     Png,
-    /// Linear 32-bit floats, with further images beside the colours.
+    /// Linear 32-bit floats, with further images beside the colours
     Exr,
 }
 

@@ -34,6 +34,8 @@ pub(super) fn compare(
     progress: &mut OnProgress<'_>,
 ) -> Result<Comparison, AppError> {
     let frame = job.frame;
+    let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
+    says("scene", "to the device");
     let stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
     let geometry = stage.scene.geometry().desc();
@@ -47,6 +49,7 @@ pub(super) fn compare(
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
         .map_err(|error| AppError::usage(error.to_string(), ""))?;
     let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
+    says("oracle", "building");
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
     let accept: Option<Accept<'_>> = if masked { Some(&accept) } else { None };
     let oracle = Oracle::new(&positions, &indices, accept).map_err(device_error)?;
@@ -75,7 +78,7 @@ pub(super) fn compare(
         let setting = ReplaySetting { device, stage: &stage, oracle: &oracle, center };
         return replay_sets(&setting, &job.systems, sets, index);
     }
-    let contestants = Contestant::all(device, &stage, &job.systems, center, job.repetitions)?;
+    let contestants = Contestant::all(device, &stage, &job.systems, center, job.repetitions, progress)?;
     let count = job.ray_sets.len() + usize::from(job.rays_file.is_some());
     let total = (contestants.len() * (count + usize::from(job.image))) as u64;
     let mut comparison = Comparison::default();
@@ -91,6 +94,10 @@ pub(super) fn compare(
         given_hits: &job.hits_files,
     };
     for (name, rays) in sets {
+        let done = comparison.runs.len() as u64;
+        if progress(Progress { task: &name, done, total, unit: "runs" }).is_break() {
+            return Ok(comparison);
+        }
         let verdicts = oracle.closest_batch(&rays.iter().map(oracle_ray).collect::<Vec<_>>());
         let set = RaysWithTruth { name, rays, verdicts };
         compare_set(device, &contestants, &set, wanted, |hits| hits, &mut comparison)?;

@@ -6,6 +6,7 @@ use rasray_systems::Spec;
 
 use super::spec_of;
 use super::stage::{Built, Stage};
+use crate::backend::{OnProgress, Progress};
 use crate::error::AppError;
 use crate::report::{Run, Times};
 use crate::systems::{SystemConfig, word};
@@ -27,13 +28,17 @@ impl<'a> Contestant<'a> {
         systems: &'a [SystemConfig],
         center: [f32; 3],
         repetitions: u32,
+        progress: &mut OnProgress<'_>,
     ) -> Result<Vec<Self>, AppError> {
         let mut contestants = Vec::new();
+        let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
         for config in systems {
+            says("build", &word(&config.name));
             let spec = spec_of(config)?.with_counters(Counters::Sums);
             let built = Built::new(device, &spec, &stage.scene, center)?;
             contestants.push(Self { config, spec, built });
         }
+        says("build", "timed builds");
         for _ in 0..repetitions {
             for contestant in &mut contestants {
                 contestant.built.build_again(device)?;

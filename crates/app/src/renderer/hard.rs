@@ -106,7 +106,7 @@ pub(super) fn hard(
         rays: case.rays.iter().map(|ray| placed.device_ray(ray)).collect(),
         verdicts: oracle.closest_batch(&case.rays),
     };
-    let contestants = Contestant::all(device, &stage, job.systems, case.eye, job.repetitions)?;
+    let contestants = Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, progress)?;
     let mut comparison = Comparison::default();
     if job.keep {
         comparison.kept.triangles = case.triangles.clone();

@@ -143,6 +143,7 @@ pub(super) fn render(
     let started = Instant::now();
     let frame = job.frame;
     let spec = spec_of(&job.system)?;
+    _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
     let stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
     _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
@@ -186,6 +187,7 @@ pub(super) fn render(
     built.write_times(&mut output.times);
     output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
+        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "images beside the colours" });
         add_aovs(device, &stage, &built, job, &mut output)?;
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);

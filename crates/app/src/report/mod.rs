@@ -3,12 +3,13 @@
 pub mod figures;
 pub mod html;
 mod markdown;
+mod run_text;
 mod table;
 mod words;
 
 pub use markdown::markdown;
 pub use rasray_report::{
-    Accuracy, Bound, Counters, Device, HardRecord, ImageError, Memory, Origin, Pass, RateRecord, Report, Run,
+    Accuracy, Bound, CameraRecord, Counters, Device, HardRecord, ImageError, Memory, Origin, Pass, RateRecord, Report, Run,
     SCHEMA, SceneRecord, Spread, Statistics, Timer, Times,
 };
 pub use table::table;
