@@ -25,7 +25,9 @@ impl Chosen {
         let frame = &self.camera.world_from_camera;
         let (kind, fov_y_degrees, height_m) = match self.camera.projection {
             Projection::Perspective { fov_y } => ("perspective", Some(f64::from(fov_y).to_degrees()), None),
-            Projection::Orthographic { half_height } => ("orthographic", None, Some(2.0 * f64::from(half_height))),
+            Projection::Orthographic { half_height } => {
+                ("orthographic", None, Some(2.0 * f64::from(half_height)))
+            }
         };
         CameraRecord {
             name: self.camera.name.clone(),
@@ -58,7 +60,8 @@ pub(crate) fn placed(record: &CameraRecord) -> String {
     match (record.fov_y_degrees, record.height_m) {
         (Some(fov), _) => {
             let upright = camera_looking_at("", eye, target, 1.0).world_from_camera.matrix3.y_axis;
-            let rolled = if upright.dot(DVec3::from_array(record.up)) < 0.999_99 { ", and rolled" } else { "" };
+            let rolled =
+                if upright.dot(DVec3::from_array(record.up)) < 0.999_99 { ", and rolled" } else { "" };
             format!("--eye {} --target {} --fov {}{rolled}", point(eye), point(target), short(fov))
         }
         (_, height) => format!(
@@ -171,7 +174,9 @@ mod tests {
         let chosen = choose(&scene, &ViewArguments::default()).expect("the first");
         let text = described(&chosen.record());
         let words: Vec<_> = text.split_whitespace().collect();
-        let ["0", "'front',", "--eye", eye, "--target", target, "--fov", fov] = words[..] else { panic!("{text}") };
+        let ["0", "'front',", "--eye", eye, "--target", target, "--fov", fov] = words[..] else {
+            panic!("{text}")
+        };
         let point = |text: &str| Some(crate::arguments::values::point(text).expect("a point"));
         let fov = Some(fov.parse().expect("degrees"));
         let view = ViewArguments { eye: point(eye), target: point(target), fov, ..Default::default() };

@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// From the first signal to the end, where nothing is finished by then.
-const GRACE: Duration = Duration::from_millis(1500);
+const GRACE: Duration = Duration::from_secs(1);
 
 /// Whether a signal asked for an early end, and which files are unfinished.
 #[derive(Clone, Debug, Default)]

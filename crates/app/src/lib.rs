@@ -72,13 +72,13 @@ fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Resul
         TalkArguments { verbose: true, .. } => Talk::Verbose,
         TalkArguments { .. } => Talk::Usual,
     });
-    terminal::start_logging();
     let interrupt = Interrupt::install().map_err(|error| {
         AppError::device(
             format!("signals cannot be handled: {error}"),
             "run in an environment that lets programs handle SIGINT and SIGTERM",
         )
     })?;
+    terminal::start_logging();
     match parsed.command {
         Command::Render(given) => commands::render(&given, line, open, &interrupt),
         Command::Compare(given) => commands::compare(&given, line, open, &interrupt),

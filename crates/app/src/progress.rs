@@ -24,8 +24,7 @@ impl ProgressLine {
     /// A line that shows itself with the first progress.
     pub fn new() -> Self {
         let says = terminal::says(Talk::Usual);
-        let target =
-            if says { ProgressDrawTarget::stderr_with_hz(8) } else { ProgressDrawTarget::hidden() };
+        let target = if says { ProgressDrawTarget::stderr_with_hz(8) } else { ProgressDrawTarget::hidden() };
         let signs = (says && !io::stderr().is_terminal()).then(|| Signs::new(FIRST_SIGN, terminal::note));
         Self { bar: ProgressBar::with_draw_target(None, target), task: String::new(), signs }
     }
@@ -186,6 +185,9 @@ mod tests {
         assert!(told.iter().all(|text| text.starts_with("long: ")), "{told:?}");
         assert!(told.first().is_some_and(|text| !text.contains("of 9")), "{told:?}");
         // After 40, 80, 160 and 320 ms; a machine that is busy elsewhere may miss some, and makes up for none.
-        assert!((2..=5).contains(&told.len()) && told.last().is_some_and(|text| text.contains("3 of 9")), "{told:?}");
+        assert!(
+            (2..=5).contains(&told.len()) && told.last().is_some_and(|text| text.contains("3 of 9")),
+            "{told:?}"
+        );
     }
 }

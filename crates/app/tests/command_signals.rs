@@ -4,6 +4,7 @@
 mod scripted;
 
 use scripted::{READY, command, entries, stderr};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -83,6 +84,44 @@ fn one_signal_ends_within_two_seconds_where_nothing_is_finished() {
         assert!(stderr(&output).contains("nothing was written"), "{}", stderr(&output));
         assert!(entries(folder.path()).is_empty(), "{:?}", entries(folder.path()));
     }
+}
+
+/// Reading a large scene and looking for its default view are not waited for either.
+#[test]
+fn one_signal_ends_within_two_seconds_while_a_scene_is_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // A grid of half a million triangles.
+    let mut scene = String::new();
+    for place in 0..512 * 512 {
+        scene += &format!("v {} {} {}\n", place % 512, (place * 7919) % 97, place / 512);
+    }
+    for corner in (1..=511 * 512).filter(|corner| corner % 512 != 0) {
+        scene += &format!("f {corner} {} {} {}\n", corner + 1, corner + 513, corner + 512);
+    }
+    std::fs::write(folder.path().join("grid.obj"), scene).expect("a scene");
+    let mut child = command(folder.path(), "render grid.obj --size 8x8 --device stuck -o a.png")
+        // The first thing that is said, once signals are handled.
+        .env("RASRAY_LOG", "[")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let mut said = BufReader::new(child.stderr.take().expect("piped"));
+    let mut line = String::new();
+    said.read_line(&mut line).expect("a line");
+    assert!(line.contains("RASRAY_LOG"), "{line}");
+    let started = Instant::now();
+    send(&child, &["INT"]);
+    wait_until("the command does not stop", &mut child, |child| child.try_wait().expect("a child").is_some());
+    // Two seconds, and what a busy machine may add.
+    assert!(started.elapsed() < Duration::from_secs(8), "{:?}", started.elapsed());
+    std::io::Read::read_to_string(&mut said, &mut line).expect("text");
+    assert_eq!(child.wait().expect("its end").code(), Some(130), "{line}");
+    assert!(
+        line.contains("stopping; nothing is finished yet") && line.contains("nothing was written"),
+        "{line}"
+    );
+    assert_eq!(entries(folder.path()), ["grid.obj"]);
 }
 
 #[test]

@@ -91,7 +91,8 @@ fn camera_outside(scene: &Scene) -> Camera {
         let aside = axes.x_axis.dot(corner).abs().max(axes.y_axis.dot(corner).abs()).max(0.1 * half.length());
         axes.z_axis.dot(corner) + MARGIN * aside / (FOV_Y * 0.5).tan()
     };
-    let corner = |bits: u32| half * DVec3::from([0, 1, 2].map(|axis| f64::from(bits >> axis & 1) * 2.0 - 1.0));
+    let corner =
+        |bits: u32| half * DVec3::from([0, 1, 2].map(|axis| f64::from(bits >> axis & 1) * 2.0 - 1.0));
     // A point or a speck still gets a picture with a scale.
     let least = (centre.abs().max_element() * 1.0e-6).max(1.0e-6);
     let distance = (0..8).map(|bits| needed(corner(bits))).fold(least, f64::max);

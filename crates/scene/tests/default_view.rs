@@ -6,8 +6,8 @@ use glam::{DAffine3, DVec3};
 use rasray_scene::default_view::{bounds, default_camera, default_light, ensure_lit, is_lit};
 use rasray_scene::needs::{Integrator, Needs, Term, Workload};
 use rasray_scene::{
-    Camera, Environment, Filter, Image, Instance, Light, LoadOptions, Material, Mesh, Projection, Scene, Texture,
-    TextureRef, Wrap,
+    Camera, Environment, Filter, Image, Instance, Light, LoadOptions, Material, Mesh, Projection, Scene,
+    Texture, TextureRef, Wrap,
 };
 
 /// The quads of a box, seen counter-clockwise from outside, by the corners' bits (x, y, z).
@@ -140,7 +140,8 @@ fn a_building_made_for_its_inside_is_seen_from_inside() {
     ];
     for place in 0..36 {
         let (x, z) = (f64::from(place % 9) - 4.0, [-1.8, -1.4, 1.4, 1.8][place as usize / 9]);
-        parts.push((box_mesh([0.3, 3.0, 0.3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.0, z))));
+        parts
+            .push((box_mesh([0.3, 3.0, 0.3], false, &[]), DAffine3::from_translation(DVec3::new(x, 0.0, z))));
     }
     assert!(stands_inside(&scene_of(parts.clone())));
     parts.truncate(2);
@@ -287,10 +288,8 @@ fn beside(material: Material, uv: [f32; 2]) -> Scene {
         material,
         ..Mesh::default()
     };
-    let mut scene = scene_of(vec![
-        (triangle(0.0, 0), DAffine3::IDENTITY),
-        (triangle(5.0, 1), DAffine3::IDENTITY),
-    ]);
+    let mut scene =
+        scene_of(vec![(triangle(0.0, 0), DAffine3::IDENTITY), (triangle(5.0, 1), DAffine3::IDENTITY)]);
     scene.materials.push(material);
     scene.images = vec![Image {
         name: "black, white".to_owned(),

@@ -38,10 +38,10 @@ const DEFAULT_BOUNCES: u32 = 8;
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct TalkArguments {
     /// Say nothing but errors and what was asked for
-    #[arg(long, short, global = true, conflicts_with = "verbose")]
+    #[arg(long, short, global = true, conflicts_with = "verbose", help_heading = "Messages")]
     pub quiet: bool,
     /// Print every number of a run, not the short summary
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, help_heading = "Messages")]
     pub verbose: bool,
 }
 
@@ -102,7 +102,9 @@ impl FrameArguments {
 
 /// From where the scene is seen.
 #[derive(Debug, Default, Args)]
-#[command(next_help_heading = "Camera (default: the scene's first, or one before the scene, within it if it is a room)")]
+#[command(
+    next_help_heading = "Camera (default: the scene's first, or one before the scene, within it if it is a room)"
+)]
 pub struct ViewArguments {
     /// A camera of the scene, by name or by position from 0
     #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "target", "fov"])]

@@ -94,7 +94,7 @@ fn mistakes_are_two_lines_with_a_way_out() {
         ("compare cornell", "--systems", "rasray compare --help"),
         ("render cornell -o a.png --march jump --samples 65536", "from 1 to 65535", "rasray render --help"),
         ("render cornell -o a.png -q -v", "--verbose", "--help"),
-        ("help rendr", "rendr", "render"),
+        ("help rendr", "rendr", "--help"),
         ("completions powder", "powder", "bash"),
         ("view cornell", "view", "--help"),
     ];
@@ -109,9 +109,16 @@ fn mistakes_are_two_lines_with_a_way_out() {
 
 #[test]
 fn help_and_version_are_text() {
-    for line in
-        ["--help", "render --help", "compare --help", "info --help", "--version", "help", "help render", "help man"]
-    {
+    for line in [
+        "--help",
+        "render --help",
+        "compare --help",
+        "info --help",
+        "--version",
+        "help",
+        "help render",
+        "help man",
+    ] {
         assert!(
             matches!(parse(arguments(line)), Err(Refusal::Text(text)) if text.contains("rasray")),
             "{line}"
@@ -147,9 +154,13 @@ fn how_much_is_said_stands_before_the_command_or_after_it() {
 fn ranges_in_the_help_are_those_of_the_values() {
     let line = CommandLine::command();
     let mut tried = 0;
-    for (word, rest) in [("render", &["cornell", "--output=a.png"][..]), ("compare", &["cornell", "--systems=mmrt"])] {
+    for (word, rest) in
+        [("render", &["cornell", "--output=a.png"][..]), ("compare", &["cornell", "--systems=mmrt"])]
+    {
         let command = line.find_subcommand(word).expect("a command");
-        for argument in command.get_arguments().filter(|argument| argument.get_long().is_some()) {
+        let is_number =
+            |argument: &&clap::Arg| argument.get_value_names().is_some_and(|names| names == ["N"]);
+        for argument in command.get_arguments().filter(is_number) {
             let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
             let words: Vec<_> = help.split([' ', ',', ';', ')']).filter(|word| !word.is_empty()).collect();
             let range = words.windows(3).find_map(|three| {
@@ -157,7 +168,7 @@ fn ranges_in_the_help_are_those_of_the_values() {
                 Some((three[0].parse::<u64>().ok()?, three[2].parse::<u64>().ok()?)).filter(|_| is_range)
             });
             let Some((least, most)) = range else { continue };
-            let option = argument.get_long().expect("filtered");
+            let option = argument.get_long().expect("every number is an option");
             let takes = |value: u64| {
                 let own = format!("--{option}={value}");
                 let words = ["rasray", word].into_iter().chain(rest.iter().copied()).chain([own.as_str()]);

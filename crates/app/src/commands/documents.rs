@@ -39,7 +39,10 @@ pub(crate) fn man(given: &ManArguments) -> Result<(), AppError> {
 fn command_page(line: &Command, name: &str) -> Result<Command, AppError> {
     let found = line.find_subcommand(name).ok_or_else(|| {
         let known: Vec<_> = line.get_subcommands().map(Command::get_name).collect();
-        AppError::usage(format!("there is no command '{name}'"), format!("its commands: {}", known.join(", ")))
+        AppError::usage(
+            format!("there is no command '{name}'"),
+            format!("its commands: {}", known.join(", ")),
+        )
     })?;
     Ok(found.clone())
 }

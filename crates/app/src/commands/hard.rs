@@ -200,7 +200,8 @@ fn trace(
         keep: subject.targets.save().any(),
         replay: given.replay,
     };
-    let comparison = with_progress(interrupt, |progress| progress.done > 0, |progress| backend.hard(&job, progress))?;
+    let comparison =
+        with_progress(interrupt, |progress| progress.done > 0, |progress| backend.hard(&job, progress))?;
     Ok((comparison, case.triangles.len() as u64))
 }
 

@@ -1,8 +1,8 @@
 //! `rasray render`.
 
 use super::{
-    bounces, check_whole, destination, integrator_name, keep_inputs, open_device, read_scene, stop_if_requested,
-    with_progress,
+    bounces, check_whole, destination, integrator_name, keep_inputs, open_device, read_scene,
+    stop_if_requested, with_progress,
 };
 use crate::arguments::RenderArguments;
 use crate::backend::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput};

@@ -32,7 +32,8 @@ pub fn hint(output: &RenderOutput, format: ImageFormat, exposure: f32) -> Option
     };
     let percent = |count: usize| format!("{:.0} % of the pixels are", 100.0 * share(count));
     if share(dark) >= NEARLY_ALL {
-        let expose = suggested().map(|stops| format!("--exposure {stops} brightens them; ")).unwrap_or_default();
+        let expose =
+            suggested().map(|stops| format!("--exposure {stops} brightens them; ")).unwrap_or_default();
         return Some(format!(
             "hint: {} nearly black: {expose}--environment 1,1,1 or FILE.hdr lights the scene from outside, and \
              --eye with --target looks from elsewhere",
@@ -40,7 +41,8 @@ pub fn hint(output: &RenderOutput, format: ImageFormat, exposure: f32) -> Option
         ));
     }
     if share(bright) >= NEARLY_ALL {
-        let expose = suggested().map(|stops| format!("--exposure {stops} darkens them; ")).unwrap_or_default();
+        let expose =
+            suggested().map(|stops| format!("--exposure {stops} darkens them; ")).unwrap_or_default();
         return Some(format!(
             "hint: {} white: {expose}a darker --environment, or an .exr, keeps what is in them",
             percent(bright)
@@ -63,7 +65,10 @@ mod tests {
         let png = |output: &RenderOutput, exposure| hint(output, ImageFormat::Png, exposure);
         let dim = image(&[([0.01, 0.005, 0.002], 1), ([0.002; 3], 99)]);
         let text = png(&dim, 0.0).expect("nearly black");
-        assert!(text.contains("99 %") && text.contains("--exposure 6 ") && text.contains("--environment"), "{text}");
+        assert!(
+            text.contains("99 %") && text.contains("--exposure 6 ") && text.contains("--environment"),
+            "{text}"
+        );
         // What it suggests helps.
         assert_eq!(png(&dim, 6.0), None);
         let text = png(&image(&[([0.0; 3], 9)]), 0.0).expect("black");

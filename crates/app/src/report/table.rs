@@ -125,7 +125,10 @@ fn in_short(run: &Run) -> String {
         took("trace", times.trace_ms),
         took("frame", times.frame_ms),
         times.rays.map(|rays| format!("{} rays", grouped(rays))),
-        run.memory.as_ref().and_then(|memory| memory.structure_bytes).map(|size| format!("structure {}", bytes(size))),
+        run.memory
+            .as_ref()
+            .and_then(|memory| memory.structure_bytes)
+            .map(|size| format!("structure {}", bytes(size))),
     ];
     let parts: Vec<_> = parts.into_iter().flatten().collect();
     format!("image  {}\n       {}\n", heading(run), parts.join(", "))
@@ -222,7 +225,8 @@ mod tests {
         assert!(text.lines().any(|line| line.trim_end().ends_with("NOT MET")), "{text}");
         // Very many runs have a line each and no more.
         let many = vec![report.runs[0].clone(); RUNS_IN_FULL + 1];
-        let text = table(&Report::new(Origin::default(), Device::default(), report.scene.clone(), many), true);
+        let text =
+            table(&Report::new(Origin::default(), Device::default(), report.scene.clone(), many), true);
         assert!(!text.contains("NOT MET: because") && text.contains("--report"), "{text}");
         assert_eq!(text.lines().filter(|line| line.ends_with("NOT MET")).count(), RUNS_IN_FULL + 1);
     }
@@ -240,11 +244,17 @@ mod tests {
         let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
         let report = |runs| Report::new(Origin::default(), Device::default(), scene.clone(), runs);
         let text = table(&report(vec![run(None)]), false);
-        assert!(text.contains("mmrt robust, path") && text.contains("first build 2.2 ms, trace 1.50 s"), "{text}");
+        assert!(
+            text.contains("mmrt robust, path") && text.contains("first build 2.2 ms, trace 1.50 s"),
+            "{text}"
+        );
         assert_eq!(text.lines().count(), 4, "{text}");
         let hard = HardRecord { id: "E5".to_owned(), reason: "because".to_owned(), ..Default::default() };
         let text = table(&report(vec![run(None), run(Some(hard))]), false);
-        assert!(text.contains("E5") && text.contains("one run cannot tell") && text.contains("because"), "{text}");
+        assert!(
+            text.contains("E5") && text.contains("one run cannot tell") && text.contains("because"),
+            "{text}"
+        );
         assert!(text.contains("--verbose") && !text.contains(" time\n"), "{text}");
     }
 }

@@ -115,7 +115,8 @@ impl Room<'_> {
     fn is_around_everywhere(&self, point: DVec3) -> bool {
         let (mut all, mut fronts) = ([0_u32; 4], [0_u32; 4]);
         for direction in sphere().filter(|direction| direction.y <= STEEPEST) {
-            let quarter = 2 * usize::from(direction.x + direction.z > 0.0) + usize::from(direction.x > direction.z);
+            let quarter =
+                2 * usize::from(direction.x + direction.z > 0.0) + usize::from(direction.x > direction.z);
             all[quarter] += 1;
             fronts[quarter] += u32::from(self.sight.first(point, direction).is_some_and(|hit| hit.front));
         }

@@ -35,11 +35,7 @@ pub(super) fn sky() -> Environment {
         let direction = DVec3::new(level * azimuth.cos(), polar.cos(), level * azimuth.sin());
         [radiance(direction) as f32; 3]
     };
-    Environment::LatLong {
-        width: WIDTH,
-        height: HEIGHT,
-        radiance: (0..WIDTH * HEIGHT).map(texel).collect(),
-    }
+    Environment::LatLong { width: WIDTH, height: HEIGHT, radiance: (0..WIDTH * HEIGHT).map(texel).collect() }
 }
 
 /// W/(sr m^2) from a unit direction, the same in all channels.

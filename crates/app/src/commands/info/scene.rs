@@ -74,9 +74,9 @@ impl SceneInfo {
         if let Some(sha256) = &self.sha256 {
             scene["sha256"] = sha256.as_str().into();
         }
-        let terms = self.needs.verdicts().iter().map(|verdict| {
-            json!({ "term": verdict.term.name(), "needed": verdict.needed, "why": verdict.why })
-        });
+        let terms = self.needs.verdicts().iter().map(
+            |verdict| json!({ "term": verdict.term.name(), "needed": verdict.needed, "why": verdict.why }),
+        );
         let needs = json!({
             "integrator": self.integrator,
             "not_uploaded_bytes": self.needs.saved_bytes(),
@@ -95,7 +95,10 @@ impl SceneInfo {
             rows.push(pair("size", format!("{:.3} x {:.3} x {:.3} m", size.x, size.y, size.z)));
         }
         if let Some(saved) = self.one_view_saves {
-            rows.push(pair("one view of three", format!("saves {:.2} % of fragments at most", 100.0 * saved)));
+            rows.push(pair(
+                "one view of three",
+                format!("saves {:.2} % of fragments at most", 100.0 * saved),
+            ));
         }
         if let Some(sha256) = &self.sha256 {
             rows.push(pair("sha256", sha256));
