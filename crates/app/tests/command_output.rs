@@ -6,6 +6,7 @@ mod scripted;
 use rasray_app::report::Report;
 use scripted::{command, entries, stderr};
 use serde_json::Value;
+use std::io::Read;
 use std::path::Path;
 use std::process::{Output, Stdio};
 
@@ -18,10 +19,12 @@ fn rasray(folder: &Path, line: &str) -> Output {
     command(folder, line).output().expect("the command starts")
 }
 
+/// What the test harness says before the command begins.
+const HARNESS: &[u8] = b"\nrunning 1 test\ntest as_command ... ";
+
 /// What the command wrote to stdout, without what the test harness around it says.
 fn stdout(output: &Output) -> Vec<u8> {
-    let harness = b"\nrunning 1 test\ntest as_command ... ";
-    output.stdout.strip_prefix(harness.as_slice()).expect("the harness's lines").to_vec()
+    output.stdout.strip_prefix(HARNESS).expect("the harness's lines").to_vec()
 }
 
 #[test]
@@ -212,9 +215,9 @@ fn completions_and_pages_know_the_options() {
     }
     for (line, title, word) in [
         ("man", ".TH rasray 1", "Exit codes"),
-        ("man render", ".TH rasray\\-render 1", "ao\\-distance"),
-        ("man compare", ".TH rasray\\-compare 1", "ray\\-set"),
-        ("man info", ".TH rasray\\-info 1", "json"),
+        ("man render", ".TH rasray-render 1", "ao\\-distance"),
+        ("man compare", ".TH rasray-compare 1", "ray\\-set"),
+        ("man info", ".TH rasray-info 1", "json"),
     ] {
         let output = rasray(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -236,7 +239,9 @@ fn a_reader_that_has_gone_away_is_no_error() {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
-    drop(child.stdout.take());
+    let mut reader = child.stdout.take().expect("piped");
+    reader.read_exact(&mut [0; HARNESS.len()]).expect("what the harness says");
+    drop(reader);
     let output = child.wait_with_output().expect("its end");
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
 }

@@ -95,7 +95,7 @@ fn mistakes_are_two_lines_with_a_way_out() {
         ("render cornell -o a.png --march jump --samples 65536", "from 1 to 65535", "rasray render --help"),
         ("render cornell -o a.png -q -v", "--verbose", "--help"),
         ("help rendr", "rendr", "--help"),
-        ("completions powder", "powder", "bash"),
+        ("completions powder", "powder", "powershell"),
         ("view cornell", "view", "--help"),
     ];
     for (line, message, help) in cases {
