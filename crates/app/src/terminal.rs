@@ -4,6 +4,7 @@
 use crate::error::{AppError, one_line};
 use rasray_scene::Scene;
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
 use tracing_subscriber::EnvFilter;
@@ -138,9 +139,9 @@ pub(crate) fn warn_of_scene(scene: &Scene, triangles: u64) {
     }
 }
 
-/// Whether colours are wanted on stderr: it is a terminal, and NO_COLOR (no-color.org) does not forbid them.
-fn colors() -> bool {
-    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+/// Whether colours are wanted on stderr: where it is a terminal and NO_COLOR (no-color.org) is absent or empty.
+fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
+    is_terminal && no_color.is_none_or(OsStr::is_empty)
 }
 
 /// Sends log messages to stderr. `RASRAY_LOG` sets the filter; unless it does, warnings are shown,
@@ -154,9 +155,10 @@ pub(crate) fn start_logging() {
         }),
         Err(_) => usual(),
     };
-    let logging = tracing_subscriber::fmt().with_env_filter(filter).with_ansi(colors()).without_time();
+    let colors = colors(io::stderr().is_terminal(), std::env::var_os("NO_COLOR").as_deref());
+    let logging = tracing_subscriber::fmt().with_env_filter(filter).with_ansi(colors).without_time();
     // A second start in one process keeps the first one's settings.
-    _ = if colors() {
+    _ = if colors {
         // The colours are controls too; the formatter escapes those of the values itself.
         logging.with_writer(io::stderr).try_init()
     } else {
@@ -189,6 +191,13 @@ mod tests {
         });
         let plain = "Wände, 壁\n\tand 🧱";
         assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+    }
+
+    #[test]
+    fn colours_are_for_terminals_whose_owner_does_not_mind() {
+        assert!(colors(true, None) && colors(true, Some(OsStr::new(""))));
+        assert!(!colors(true, Some(OsStr::new("1"))) && !colors(true, Some(OsStr::new("0"))));
+        assert!(!colors(false, None));
     }
 
     #[test]
