@@ -116,7 +116,7 @@ fn a_run_says_little_everything_or_nothing() {
 fn an_image_without_contents_comes_with_a_hint() {
     let folder = tempfile::tempdir().expect("a folder");
     // The scripted image is 0.5, 0.25, 1.
-    for (exposure, word) in [("-7", "nearly black: --exposure -2"), ("2", "white: --exposure -2")] {
+    for (exposure, word) in [("-7", "nearly black: --exposure -2 "), ("2", "nearly white: --exposure -2 ")] {
         let output =
             rasray(folder.path(), &format!("render cornell --size 4x3 -o a.png --exposure {exposure}"));
         assert!(stderr(&output).contains(word), "{}", stderr(&output));

@@ -3,52 +3,51 @@
 use super::ImageFormat;
 use crate::backend::RenderOutput;
 
-/// The share of pixels that makes an image black or white.
+/// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright pixels, as noise
+/// makes them, do not hide that.
+const DARK: f64 = 0.015;
+/// The share of pixels that makes an image white.
 const NEARLY_ALL: f64 = 0.98;
-/// A pixel of a PNG whose channels all stay below this share of white is nearly black.
-const DARK: f32 = 0.01;
 /// The mean that a suggested exposure gives an image: a middle grey.
 const MIDDLE: f64 = 0.18;
 /// Exposures that are worth suggesting, stops.
 const MOST_STOPS: f64 = 20.0;
 
-/// A sentence where nearly all pixels are black, or in a PNG at this `exposure` (stops) nearly black or white; linear
-/// values of an EXR are too bright or too dark for nobody but where nothing is there at all.
+/// A sentence where an image is black, or as a PNG at this `exposure` (stops) nearly black or white; linear values of
+/// an EXR are too dark for nobody unless nothing is there at all, and never too bright.
 pub fn hint(output: &RenderOutput, format: ImageFormat, exposure: f32) -> Option<String> {
-    let pixels = output.beauty.len();
-    let share = |count: usize| count as f64 / pixels.max(1) as f64;
-    let count = |test: &dyn Fn(f32) -> bool| {
-        output.beauty.iter().filter(|pixel| pixel.iter().all(|value| test(*value))).count()
-    };
     let scale = exposure.exp2();
-    let (dark, bright) = match format {
-        ImageFormat::Png => (count(&|value| value * scale < DARK), count(&|value| value * scale >= 1.0)),
-        ImageFormat::Exr => (count(&|value| value == 0.0), 0),
+    let count = output.beauty.len().max(1) as f64;
+    let mean = |value: &dyn Fn(f32) -> f32| {
+        output.beauty.iter().flatten().map(|channel| f64::from(value(*channel))).sum::<f64>() / (3.0 * count)
     };
-    let suggested = || {
-        let sum: f64 = output.beauty.iter().flatten().map(|value| f64::from(*value)).sum();
-        let stops = (MIDDLE * 3.0 * pixels as f64 / sum).log2().round();
-        (stops.abs() <= MOST_STOPS && format == ImageFormat::Png).then_some(stops)
+    let is_white = |pixel: &&[f32; 3]| pixel.iter().all(|channel| channel * scale >= 1.0);
+    let linear = mean(&|channel| channel);
+    let (dark, white) = match format {
+        ImageFormat::Png => (
+            mean(&|channel| (channel * scale).clamp(0.0, 1.0)) < DARK,
+            output.beauty.iter().filter(is_white).count() as f64 >= NEARLY_ALL * count,
+        ),
+        ImageFormat::Exr => (linear == 0.0, false),
     };
-    let percent = |count: usize| format!("{:.0} % of the pixels are", 100.0 * share(count));
-    if share(dark) >= NEARLY_ALL {
-        let expose =
-            suggested().map(|stops| format!("--exposure {stops} brightens them; ")).unwrap_or_default();
+    let stops = (MIDDLE / linear).log2().round();
+    let exposed = |what: &str| {
+        let helps = format == ImageFormat::Png && stops.abs() <= MOST_STOPS;
+        if helps { format!("--exposure {stops} {what} it; ") } else { String::new() }
+    };
+    if dark {
         return Some(format!(
-            "hint: {} nearly black: {expose}--environment 1,1,1 or FILE.hdr lights the scene from outside, and \
+            "hint: the image is nearly black: {}--environment 1,1,1 or FILE.hdr lights the scene from outside, and \
              --eye with --target looks from elsewhere",
-            percent(dark)
+            exposed("brightens")
         ));
     }
-    if share(bright) >= NEARLY_ALL {
-        let expose =
-            suggested().map(|stops| format!("--exposure {stops} darkens them; ")).unwrap_or_default();
-        return Some(format!(
-            "hint: {} white: {expose}a darker --environment, or an .exr, keeps what is in them",
-            percent(bright)
-        ));
-    }
-    None
+    white.then(|| {
+        format!(
+            "hint: the image is nearly white: {}a darker --environment, or an .exr, keeps what is in it",
+            exposed("darkens")
+        )
+    })
 }
 
 #[cfg(test)]
@@ -66,17 +65,19 @@ mod tests {
         let dim = image(&[([0.01, 0.005, 0.002], 1), ([0.002; 3], 99)]);
         let text = png(&dim, 0.0).expect("nearly black");
         assert!(
-            text.contains("99 %") && text.contains("--exposure 6 ") && text.contains("--environment"),
+            text.contains("black") && text.contains("--exposure 6 ") && text.contains("--environment"),
             "{text}"
         );
         // What it suggests helps.
         assert_eq!(png(&dim, 6.0), None);
         let text = png(&image(&[([0.0; 3], 9)]), 0.0).expect("black");
-        assert!(text.contains("100 %") && !text.contains("--exposure"), "no exposure helps: {text}");
+        assert!(text.contains("black") && !text.contains("--exposure"), "no exposure helps: {text}");
         let text = png(&image(&[([8.0; 3], 99), ([0.0; 3], 1)]), 0.0).expect("white");
         assert!(text.contains("white") && text.contains("--exposure -5 "), "{text}");
+        // Noise is no picture.
+        assert!(png(&image(&[([0.0; 3], 995), ([9.0; 3], 5)]), 0.0).is_some());
         // A small thing before nothing, a bright wall, and colours are pictures.
-        assert_eq!(png(&image(&[([0.0; 3], 97), ([0.5; 3], 3)]), 0.0), None);
+        assert_eq!(png(&image(&[([0.0; 3], 96), ([0.5; 3], 4)]), 0.0), None);
         assert_eq!(png(&image(&[([2.0, 2.0, 0.5], 100)]), 0.0), None);
         assert_eq!(png(&image(&[([f32::NAN; 3], 100)]), 0.0), None);
     }
