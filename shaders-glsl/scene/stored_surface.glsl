@@ -30,7 +30,7 @@ Surface stored_source(uint primitive, vec2 barycentrics, vec3 from) {
     geometry_vertices(primitive, a, b, c);
     vec3 p = (1.0 - barycentrics.x - barycentrics.y) * a + barycentrics.x * b + barycentrics.y * c;
     Ray ray = Ray(from, 0.0, p - from, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface(ray, 1.0, primitive, barycentrics);
+    return scene_surface_as_described(ray, 1.0, primitive, barycentrics);
 }
 
 // The same for structures that do not know who will look: as seen along the triangle's normal.
@@ -42,7 +42,7 @@ Surface stored_source_from_front(uint primitive, vec2 barycentrics) {
     float twice_area;
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
     Ray ray = Ray(a, 0.0, -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface(ray, 1.0, primitive, barycentrics);
+    return scene_surface_as_described(ray, 1.0, primitive, barycentrics);
 }
 
 uvec2 stored_pack(Surface s) {

@@ -8,7 +8,7 @@ use rasray_gpu_scene::ShadingFeatures;
 use rasray_integrators::{
     AmbientOcclusion, AovPass, Film, Integrator, IntegratorError, Path, Raycast, Wave, waves,
 };
-use rasray_scene::{Light, Projection, Scene};
+use rasray_scene::{Light, Material, Projection, Scene};
 
 #[test]
 fn a_scene_without_triangles_shows_its_environment() {
@@ -104,6 +104,21 @@ fn a_point_light_falls_off_with_distance_and_cosine_and_casts_shadows() {
     let stage = Stage::new(&device, &scene, above(0.0), 2, 2, 0);
     let image = stage.render(&Path::new(&stage.desc(), 1).expect("valid"), 1);
     assert_eq!(image, vec![[0.0; 3]; 4]);
+    assert_silent(&device);
+}
+
+#[test]
+fn a_polished_metal_of_leaning_normals_is_white_in_a_white_furnace() {
+    let device = device();
+    let mut floor = square(DVec3::ZERO, DVec3::X, DVec3::Y, 0);
+    // As a bumpy surface is interpolated: some corners lean so far that a mirrored ray would go below it.
+    floor.normals = Some(vec![[0.0, 0.0, 1.0], [-0.8, 0.0, 0.6], [0.6, 0.6, 0.53], [0.0, -0.95, 0.31]]);
+    let polished = Material { metallic: 1.0, roughness: 0.0, ..lambert(1.0, 0.0) };
+    let scene = scene(vec![floor], vec![polished], [1.0; 3]);
+    let stage = Stage::new(&device, &scene, forward_camera(DVec3::new(0.0, 0.0, 1.5)), 24, 24, 3);
+    let image = stage.render(&Path::new(&stage.desc(), 2).expect("valid"), 4);
+    let darkest = image.iter().flatten().copied().fold(f32::INFINITY, f32::min);
+    assert!(darkest > 0.999, "{darkest}");
     assert_silent(&device);
 }
 

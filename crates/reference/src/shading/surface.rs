@@ -12,6 +12,10 @@ use super::{
 
 /// Cosine to which a shading normal is bent that faces away from the ray.
 const SHADING_NORMAL_COSINE: f32 = 0.01;
+/// Least height of a mirrored direction over the geometric surface.
+const MIRRORED_HEIGHT: f32 = 0.01;
+/// The same as a share of the height of the ray, where that is less.
+const MIRRORED_SHARE: f32 = 0.9;
 
 /// What is shaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,6 +163,23 @@ fn shading_normal(interpolated: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
     normal
 }
 
+/// The shading normal, bent just so far that `o` mirrored at it leaves the geometric surface: halfway
+/// between `o` and the mirrored direction, lifted to the least height.
+pub(super) fn mirroring_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
+    let mirrored = 2.0 * normal.dot(o) * normal - o;
+    let height = mirrored.dot(geometric_normal);
+    let least = MIRRORED_HEIGHT.min(MIRRORED_SHARE * o.dot(geometric_normal));
+    if height >= least {
+        return normal;
+    }
+    let along = mirrored - height * geometric_normal;
+    if !(along.length_squared() > 0.0) {
+        return geometric_normal;
+    }
+    let lifted = geometric_normal * least + along * ((1.0 - least * least).sqrt() / along.length());
+    (o + lifted).normalize()
+}
+
 impl PosedScene<'_> {
     /// What `ray` meets at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
     pub fn surface(&self, ray: &Ray, t: f32, primitive: u32, barycentrics: Vec2) -> Surface {
@@ -197,12 +218,13 @@ impl PosedScene<'_> {
         let base_color =
             Vec4::from(material.base_color) * texel * attributes::color(self.mesh(draw), triangle, weights);
         let blends = material.alpha_mode == AlphaMode::Blend;
+        let facing_normal = shading_normal(interpolated * facing, geometric_normal, o);
         let mut surface = Surface {
             position,
             position_error,
             geometric_normal,
             primitive: Some(primitive),
-            normal: shading_normal(interpolated * facing, geometric_normal, o),
+            normal: mirroring_normal(facing_normal, geometric_normal, o),
             base_color: Vec3::ZERO,
             opacity: if blends { base_color.w.clamp(0.0, 1.0) } else { 1.0 },
             front,

@@ -2,7 +2,10 @@ use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use rasray_scene::{Filter, Image, Material, Texture, TextureRef, Wrap};
 
 use crate::{
-    shading::{PosedScene, Ray, ReferenceError, Surface},
+    shading::{
+        PosedScene, Ray, ReferenceError, Surface, bsdf_sample, random::RandomStream,
+        surface::mirroring_normal,
+    },
     testing::{diffuse, quad, scene},
 };
 
@@ -73,15 +76,15 @@ fn positions_lie_within_their_bound() {
 #[test]
 fn shading_normals_are_interpolated_and_face_the_ray() {
     let mut mesh = unit_quad(0);
-    let tilted = Vec3::new(0.6, 0.0, 0.8).to_array();
+    let tilted = Vec3::new(0.28, 0.0, 0.96).to_array();
     mesh.normals = Some(vec![tilted; 4]);
     let mut scene = scene(vec![diffuse(0.5)], vec![mesh]);
     assert!((seen(&scene, true).normal - Vec3::from(tilted)).length() < 1.0e-6);
     assert!((seen(&scene, false).normal + Vec3::from(tilted)).length() < 1.0e-6);
 
     // Stretching in z tilts normals the other way than positions.
-    scene.instances[0].world_from_mesh = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 4.0)));
-    let expected = Vec3::new(0.6, 0.0, 0.2).normalize();
+    scene.instances[0].world_from_mesh = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 3.0)));
+    let expected = Vec3::new(0.28, 0.0, 0.32).normalize();
     assert!((seen(&scene, true).normal - expected).length() < 1.0e-6);
 
     scene.meshes[0].normals = Some(vec![[0.0, 0.0, -1.0]; 4]);
@@ -115,9 +118,9 @@ fn with_texture(scene: &mut rasray_scene::Scene, texel: [u8; 4]) -> TextureRef {
 #[test]
 fn normal_maps_tilt_towards_u_and_up() {
     let mut scene = scene(vec![diffuse(0.5)], vec![unit_quad(0)]);
-    let reference = with_texture(&mut scene, [255, 204, 230, 255]);
+    let reference = with_texture(&mut scene, [191, 178, 230, 255]);
     scene.materials[0].normal_texture = Some(reference);
-    let tilt = (Vec3::new(255.0, 204.0, 230.0) / 255.0 * 2.0 - 1.0).normalize();
+    let tilt = (Vec3::new(191.0, 178.0, 230.0) / 255.0 * 2.0 - 1.0).normalize();
     for with_tangents in [false, true] {
         scene.meshes[0].tangents = with_tangents.then(|| vec![[1.0, 0.0, 0.0, 1.0]; 4]);
         for mirrored in [false, true] {
@@ -176,4 +179,68 @@ fn scenes_that_name_what_is_not_there_are_refused() {
         PosedScene::with_positions(&good, DVec3::ZERO, positions).err(),
         Some(ReferenceError::PositionCount { given: 5, expected: 4 })
     );
+}
+
+fn unit(random: RandomStream, dimension: u32) -> Vec3 {
+    let [u, v, ..] = random.four(dimension);
+    let cosine = 1.0 - 2.0 * u;
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let azimuth = std::f32::consts::TAU * v;
+    Vec3::new(sine * azimuth.cos(), sine * azimuth.sin(), cosine)
+}
+
+/// Mirrored directions leave the surface, whatever the normals; normals that were fit to mirror keep their bits.
+#[test]
+fn shading_normals_mirror_away_from_the_surface() {
+    let g = Vec3::Z;
+    let above = |d: Vec3| if d.z < 0.0 { -d } else { d };
+    let (mut kept, mut bent) = (0, 0);
+    for pixel in 0..20_000 {
+        let random = RandomStream { seed: 3, pixel, sample: 0 };
+        let (mut n, o) = (above(unit(random, 0)), above(unit(random, 4)));
+        if n.dot(o) < 0.01 {
+            n = (n + (0.01 - n.dot(o)) * o).normalize();
+        }
+        let mirrored = |n: Vec3| 2.0 * n.dot(o) * n - o;
+        let least = 0.01_f32.min(0.9 * o.z);
+        let fit = mirroring_normal(n, g, o);
+        if mirrored(n).z >= least {
+            assert_eq!(fit, n);
+            kept += 1;
+            continue;
+        }
+        bent += 1;
+        assert!((mirrored(fit).z - least).abs() < 1.0e-5, "{n} {o}: {}", mirrored(fit));
+        assert!((fit.length() - 1.0).abs() < 1.0e-5 && fit.dot(o) > 0.0 && fit.z > 0.0, "{n} {o}: {fit}");
+        // Bent in the plane of the mirrored direction and the surface's normal: light turns no corner.
+        let before = mirrored(n).truncate().normalize();
+        assert!(before.dot(mirrored(fit).truncate().normalize()) > 0.999, "{n} {o}");
+    }
+    assert!(kept > 5000 && bent > 5000, "{kept} {bent}");
+    // Where the rule sets in, it sets in without a step.
+    let o = Vec3::new(0.6, 0.0, 0.8);
+    let leaning = |angle: f32| Vec3::new(-angle.sin(), 0.0, angle.cos());
+    let start = 0.5 * (0.8_f32.asin() - 0.01_f32.asin());
+    for angle in [start - 1.0e-3, start + 1.0e-3] {
+        let fit = mirroring_normal(leaning(angle), g, o);
+        assert!((fit - leaning(start)).length() < 2.0e-3, "{angle} {fit}");
+    }
+}
+
+/// A polished metal of shading normals that lean away absorbs nothing, from wherever it is seen.
+#[test]
+fn leaning_mirrors_are_not_black() {
+    let mut mesh = unit_quad(0);
+    mesh.normals = Some(vec![Vec3::new(-0.8, 0.0, 0.6).to_array(); 4]);
+    let polished = Material { metallic: 1.0, roughness: 0.0, ..diffuse(1.0) };
+    let scene = scene(vec![polished], vec![mesh]);
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    for step in 0..200 {
+        let angle = std::f32::consts::PI * (step as f32 + 0.5) / 200.0;
+        let towards = ray(Vec3::ZERO, Vec3::new(-angle.cos(), 0.0, -angle.sin()));
+        let surface = posed.surface(&towards, 1.0, 0, Vec2::splat(0.2));
+        let sample = bsdf_sample(&surface, -towards.direction, [0.5; 4]).expect("nothing is absorbed");
+        assert!(sample.delta && (sample.weight - 1.0).abs().max_element() < 1.0e-5, "{angle} {sample:?}");
+        assert!(sample.direction.dot(surface.geometric_normal) > 0.0, "{angle}");
+    }
 }
