@@ -1,96 +1,15 @@
 // What: how a surface scatters: value, density and sampling of its lobes.
 // Reads: materials (specular colour only). Writes: nothing.
-// Source: docs/shading.md, "Reflection and transmission"; glTF 2.0 appendix B.
+// Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_GLSL
 #define SCENE_BSDF_GLSL
 
-#include "scene/accessors.glsl"
-#include "scene/features.glsl"
-#include "scene/microfacet.glsl"
-
-// Below this perceptual roughness the microfacet lobes are perfect mirrors.
-#define BSDF_SMOOTH_ROUGHNESS 0.03
-// Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
-#define BSDF_STRAIGHT_INDEX 1.0e-3
-// Bounds of the probability of the diffuse family where both families exist.
-#define BSDF_DIFFUSE_LEAST 0.05
-#define BSDF_DIFFUSE_MOST 0.95
-
-struct BsdfTerms {
-    vec3 f0;             // dielectric, normal incidence
-    float f90;
-    vec3 base_color;
-    float metallic;
-    float transmission;
-    float alpha;
-    float eta;           // index on the side of o over the index on the other side; 1: straight on
-    bool mirror;
-    mat3 frame;          // world from local
-    vec3 o;              // local
-};
+#include "scene/bsdf_terms.glsl"
 
 struct BsdfValue {
     vec3 value;          // 1/sr, cosine not included
     float pdf;           // 1/sr with which bsdf_sample answers this direction
 };
-
-BsdfTerms bsdf_terms(Surface s, vec3 o) {
-    BsdfTerms terms;
-    // glTF: an index of 0 stands for full reflection; such a surface does not bend light.
-    float ior = s.ior > 1.0e-3 ? s.ior : 1.0;
-    float root = (max(s.ior, 0.0) - 1.0) / (max(s.ior, 0.0) + 1.0);
-    terms.f0 = min(root * root * scene_material_specular_color(s.material), vec3(1.0)) * s.specular;
-    terms.f90 = s.specular;
-    terms.base_color = s.base_color;
-    terms.metallic = s.metallic;
-    terms.transmission = SHADING_TRANSMISSION ? s.transmission : 0.0;
-    terms.mirror = s.roughness < BSDF_SMOOTH_ROUGHNESS;
-    terms.alpha = max(s.roughness * s.roughness, BSDF_SMOOTH_ROUGHNESS * BSDF_SMOOTH_ROUGHNESS);
-    bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
-    terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
-    terms.frame = basis_around(s.normal);
-    terms.o = o * terms.frame;
-    return terms;
-}
-
-// Reflected share of the dielectric at a facet seen under `cosine`. Schlick's curve holds on the side
-// of the smaller index; beyond the critical angle everything is reflected.
-vec3 bsdf_fresnel(BsdfTerms terms, float cosine) {
-    float x = cosine;
-    if (terms.eta > 1.0) {
-        float sine_squared = terms.eta * terms.eta * (1.0 - cosine * cosine);
-        if (sine_squared >= 1.0) return vec3(1.0);
-        x = sqrt(1.0 - sine_squared);
-    }
-    return terms.f0 + (vec3(terms.f90) - terms.f0) * fresnel_power(x);
-}
-
-vec3 bsdf_reflected(BsdfTerms terms, float cosine) {
-    vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * fresnel_power(cosine);
-    return mix(bsdf_fresnel(terms, cosine), metal, terms.metallic);
-}
-
-vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
-    float through = 1.0 - largest_component(bsdf_fresnel(terms, cosine));
-    return terms.base_color * ((1.0 - terms.metallic) * terms.transmission * through);
-}
-
-vec3 bsdf_diffuse(BsdfTerms terms, float cosine_o, float cosine_i) {
-    float share = (1.0 - terms.metallic) * (1.0 - terms.transmission);
-    if (share <= 0.0) return vec3(0.0);
-    float through = (1.0 - largest_component(bsdf_fresnel(terms, cosine_o)))
-                  * (1.0 - largest_component(bsdf_fresnel(terms, cosine_i)));
-    return terms.base_color * (share * through / MICROFACET_PI);
-}
-
-// Probability of the diffuse family.
-float bsdf_diffuse_probability(BsdfTerms terms) {
-    float diffuse = luminance(bsdf_diffuse(terms, terms.o.z, 1.0)) * MICROFACET_PI;
-    float facets = luminance(bsdf_reflected(terms, terms.o.z) + bsdf_transmitted(terms, terms.o.z));
-    if (diffuse <= 0.0) return 0.0;
-    if (facets <= 0.0) return 1.0;
-    return clamp(diffuse / (diffuse + facets), BSDF_DIFFUSE_LEAST, BSDF_DIFFUSE_MOST);
-}
 
 // Probability that a facet reflects what it does not absorb.
 float bsdf_reflect_probability(BsdfTerms terms, float cosine) {
@@ -148,17 +67,16 @@ BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     vec3 local = i * terms.frame;
     int side = bsdf_side(s, i, local);
     if (side == 0 || terms.o.z <= 0.0) return result;
-    float diffuse = bsdf_diffuse_probability(terms);
-    if (side > 0) {
-        result.value = bsdf_diffuse(terms, terms.o.z, local.z);
-        result.pdf = diffuse * local.z / MICROFACET_PI;
-    }
+    float family, through;
+    bsdf_cosine_probability(terms, family, through);
+    result.value = bsdf_cosine_family(terms, abs(local.z), side);
+    result.pdf = family * (side > 0 ? 1.0 - through : through) * abs(local.z) / MICROFACET_PI;
     if (terms.mirror) return result;
     float cosine, facets, pdf;
     bsdf_facets(terms, local, side, cosine, facets, pdf);
     float reflect_share = bsdf_reflect_probability(terms, cosine);
     result.value += facets * (side > 0 ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine));
-    result.pdf += (1.0 - diffuse) * pdf * (side > 0 ? reflect_share : 1.0 - reflect_share);
+    result.pdf += (1.0 - family) * pdf * (side > 0 ? reflect_share : 1.0 - reflect_share);
     return result;
 }
 
@@ -188,12 +106,18 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
     BsdfSample chosen = BsdfSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0u);
     BsdfTerms terms = bsdf_terms(s, o);
     if (terms.o.z <= 0.0) return chosen;
-    float diffuse = bsdf_diffuse_probability(terms);
+    float family, through;
+    bsdf_cosine_probability(terms, family, through);
     vec3 local;
     uint flags = SAMPLE_VALID;
     int expected = 1;
-    if (random.x < diffuse) {
+    if (random.x < family) {
         local = cosine_hemisphere(random.zw);
+        if (random.y < through) {
+            local.z = -local.z;
+            flags |= SAMPLE_TRANSMITTED;
+            expected = -1;
+        }
     } else {
         vec3 h = terms.mirror ? vec3(0.0, 0.0, 1.0) : ggx_visible_normal(terms.o, terms.alpha, random.zw);
         float cosine = dot(terms.o, h);
@@ -207,7 +131,7 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
             expected = -1;
         }
         if (terms.mirror) {
-            float probability = (1.0 - diffuse) * (reflects ? reflect_share : 1.0 - reflect_share);
+            float probability = (1.0 - family) * (reflects ? reflect_share : 1.0 - reflect_share);
             vec3 share = reflects ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine);
             vec3 world = normalize(terms.frame * local);
             if (bsdf_side(s, world, local) != expected || !(probability > 0.0)) return chosen;
@@ -215,7 +139,7 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
         }
     }
     vec3 world = normalize(terms.frame * local);
-    // A facet can send light through the surface as a whole: single scattering loses it.
+    // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
     if (bsdf_side(s, world, local) != expected) return chosen;
     BsdfValue towards = bsdf_towards(terms, s, world);
     if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return chosen;

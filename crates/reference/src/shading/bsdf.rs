@@ -1,6 +1,7 @@
 //! How a surface scatters: value, density and sampling of its lobes.
 //!
-//! Diffuse and GGX reflection, thin-wall and volume transmission; below [`SMOOTH_ROUGHNESS`] the
+//! Diffuse and GGX reflection, thin-wall and volume transmission, with what the facets send out after
+//! several scatterings; below [`SMOOTH_ROUGHNESS`] the
 //! microfacet lobes are perfect mirrors, which are sampled but neither evaluated nor given a density.
 
 use std::f32::consts::PI;
@@ -8,7 +9,7 @@ use std::f32::consts::PI;
 use glam::{Mat3, Vec2, Vec3};
 
 use super::{
-    Surface, basis_around, cosine_hemisphere, luminance,
+    Surface, albedo, basis_around, cosine_hemisphere, luminance,
     microfacet::{fresnel_power, ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
 };
 
@@ -16,8 +17,10 @@ use super::{
 pub const SMOOTH_ROUGHNESS: f32 = 0.03;
 /// Indices closer to 1 than this do not bend.
 const STRAIGHT_INDEX: f32 = 1.0e-3;
-/// Bounds of the probability of the diffuse family where both families exist.
-const DIFFUSE_BOUNDS: (f32, f32) = (0.05, 0.95);
+/// Bounds of the probability of the cosine family where both families exist.
+const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
+/// How often its share of the light that probability may be at its lower bound.
+const COSINE_FACTOR: f32 = 4.0;
 
 /// A direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +49,7 @@ struct Terms {
     base_color: Vec3,
     metallic: f32,
     transmission: f32,
+    /// 0 for perfect mirrors.
     alpha: f32,
     /// Index on the side of o over the index on the other side; 1: straight on.
     eta: f32,
@@ -54,6 +58,29 @@ struct Terms {
     frame: Mat3,
     /// Local.
     o: Vec3,
+    energy: Energy,
+}
+
+/// What becomes of light that one scattering at the facets loses.
+#[derive(Default)]
+struct Energy {
+    /// Share that is lost from o, and its mean over the hemisphere.
+    loss: f32,
+    loss_mean: f32,
+    /// Shares of the lost light that are reflected, and that go through a thin wall.
+    returned: Vec3,
+    passed: Vec3,
+    /// Of the dielectric, the largest channel.
+    returned_most: f32,
+    /// Share of the light from o that the dielectric lets in, and its mean over the hemisphere.
+    entering: f32,
+    entering_mean: f32,
+}
+
+/// Probability of the cosine family, and within it of going through the surface.
+struct CosineProbability {
+    family: f32,
+    through: f32,
 }
 
 /// What the rough microfacet family does towards a direction.
@@ -72,22 +99,62 @@ impl Terms {
         let straight =
             surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
         let frame = basis_around(surface.normal);
-        Self {
+        let mirror = surface.roughness < SMOOTH_ROUGHNESS;
+        let mut terms = Self {
             f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
             f90: surface.specular,
             base_color: surface.base_color,
             metallic: surface.metallic,
             transmission: surface.transmission,
-            alpha: (surface.roughness * surface.roughness).max(SMOOTH_ROUGHNESS * SMOOTH_ROUGHNESS),
+            alpha: if mirror { 0.0 } else { surface.roughness * surface.roughness },
             eta: match (straight, surface.front) {
                 (true, _) => 1.0,
                 (false, true) => 1.0 / ior,
                 (false, false) => ior,
             },
-            mirror: surface.roughness < SMOOTH_ROUGHNESS,
+            mirror,
             frame,
             o: frame.transpose() * o,
+            energy: Energy::default(),
+        };
+        terms.set_energy();
+        terms
+    }
+
+    /// From inside a volume nothing is made up for at the dielectric.
+    fn set_energy(&mut self) {
+        let cosine = self.o.z.max(0.0);
+        self.energy.loss = albedo::loss(cosine, self.alpha);
+        self.energy.loss_mean = albedo::loss_mean(self.alpha);
+        let loss_mean = self.energy.loss_mean;
+        let metal = self.base_color + (Vec3::ONE - self.base_color) * albedo::SCHLICK_MEAN;
+        let dielectric = self.f0 + (Vec3::splat(self.f90) - self.f0) * albedo::SCHLICK_MEAN;
+        let returned = if self.eta > 1.0 { Vec3::ZERO } else { albedo::returned(dielectric, loss_mean) };
+        self.energy.returned_most = returned.max_element();
+        self.energy.returned = returned.lerp(albedo::returned(metal, loss_mean), self.metallic);
+        let through = if self.eta == 1.0 { (1.0 - self.metallic) * self.transmission } else { 0.0 };
+        self.energy.passed = self.base_color * (through * (1.0 - self.energy.returned_most));
+        self.energy.entering = self.entering(cosine, self.energy.loss);
+        self.energy.entering_mean = self.entering_mean();
+    }
+
+    /// Share of the light that the dielectric as a whole does not reflect, by its brightest channel.
+    fn entering(&self, cosine: f32, loss: f32) -> f32 {
+        if self.eta > 1.0 {
+            return 1.0 - self.fresnel(cosine).max_element();
         }
+        let schlick = albedo::schlick(cosine, self.alpha, loss);
+        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
+        (1.0 - once - self.energy.returned_most * loss).max(0.0)
+    }
+
+    fn entering_mean(&self) -> f32 {
+        if self.eta > 1.0 {
+            return 1.0;
+        }
+        let (schlick, loss) = (albedo::schlick_mean(self.alpha), self.energy.loss_mean);
+        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
+        (1.0 - once - self.energy.returned_most * loss).max(1.0e-3)
     }
 
     /// Reflected share of the dielectric at a facet seen under `cosine`.
@@ -113,26 +180,43 @@ impl Terms {
         self.base_color * ((1.0 - self.metallic) * self.transmission * through)
     }
 
-    fn diffuse(&self, cosine_o: f32, cosine_i: f32) -> Vec3 {
-        let share = (1.0 - self.metallic) * (1.0 - self.transmission);
-        if share <= 0.0 {
-            return Vec3::ZERO;
-        }
-        let through =
-            (1.0 - self.fresnel(cosine_o).max_element()) * (1.0 - self.fresnel(cosine_i).max_element());
-        self.base_color * (share * through / PI)
+    fn diffuse_share(&self) -> f32 {
+        (1.0 - self.metallic) * (1.0 - self.transmission)
     }
 
-    fn diffuse_probability(&self) -> f32 {
-        let diffuse = luminance(self.diffuse(self.o.z, 1.0)) * PI;
-        let facets = luminance(self.reflected(self.o.z) + self.transmitted(self.o.z));
-        if diffuse <= 0.0 {
+    /// The diffuse base, and what left the facets after several scatterings; 1/sr.
+    fn cosine_family(&self, cosine: f32, side: Side) -> Vec3 {
+        let energy = &self.energy;
+        let loss = albedo::loss(cosine, self.alpha);
+        let several = if energy.loss > 0.0 { energy.loss * loss / (energy.loss_mean * PI) } else { 0.0 };
+        if side == Side::Transmitted {
+            return energy.passed * several;
+        }
+        let share = self.diffuse_share();
+        if share <= 0.0 {
+            return energy.returned * several;
+        }
+        let through = energy.entering * self.entering(cosine, loss) / energy.entering_mean;
+        energy.returned * several + self.base_color * (share * through / PI)
+    }
+
+    fn cosine_probability(&self) -> CosineProbability {
+        let energy = &self.energy;
+        let down = luminance(energy.passed) * energy.loss;
+        let up = luminance(energy.returned) * energy.loss
+            + luminance(self.base_color) * (self.diffuse_share() * energy.entering);
+        let total = up + down;
+        let facets = (1.0 - energy.loss) * luminance(self.reflected(self.o.z) + self.transmitted(self.o.z));
+        let through = if total > 0.0 { down / total } else { 0.0 };
+        let family = if total <= 0.0 {
             0.0
         } else if facets <= 0.0 {
             1.0
         } else {
-            (diffuse / (diffuse + facets)).clamp(DIFFUSE_BOUNDS.0, DIFFUSE_BOUNDS.1)
-        }
+            let share = total / (total + facets);
+            share.clamp(COSINE_BOUNDS.0.min(COSINE_FACTOR * share), COSINE_BOUNDS.1)
+        };
+        CosineProbability { family, through }
     }
 
     fn reflect_probability(&self, cosine: f32) -> f32 {
@@ -199,7 +283,7 @@ pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
     let terms = Terms::new(surface, o);
     let local = terms.frame.transpose() * i;
     let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return Vec3::ZERO };
-    let value = if side == Side::Reflected { terms.diffuse(terms.o.z, local.z) } else { Vec3::ZERO };
+    let value = terms.cosine_family(local.z.abs(), side);
     if terms.mirror {
         return value;
     }
@@ -217,15 +301,16 @@ pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
     let terms = Terms::new(surface, o);
     let local = terms.frame.transpose() * i;
     let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return 0.0 };
-    let diffuse = terms.diffuse_probability();
-    let density = if side == Side::Reflected { diffuse * local.z / PI } else { 0.0 };
+    let CosineProbability { family, through } = terms.cosine_probability();
+    let share = if side == Side::Reflected { 1.0 - through } else { through };
+    let density = family * share * local.z.abs() / PI;
     if terms.mirror {
         return density;
     }
     let facets = terms.facets(local, side);
     let reflect_share = terms.reflect_probability(facets.cosine);
     let share = if side == Side::Reflected { reflect_share } else { 1.0 - reflect_share };
-    density + (1.0 - diffuse) * facets.pdf * share
+    density + (1.0 - family) * facets.pdf * share
 }
 
 /// Random numbers: lobe, side, and two for the direction. `None`: absorbed.
@@ -234,10 +319,16 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
     if terms.o.z <= 0.0 {
         return None;
     }
-    let diffuse = terms.diffuse_probability();
+    let CosineProbability { family, through } = terms.cosine_probability();
     let mut expected = Side::Reflected;
-    let local = if lobe < diffuse {
-        cosine_hemisphere(Vec2::new(u, v))
+    let local = if lobe < family {
+        let up = cosine_hemisphere(Vec2::new(u, v));
+        if side < through {
+            expected = Side::Transmitted;
+            up.with_z(-up.z)
+        } else {
+            up
+        }
     } else {
         let h =
             if terms.mirror { Vec3::Z } else { ggx_visible_normal(terms.o, terms.alpha, Vec2::new(u, v)) };
@@ -251,7 +342,7 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
             terms.refract(h)?
         };
         if terms.mirror {
-            let probability = (1.0 - diffuse) * if reflects { reflect_share } else { 1.0 - reflect_share };
+            let probability = (1.0 - family) * if reflects { reflect_share } else { 1.0 - reflect_share };
             let share = if reflects { terms.reflected(cosine) } else { terms.transmitted(cosine) };
             let world = (terms.frame * local).normalize();
             if side_of(surface, world, local) != Some(expected) || !(probability > 0.0) {
@@ -268,7 +359,7 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
         local
     };
     let world = (terms.frame * local).normalize();
-    // A facet can send light through the surface as a whole: single scattering loses it.
+    // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
     if side_of(surface, world, local) != Some(expected) {
         return None;
     }

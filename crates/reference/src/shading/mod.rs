@@ -12,6 +12,7 @@
     reason = "`!(x > 0.0)` fails for NaN as well, as in the shaders"
 )]
 
+mod albedo;
 mod alpha;
 mod attributes;
 pub mod bsdf;

@@ -1,9 +1,13 @@
 use std::f64::consts::PI;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use crate::shading::{
-    Surface, bsdf::SMOOTH_ROUGHNESS, bsdf_evaluate, bsdf_pdf, bsdf_sample, random::RandomStream,
+    Surface, albedo,
+    bsdf::SMOOTH_ROUGHNESS,
+    bsdf_evaluate, bsdf_pdf, bsdf_sample,
+    microfacet::{fresnel_power, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
+    random::RandomStream,
 };
 
 /// Surfaces that exercise every lobe; glass from both sides.
@@ -120,7 +124,7 @@ fn weights_are_value_times_cosine_over_density() {
     }
 }
 
-fn albedo(surface: &Surface, o: Vec3) -> f64 {
+fn directional_albedo(surface: &Surface, o: Vec3) -> f64 {
     over_sphere(o, |i| [f64::from(bsdf_evaluate(surface, o, i).max_element() * i.z.abs())])[0]
 }
 
@@ -130,7 +134,7 @@ fn surfaces_do_not_make_energy() {
     for (name, surface) in surfaces() {
         for o in directions() {
             let white = Surface { base_color: Vec3::ONE, ..surface };
-            let total = albedo(&white, o);
+            let total = directional_albedo(&white, o);
             assert!(total < 1.003, "{name} {o}: {total}");
             assert!(total > 0.3, "{name} {o}: {total} is too dark to be plausible");
         }
@@ -148,7 +152,78 @@ fn surfaces_do_not_make_energy() {
         let theirs = diffuse(1.0 - fresnel(o.dot((o + i).normalize())));
         [f64::from(bsdf_evaluate(&smooth, o, i).x * i.z) - ours + theirs]
     });
-    assert!(mutant > 1.1 && albedo(&smooth, o) < 1.003, "{mutant} {}", albedo(&smooth, o));
+    assert!(
+        mutant > 1.1 && directional_albedo(&smooth, o) < 1.003,
+        "{mutant} {}",
+        directional_albedo(&smooth, o)
+    );
+}
+
+/// White surfaces that absorb nothing send back all light, from every angle and at every roughness.
+#[test]
+fn white_surfaces_lose_nothing() {
+    let base = Surface { specular: 1.0, ..Surface::default() };
+    let kinds = [
+        ("metal", Surface { metallic: 1.0, ..base }),
+        ("dielectric", base),
+        ("dense dielectric", Surface { ior: 2.5, ..base }),
+        ("half metal", Surface { metallic: 0.5, ..base }),
+        ("thin wall", Surface { transmission: 1.0, ..base }),
+        ("milky thin wall", Surface { transmission: 0.5, ..base }),
+    ];
+    for (name, kind) in kinds {
+        for roughness in [0.15, 0.3, 0.5, 0.7, 0.85, 1.0] {
+            for degrees in [0.0_f32, 30.0, 60.0, 75.0, 80.0] {
+                let angle = degrees.to_radians();
+                let o = Vec3::new(angle.sin(), 0.0, angle.cos());
+                let total = directional_albedo(&Surface { roughness, ..kind }, o);
+                assert!((total - 1.0).abs() < 0.015, "{name} {roughness} at {degrees} degrees: {total}");
+            }
+        }
+    }
+}
+
+/// The polynomials against the integrals they were fitted to.
+#[test]
+fn albedos_are_those_of_the_integrals() {
+    // Samples of visible normals: facets of reflectance 1 and (1 - x)^5.
+    let integrals = |cosine: f32, alpha: f32| {
+        let o = Vec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+        let (steps, mut sums) = (200, [0.0_f64; 2]);
+        for step in 0..steps * steps {
+            let place = Vec2::new((step % steps) as f32 + 0.5, (step / steps) as f32 + 0.5) / steps as f32;
+            let h = ggx_visible_normal(o, alpha, place);
+            let i = 2.0 * o.dot(h) * h - o;
+            if i.z > 0.0 {
+                let kept = ggx_visibility(o.z, i.z, alpha) / ggx_visibility_one(o.z, alpha) * i.z;
+                sums[0] += f64::from(kept);
+                sums[1] += f64::from(kept * fresnel_power(o.dot(h)));
+            }
+        }
+        sums.map(|sum| sum / f64::from(steps * steps))
+    };
+    let (mut loss_error, mut least, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for roughness in [0.1_f32, 0.15, 0.25, 0.4, 0.6, 0.8, 1.0] {
+        let alpha = roughness * roughness;
+        for cosine in [0.03_f32, 0.06, 0.1, 0.17, 0.3, 0.5, 0.8, 1.0] {
+            let [whole, schlick] = integrals(cosine, alpha);
+            let loss = albedo::loss(cosine, alpha);
+            loss_error = loss_error.max((1.0 - f64::from(loss) - whole).abs());
+            let error = f64::from(albedo::schlick(cosine, alpha, loss)) - schlick;
+            (least, most) = (least.min(error), most.max(error));
+        }
+        // The means are those of the polynomials, so that what is lost and what is returned agree.
+        let (steps, mut means) = (2000, [0.0_f64; 2]);
+        for step in 0..steps {
+            let cosine = (step as f32 + 0.5) / steps as f32;
+            let loss = albedo::loss(cosine, alpha);
+            means[0] += 2.0 * f64::from(loss * cosine) / f64::from(steps);
+            means[1] += 2.0 * f64::from(albedo::schlick(cosine, alpha, loss) * cosine) / f64::from(steps);
+        }
+        assert!((means[0] - f64::from(albedo::loss_mean(alpha))).abs() < 0.006, "{roughness} {means:?}");
+        assert!((means[1] - f64::from(albedo::schlick_mean(alpha))).abs() < 0.004, "{roughness} {means:?}");
+    }
+    assert!(loss_error < 0.003 && least > -0.004 && most < 0.009, "{loss_error} {least} {most}");
 }
 
 #[test]

@@ -1,0 +1,149 @@
+// What: what scattering at one surface towards one direction needs to know: shares, probabilities and the light that
+// leaves the facets after several scatterings.
+// Reads: materials (specular colour only). Writes: nothing.
+// Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
+#ifndef SCENE_BSDF_TERMS_GLSL
+#define SCENE_BSDF_TERMS_GLSL
+
+#include "scene/accessors.glsl"
+#include "scene/albedo.glsl"
+#include "scene/features.glsl"
+#include "scene/microfacet.glsl"
+
+// Below this perceptual roughness the microfacet lobes are perfect mirrors.
+#define BSDF_SMOOTH_ROUGHNESS 0.03
+// Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
+#define BSDF_STRAIGHT_INDEX 1.0e-3
+// Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
+// this factor: near the horizon it sends more than cosines tell.
+#define BSDF_COSINE_LEAST 0.05
+#define BSDF_COSINE_FACTOR 4.0
+#define BSDF_COSINE_MOST 0.95
+
+struct BsdfTerms {
+    vec3 f0;             // dielectric, normal incidence
+    float f90;
+    vec3 base_color;
+    float metallic;
+    float transmission;
+    float alpha;         // 0 for perfect mirrors
+    float eta;           // index on the side of o over the index on the other side; 1: straight on
+    bool mirror;
+    mat3 frame;          // world from local
+    vec3 o;              // local
+    float loss_o;        // share of the light that one scattering at the facets loses
+    float loss_mean;     // its mean over the hemisphere
+    vec3 returned;       // share of the lost light that is reflected
+    vec3 passed;         // share of the lost light that goes through a thin wall
+    float returned_most; // of the dielectric, the largest channel
+    float entering_o;    // share of the light that the dielectric lets in
+    float entering_mean; // its mean over the hemisphere
+};
+
+// Reflected share of the dielectric at a facet seen under `cosine`. Schlick's curve holds on the side
+// of the smaller index; beyond the critical angle everything is reflected.
+vec3 bsdf_fresnel(BsdfTerms terms, float cosine) {
+    float x = cosine;
+    if (terms.eta > 1.0) {
+        float sine_squared = terms.eta * terms.eta * (1.0 - cosine * cosine);
+        if (sine_squared >= 1.0) return vec3(1.0);
+        x = sqrt(1.0 - sine_squared);
+    }
+    return terms.f0 + (vec3(terms.f90) - terms.f0) * fresnel_power(x);
+}
+
+vec3 bsdf_reflected(BsdfTerms terms, float cosine) {
+    vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * fresnel_power(cosine);
+    return mix(bsdf_fresnel(terms, cosine), metal, terms.metallic);
+}
+
+vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
+    float through = 1.0 - largest_component(bsdf_fresnel(terms, cosine));
+    return terms.base_color * ((1.0 - terms.metallic) * terms.transmission * through);
+}
+
+// Share of the light from `cosine` that the dielectric as a whole does not reflect, by its brightest channel.
+float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
+    if (terms.eta > 1.0) return 1.0 - largest_component(bsdf_fresnel(terms, cosine));
+    float schlick = albedo_schlick(cosine, terms.alpha, loss);
+    float once = largest_component(terms.f0) * (1.0 - loss - schlick) + terms.f90 * schlick;
+    return max(1.0 - once - terms.returned_most * loss, 0.0);
+}
+
+float bsdf_entering_mean(BsdfTerms terms) {
+    if (terms.eta > 1.0) return 1.0;
+    float schlick = albedo_schlick_mean(terms.alpha);
+    float once = largest_component(terms.f0) * (1.0 - terms.loss_mean - schlick) + terms.f90 * schlick;
+    return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
+}
+
+// What becomes of light that one scattering loses. From inside a volume nothing is made up for at the dielectric.
+void bsdf_set_energy(inout BsdfTerms terms) {
+    terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
+    terms.loss_mean = albedo_loss_mean(terms.alpha);
+    vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * ALBEDO_SCHLICK_MEAN;
+    vec3 dielectric = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
+    vec3 returned = terms.eta > 1.0 ? vec3(0.0) : albedo_returned(dielectric, terms.loss_mean);
+    terms.returned_most = largest_component(returned);
+    terms.returned = mix(returned, albedo_returned(metal, terms.loss_mean), terms.metallic);
+    float through = terms.eta == 1.0 ? (1.0 - terms.metallic) * terms.transmission : 0.0;
+    terms.passed = terms.base_color * (through * (1.0 - terms.returned_most));
+    terms.entering_o = bsdf_entering(terms, max(terms.o.z, 0.0), terms.loss_o);
+    terms.entering_mean = bsdf_entering_mean(terms);
+}
+
+BsdfTerms bsdf_terms(Surface s, vec3 o) {
+    BsdfTerms terms;
+    // glTF: an index of 0 stands for full reflection; such a surface does not bend light.
+    float ior = s.ior > 1.0e-3 ? s.ior : 1.0;
+    float root = (max(s.ior, 0.0) - 1.0) / (max(s.ior, 0.0) + 1.0);
+    terms.f0 = min(root * root * scene_material_specular_color(s.material), vec3(1.0)) * s.specular;
+    terms.f90 = s.specular;
+    terms.base_color = s.base_color;
+    terms.metallic = s.metallic;
+    terms.transmission = SHADING_TRANSMISSION ? s.transmission : 0.0;
+    terms.mirror = s.roughness < BSDF_SMOOTH_ROUGHNESS;
+    terms.alpha = terms.mirror ? 0.0 : s.roughness * s.roughness;
+    bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
+    terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
+    terms.frame = basis_around(s.normal);
+    terms.o = o * terms.frame;
+    bsdf_set_energy(terms);
+    return terms;
+}
+
+// Share of the diffuse base.
+float bsdf_diffuse_share(BsdfTerms terms) {
+    return (1.0 - terms.metallic) * (1.0 - terms.transmission);
+}
+
+// Value of the cosine family, 1/sr: the diffuse base, and what left the facets after several scatterings. `cosine` of
+// the other direction is positive; `side` as of bsdf_side.
+vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
+    float loss = albedo_loss(cosine, terms.alpha);
+    float several = terms.loss_o > 0.0 ? terms.loss_o * loss / (terms.loss_mean * MICROFACET_PI) : 0.0;
+    if (side < 0) return terms.passed * several;
+    float share = bsdf_diffuse_share(terms);
+    if (share <= 0.0) return terms.returned * several;
+    float through = terms.entering_o * bsdf_entering(terms, cosine, loss) / terms.entering_mean;
+    return terms.returned * several + terms.base_color * (share * through / MICROFACET_PI);
+}
+
+// Probability of the cosine family, and within it of going through the surface.
+void bsdf_cosine_probability(BsdfTerms terms, out float family, out float through) {
+    float down = luminance(terms.passed) * terms.loss_o;
+    float up = luminance(terms.returned) * terms.loss_o
+             + luminance(terms.base_color) * (bsdf_diffuse_share(terms) * terms.entering_o);
+    float total = up + down;
+    float facets = (1.0 - terms.loss_o)
+                 * luminance(bsdf_reflected(terms, terms.o.z) + bsdf_transmitted(terms, terms.o.z));
+    through = total > 0.0 ? down / total : 0.0;
+    if (total <= 0.0) family = 0.0;
+    else if (facets <= 0.0) family = 1.0;
+    else {
+        float share = total / (total + facets);
+        family = clamp(share, min(BSDF_COSINE_LEAST, BSDF_COSINE_FACTOR * share), BSDF_COSINE_MOST);
+    }
+}
+
+#endif
