@@ -26,6 +26,7 @@ layout(set = SCENE_SET, binding = 11, scalar) readonly buffer SceneEnvironmentCd
 
 Frame scene_frame() { return scene_frame_table; }
 uint random_seed() { return scene_frame_table.seed; }
+uint random_sampler() { return scene_frame_table.sampling; }
 
 uint scene_draw_of(uint primitive) {
     return primitive < scene_frame_table.triangle_count ? scene_triangle_draw_table[primitive] : 0u;
@@ -55,6 +56,7 @@ vec4 scene_texel(uint texel) {
 }
 
 Light scene_light(uint light) { return scene_light_table[light]; }
+float scene_light_cumulative(uint light) { return scene_light_table[light].cumulative; }
 EmissiveTriangle scene_emissive_triangle(uint entry) { return scene_emissive_table[entry]; }
 float scene_emissive_cumulative(uint entry) { return scene_emissive_table[entry].cumulative; }
 

@@ -58,6 +58,10 @@
 #define PROJECTION_PERSPECTIVE 0u
 #define PROJECTION_ORTHOGRAPHIC 1u
 
+// Frame.sampling.
+#define SAMPLER_SOBOL 0u
+#define SAMPLER_PCG 1u
+
 // BsdfSample.flags and LightSample.flags.
 #define SAMPLE_VALID 1u
 #define SAMPLE_DELTA 2u

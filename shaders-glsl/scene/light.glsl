@@ -10,20 +10,28 @@
 
 #define LIGHT_INFINITY uintBitsToFloat(0x7F800000u)
 
-// Kinds of light the scene has: punctual, emissive triangles, environment.
-uint light_kind_count(Frame frame) {
-    return uint(frame.light_count > 0u) + uint(frame.emissive_count > 0u) + frame.environment_sampled;
-}
-
 LightSample light_sample_none() {
     return LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0u);
 }
 
+// First punctual light whose cumulative share exceeds `random`.
+uint light_search_punctual(uint count, float random) {
+    uint low = 0u;
+    uint high = count - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (scene_light_cumulative(middle) > random) high = middle;
+        else low = middle + 1u;
+    }
+    return low;
+}
+
 LightSample light_sample_punctual(Frame frame, vec3 from, float pick) {
     LightSample chosen = light_sample_none();
-    uint index = min(uint(pick * float(frame.light_count)), frame.light_count - 1u);
+    uint index = light_search_punctual(frame.light_count, pick);
     Light light = scene_light(index);
-    chosen.pdf = 1.0 / float(frame.light_count);
+    chosen.pdf = index == 0u ? light.cumulative : light.cumulative - scene_light_cumulative(index - 1u);
+    if (!(chosen.pdf > 0.0)) return chosen;
     chosen.flags = SAMPLE_VALID | SAMPLE_DELTA;
     if (light.kind == LIGHT_DIRECTIONAL) {
         chosen.direction = -light.direction;
@@ -105,23 +113,23 @@ LightSample light_sample_emissive(Frame frame, vec3 from, float pick, vec2 place
 // A direction from the surface to a light, one random number for each of: kind, light or row, place.
 LightSample light_sample(Surface s, vec4 random) {
     Frame frame = scene_frame();
-    uint kinds = light_kind_count(frame);
-    if (kinds == 0u) return light_sample_none();
-    uint kind = min(uint(random.x * float(kinds)), kinds - 1u);
-    LightSample chosen;
-    uint punctual = uint(frame.light_count > 0u);
-    uint emissive = uint(frame.emissive_count > 0u);
-    if (kind < punctual) {
+    vec3 shares = frame.kind_shares;
+    LightSample chosen = light_sample_none();
+    float share;
+    if (random.x < shares.x) {
+        share = shares.x;
         chosen = light_sample_punctual(frame, s.position, random.y);
-    } else if (kind < punctual + emissive) {
+    } else if (random.x < shares.x + shares.y) {
+        share = shares.y;
         chosen = light_sample_emissive(frame, s.position, random.y, random.zw);
     } else {
-        chosen = light_sample_none();
+        share = shares.z;
+        if (!(share > 0.0)) return chosen;
         chosen.direction = environment_sample(random.y, random.zw, chosen.radiance, chosen.pdf);
         chosen.distance = LIGHT_INFINITY;
         chosen.flags = chosen.pdf > 0.0 ? SAMPLE_VALID : 0u;
     }
-    chosen.pdf /= float(kinds);
+    chosen.pdf *= share;
     return chosen;
 }
 
@@ -146,14 +154,14 @@ float light_pdf_emitter(uint primitive, vec3 origin, vec3 position) {
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
     float density = light_area_pdf(normal, twice_area, towards / distance, distance);
     uint entry = draw.first_emissive + primitive - draw.first_triangle;
-    return light_emissive_share(entry) * density / float(light_kind_count(frame));
+    return light_emissive_share(entry) * density * frame.kind_shares.y;
 }
 
 // 1/sr with which light_sample chooses the environment in `direction`.
 float environment_pdf(vec3 direction) {
     Frame frame = scene_frame();
     if (frame.environment_sampled == 0u) return 0.0;
-    return environment_pdf_alone(direction) / float(light_kind_count(frame));
+    return environment_pdf_alone(direction) * frame.kind_shares.z;
 }
 
 #endif

@@ -1,12 +1,13 @@
 // What: which random number is used for what. One sample of one pixel draws dimension d at most once.
 // Only `#define NAME number` stands here: Rust constants of the same names are generated from it.
 // Source: docs/shading.md, "Random numbers".
+// Dimensions come in groups of four; the last two of a group are spread best over a square, so places stand there.
 #ifndef SCENE_RANDOM_DIMENSIONS_GLSL
 #define SCENE_RANDOM_DIMENSIONS_GLSL
 
 // Position inside the pixel.
-#define RANDOM_CAMERA_X 0u
-#define RANDOM_CAMERA_Y 1u
+#define RANDOM_CAMERA_X 2u
+#define RANDOM_CAMERA_Y 3u
 
 // Scattering k (0 is the first surface) owns the dimensions
 // RANDOM_BOUNCE_FIRST + k * RANDOM_BOUNCE_STRIDE + one of the offsets below.

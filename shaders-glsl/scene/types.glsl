@@ -8,7 +8,7 @@
 #include "scene/constants.glsl"
 
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
-// 120 bytes.
+// 140 bytes.
 struct Frame {
     vec3 camera_position;
     uint projection;            // PROJECTION_*
@@ -30,6 +30,9 @@ struct Frame {
     uint environment_height;
     uint environment_sampled;   // 1 if the environment emits anything and is worth a light sample
     vec3 environment_radiance;  // W/(sr m^2), the constant environment
+    uint sampling;              // SAMPLER_*
+    float footprint_scale;      // of a camera ray's cone: 1 / sqrt(samples per pixel)
+    vec3 kind_shares;           // probability of the kinds of light: punctual, emissive triangles, environment
 };
 
 // How a draw is shaded; one per draw of the geometry, same order. 44 bytes.
@@ -99,7 +102,7 @@ struct Light {
     vec3 intensity;             // W/sr; directional: irradiance, W/m^2
     float cone_scale;           // spot: see docs/shading.md, "Lights"
     float cone_offset;
-    float spare;                // zero
+    float cumulative;           // share of all power up to and including this light; the last is 1
 };
 
 // One triangle of an emissive draw. 8 bytes.

@@ -53,6 +53,18 @@ pub struct Frame {
     pub spp: u32,
     /// Seed of all random numbers.
     pub seed: u32,
+    /// Where they come from.
+    pub sampler: Sampler,
+}
+
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Sampler {
+    /// Points spread evenly over the samples of a pixel: least noise where --spp is a power of two
+    #[default]
+    Sobol,
+    /// Independent numbers
+    Pcg,
 }
 
 impl Frame {

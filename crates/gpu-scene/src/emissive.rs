@@ -1,7 +1,9 @@
 //! Emissive triangles, chosen as lights by their power.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
-use rasray_scene::{AlphaMode, Scene};
+use rasray_scene::{AlphaMode, Image, Mesh, Scene, Texture, TextureRef, Wrap};
 
 use crate::{
     Posed,
@@ -10,72 +12,125 @@ use crate::{
     mips::linear_from_srgb,
 };
 
+/// Most parts a side into which a triangle is cut to look at its texels.
+const MOST_PARTS: f64 = 128.0;
+
 /// Lists all triangles of draws that emit, in order of primitive id, and notes in every such draw
-/// where its triangles start. Empty where nothing emits.
+/// where its triangles start. Answers their power, W, by luminance; nothing where nothing emits.
 ///
-/// A triangle's power is its area times the luminance of its material's emission bound, twice that
-/// if both sides emit. Indices of `scene` must have been checked.
+/// Indices of `scene` must have been checked.
 pub fn pack_emissive(
     scene: &Scene,
     posed: &Posed,
     draw_shadings: &mut [DrawShading],
-) -> Vec<EmissiveTriangle> {
-    let bounds: Vec<f64> = scene.materials.iter().map(|material| power_bound(scene, material)).collect();
+) -> (f64, Vec<EmissiveTriangle>) {
     let mut primitives = Vec::new();
     let mut powers = Vec::new();
     let mut first_of_draw = Vec::new();
     for (draw, shading) in posed.draws.iter().zip(draw_shadings.iter()) {
-        let bound = bounds[shading.material as usize];
-        if bound == 0.0 {
+        let material = &scene.materials[shading.material as usize];
+        let radiosity = PI * luminance(material.emission) * if material.double_sided { 2.0 } else { 1.0 };
+        // Unlit materials are not lights; what blends is met by scattered rays, as often as its opacity says.
+        if material.unlit || material.alpha_mode == AlphaMode::Blend || radiosity == 0.0 {
             first_of_draw.push(None);
             continue;
         }
+        let glow = material.emission_texture.as_ref().and_then(|used| {
+            let mesh = &scene.meshes[scene.instances[shading.instance as usize].mesh];
+            Glow::new(scene, used, mesh, material.emission)
+        });
         first_of_draw.push(Some(primitives.len() as u32));
         for primitive in draw.first_triangle..draw.first_triangle + draw.triangle_count {
+            let corners = [0, 1, 2].map(|corner| posed.indices[3 * primitive as usize + corner]);
+            let share = glow.as_ref().map_or(1.0, |glow| {
+                glow.share(corners.map(|vertex| vertex.saturating_sub(shading.first_vertex) as usize))
+            });
             primitives.push(primitive);
-            powers.push(area(posed, primitive) * bound);
+            powers.push(area(posed, primitive) * radiosity * share);
         }
     }
     let (total, shares) = cumulative_shares(&powers);
     if total == 0.0 {
-        return Vec::new();
+        return (0.0, Vec::new());
     }
     for (shading, first) in draw_shadings.iter_mut().zip(first_of_draw) {
         if let Some(first) = first {
             shading.first_emissive = first;
         }
     }
-    primitives
-        .into_iter()
-        .zip(shares)
-        .map(|(primitive, cumulative)| EmissiveTriangle { primitive, cumulative })
-        .collect()
+    let entries = primitives.into_iter().zip(shares);
+    let entries = entries.map(|(primitive, cumulative)| EmissiveTriangle { primitive, cumulative });
+    (total, entries.collect())
 }
 
-/// Luminance of the brightest emission that the material can show, times the number of sides that
-/// emit. 0 for unlit materials, which are not lights, and for blended ones, which scattered rays meet
-/// as often as their opacity says.
-fn power_bound(scene: &Scene, material: &rasray_scene::Material) -> f64 {
-    if material.unlit || material.alpha_mode == AlphaMode::Blend {
-        return 0.0;
+/// An emission texture on a mesh.
+struct Glow<'a> {
+    image: &'a Image,
+    texture: &'a Texture,
+    uvs: Option<&'a [[f32; 2]]>,
+    rows: [[f32; 3]; 2],
+    /// Luminance of the factor times a texel, over that of the factor, for every byte of a channel.
+    channels: [[f64; 256]; 3],
+}
+
+impl<'a> Glow<'a> {
+    fn new(scene: &'a Scene, used: &TextureRef, mesh: &'a Mesh, factor: [f32; 3]) -> Option<Self> {
+        let texture = scene.textures.get(used.texture)?;
+        let image = scene.images.get(texture.image)?;
+        let channels = std::array::from_fn(|channel| {
+            let mut alone = [0.0; 3];
+            alone[channel] = factor[channel];
+            let weight = luminance(alone) / luminance(factor);
+            std::array::from_fn(|byte| weight * f64::from(linear_from_srgb(byte as f32 / 255.0)))
+        });
+        let uvs = mesh.uvs[(used.uv_set as usize).min(1)].as_deref();
+        Some(Self { image, texture, uvs, rows: used.uv_transform, channels })
     }
-    let mut bound = material.emission;
-    let texture = material.emission_texture.as_ref().filter(|_| bound.iter().any(|&x| x > 0.0));
-    let image = texture
-        .and_then(|reference| scene.textures.get(reference.texture))
-        .and_then(|texture| scene.images.get(texture.image));
-    if let Some(image) = image {
-        let mut largest = [0u8; 3];
-        for texel in image.rgba8.chunks_exact(4) {
-            for channel in 0..3 {
-                largest[channel] = largest[channel].max(texel[channel]);
+
+    /// Mean over the triangle of what the texture lets through: the texels at the centroids of n by n parts, n such
+    /// that a part has about the area of a texel.
+    fn share(&self, vertices: [usize; 3]) -> f64 {
+        let corners = vertices.map(|vertex| {
+            let [u, v] = self.uvs.and_then(|uvs| uvs.get(vertex)).map_or([0.0; 2], |uv| uv.map(f64::from));
+            self.rows.map(|row| row.map(f64::from)).map(|[a, b, c]| a * u + b * v + c)
+        });
+        let [[ax, ay], [bx, by], [cx, cy]] = corners;
+        let (width, height) = (self.image.width, self.image.height);
+        let doubled = ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).abs();
+        let parts = (0.5 * doubled * f64::from(width) * f64::from(height)).sqrt().ceil();
+        let parts = if parts.is_finite() { parts.clamp(1.0, MOST_PARTS) as u32 } else { 1 };
+        let mut sum = 0.0;
+        for row in 0..parts {
+            for column in 0..2 * (parts - row) - 1 {
+                // Parts alternate between those that stand on the first edge and those that hang from it.
+                let third = if column % 2 == 0 { 1.0 } else { 2.0 } / 3.0;
+                let b = (f64::from(column / 2) + third) / f64::from(parts);
+                let c = (f64::from(row) + third) / f64::from(parts);
+                let u = ax + (bx - ax) * b + (cx - ax) * c;
+                let v = ay + (by - ay) * b + (cy - ay) * c;
+                let x = texel(u, width, self.texture.wrap_u);
+                let y = texel(v, height, self.texture.wrap_v);
+                let first = 4 * (y * width as usize + x);
+                let texel = &self.image.rgba8[first..first + 3];
+                sum += (0..3).map(|channel| self.channels[channel][texel[channel] as usize]).sum::<f64>();
             }
         }
-        for channel in 0..3 {
-            bound[channel] *= linear_from_srgb(f32::from(largest[channel]) / 255.0);
-        }
+        sum / f64::from(parts * parts)
     }
-    luminance(bound) * if material.double_sided { 2.0 } else { 1.0 }
+}
+
+/// The texel that holds a coordinate.
+fn texel(coordinate: f64, size: u32, wrap: Wrap) -> usize {
+    let within = match wrap {
+        Wrap::Repeat => coordinate - coordinate.floor(),
+        Wrap::Mirror => {
+            let turned = coordinate - 2.0 * (0.5 * coordinate).floor();
+            if turned < 1.0 { turned } else { 2.0 - turned }
+        }
+        Wrap::Clamp => coordinate,
+    };
+    // What is not finite becomes 0, as in the shaders.
+    ((within * f64::from(size)) as usize).min(size as usize - 1)
 }
 
 fn area(posed: &Posed, primitive: u32) -> f64 {

@@ -21,6 +21,8 @@ pub struct EnvironmentTables {
     pub height: u32,
     /// Whether any radiance is above zero.
     pub emits: bool,
+    /// Luminance of the radiance over the whole sphere, W/m^2.
+    pub irradiance: f64,
     /// Radiance of a constant environment, W/(sr m^2).
     pub constant: [f32; 3],
     /// Three words a texel.
@@ -41,6 +43,7 @@ pub fn pack_environment(environment: &Environment) -> Result<EnvironmentTables, 
             Ok(EnvironmentTables {
                 kind: ENVIRONMENT_CONSTANT,
                 emits: luminance(constant) > 0.0,
+                irradiance: 4.0 * PI * luminance(constant),
                 constant,
                 ..EnvironmentTables::default()
             })
@@ -85,6 +88,7 @@ fn pack_map(width: u32, height: u32, radiance: &[[f32; 3]]) -> EnvironmentTables
         width,
         height,
         emits: total > 0.0,
+        irradiance: total,
         constant: [0.0; 3],
         radiance: cleaned.into_iter().flatten().collect(),
         distribution,

@@ -53,6 +53,12 @@ pub struct Frame {
     pub environment_sampled: u32,
     /// W/(sr m^2), the constant environment.
     pub environment_radiance: [f32; 3],
+    /// `SAMPLER_*`.
+    pub sampling: u32,
+    /// Of a camera ray's cone: 1 over the root of the samples per pixel.
+    pub footprint_scale: f32,
+    /// Probability of the kinds of light: punctual, emissive triangles, environment.
+    pub kind_shares: [f32; 3],
 }
 
 impl Frame {
@@ -193,8 +199,8 @@ pub struct Light {
     pub cone_scale: f32,
     /// Spot: added after the factor.
     pub cone_offset: f32,
-    /// Zero.
-    pub spare: f32,
+    /// Share of the power of all punctual lights up to and including this one; the last is 1.
+    pub cumulative: f32,
 }
 
 /// One triangle of an emissive draw.

@@ -3,13 +3,25 @@
 use glam::DVec3;
 use rasray_shaders_glsl::constants::scene::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT};
 
-use crate::layout::Light;
+use crate::{distribution::cumulative_shares, kinds::punctual_power, layout::Light};
 
 /// Smallest difference of the two cosines of a spot light's cone: keeps its edge from dividing by 0.
 const NARROWEST_FALLOFF: f32 = 0.001;
 
+/// Packs lights with their shares of the power of all, and answers that power, W; `disk` is the area that all
+/// triangles show at most, m^2, and `frame_origin` is in metres, world.
+pub fn pack_lights(lights: &[rasray_scene::Light], frame_origin: DVec3, disk: f64) -> (f64, Vec<Light>) {
+    let powers: Vec<f64> = lights.iter().map(|light| punctual_power(light, disk)).collect();
+    let (total, shares) = cumulative_shares(&powers);
+    let packed = lights
+        .iter()
+        .zip(shares)
+        .map(|(light, cumulative)| Light { cumulative, ..pack_light(light, frame_origin) });
+    (total, packed.collect())
+}
+
 /// Packs one light; `frame_origin` is in metres, world.
-pub fn pack_light(light: &rasray_scene::Light, frame_origin: DVec3) -> Light {
+fn pack_light(light: &rasray_scene::Light, frame_origin: DVec3) -> Light {
     use rasray_scene::Light as Source;
     match *light {
         Source::Point { position, intensity, range } => Light {
@@ -36,7 +48,7 @@ pub fn pack_light(light: &rasray_scene::Light, frame_origin: DVec3) -> Light {
                 intensity,
                 cone_scale,
                 cone_offset: -outer_cone.cos() * cone_scale,
-                spare: 0.0,
+                ..Light::default()
             }
         }
     }

@@ -5,12 +5,13 @@ use rasray_scene::{AlphaMode, Scene};
 use rasray_shaders_glsl::constants::contract::{DRAW_ALPHA_MASKED, DRAW_STATIC};
 
 use crate::{
-    GpuSceneError, Parts, Posed, View,
+    GpuSceneError, Parts, Posed, Sampling, View,
     attributes::pack_attributes,
     emissive::pack_emissive,
     environment::{EnvironmentTables, pack_environment},
+    kinds::{disk_of, kind_shares},
     layout::{DrawShading, EmissiveTriangle, Frame, Light, Material, Texture},
-    lights::pack_light,
+    lights::pack_lights,
     materials::pack_materials,
     origin::{frame_origin_spacing, snap_frame_origin},
 };
@@ -40,6 +41,8 @@ pub struct SceneTables {
     pub emissive_triangles: Vec<EmissiveTriangle>,
     /// What a ray sees that leaves the scene.
     pub environment: EnvironmentTables,
+    /// Probability of the kinds of light: punctual, emissive triangles, environment.
+    pub kind_shares: [f32; 3],
 }
 
 impl SceneTables {
@@ -60,17 +63,24 @@ impl SceneTables {
         }
         let mut attributes = pack_attributes(scene, &posed, parts)?;
         let (materials, textures) = pack_materials(scene, parts)?;
-        let emissive_triangles = if parts.emissive_triangles {
+        let (emissive_power, emissive_triangles) = if parts.emissive_triangles {
             pack_emissive(scene, &posed, &mut attributes.draw_shadings)
         } else {
-            Vec::new()
+            (0.0, Vec::new())
         };
-        let lights = scene.lights.iter().filter(|_| parts.lights);
+        let disk = disk_of(posed.lower, posed.upper);
+        let lights = if parts.lights { &scene.lights[..] } else { &[] };
+        let (punctual_power, lights) = pack_lights(lights, frame_origin, disk);
         let environment = if parts.environment {
             pack_environment(&scene.environment)?
         } else {
             EnvironmentTables::default()
         };
+        let kind_shares = kind_shares([
+            (!lights.is_empty()).then_some(punctual_power),
+            (!emissive_triangles.is_empty()).then_some(emissive_power),
+            environment.emits.then_some(environment.irradiance * disk),
+        ]);
         Ok(Self {
             frame_origin,
             posed,
@@ -80,9 +90,10 @@ impl SceneTables {
             materials,
             textures: textures.textures,
             texels: textures.texels,
-            lights: lights.map(|light| pack_light(light, frame_origin)).collect(),
+            lights,
             emissive_triangles,
             environment,
+            kind_shares,
         })
     }
 
@@ -102,9 +113,11 @@ impl SceneTables {
             environment_height: self.environment.height,
             environment_sampled: u32::from(self.environment.emits),
             environment_radiance: self.environment.constant,
+            kind_shares: self.kind_shares,
             ..Frame::default()
         };
         view.write(&mut frame, self.frame_origin);
+        Sampling::default().write(&mut frame);
         frame
     }
 }

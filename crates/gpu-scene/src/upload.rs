@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::{
     scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_ENVIRONMENT_CDF},
 };
 
-use crate::{GpuSceneError, SceneTables, View, layout::Frame};
+use crate::{GpuSceneError, Sampling, SceneTables, View, layout::Frame};
 
 /// Number of buffers in the scene's set.
 const BINDINGS: u32 = SCENE_BINDING_ENVIRONMENT_CDF + 1;
@@ -114,6 +114,16 @@ impl GpuScene {
     /// The buffer cannot be written.
     pub fn update_camera(&mut self, view: &View) -> Result<(), GpuSceneError> {
         view.write(&mut self.frame, self.frame_origin);
+        self.frame_buffer.write(0, bytemuck::bytes_of(&self.frame))?;
+        Ok(())
+    }
+
+    /// Changes how pixels are sampled; otherwise as [`GpuScene::update_camera`], which leaves this as it is.
+    ///
+    /// # Errors
+    /// The buffer cannot be written.
+    pub fn set_sampling(&mut self, sampling: Sampling) -> Result<(), GpuSceneError> {
+        sampling.write(&mut self.frame);
         self.frame_buffer.write(0, bytemuck::bytes_of(&self.frame))?;
         Ok(())
     }

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use rasray_scene::{Camera, Projection};
-use rasray_shaders_glsl::constants::scene::{PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE};
+use rasray_shaders_glsl::constants::scene::{
+    PROJECTION_ORTHOGRAPHIC, PROJECTION_PERSPECTIVE, SAMPLER_PCG, SAMPLER_SOBOL,
+};
 
 use crate::layout::Frame;
 
@@ -17,6 +19,43 @@ pub struct View {
     pub height: u32,
     /// Seed of all random numbers.
     pub seed: u32,
+}
+
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampler {
+    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel: least noise, above all
+    /// where the samples per pixel are a power of two.
+    #[default]
+    Sobol,
+    /// Independent numbers.
+    Pcg,
+}
+
+/// How pixels are sampled, beside the seed of the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// Where random numbers come from.
+    pub sampler: Sampler,
+    /// Samples per pixel that share a pixel's footprint on textures, at least 1.
+    pub samples: u32,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self { sampler: Sampler::default(), samples: 1 }
+    }
+}
+
+impl Sampling {
+    /// Writes the fields of `frame` that depend on the sampling.
+    pub fn write(self, frame: &mut Frame) {
+        frame.sampling = match self.sampler {
+            Sampler::Sobol => SAMPLER_SOBOL,
+            Sampler::Pcg => SAMPLER_PCG,
+        };
+        frame.footprint_scale = 1.0 / (self.samples.max(1) as f32).sqrt();
+    }
 }
 
 impl View {
@@ -92,6 +131,15 @@ mod tests {
         assert!((frame.half_height - 1.0).abs() < 1e-6 && (frame.half_width - 2.0).abs() < 1e-6);
         assert!((frame.cone_spread - 0.02).abs() < 1e-5 && frame.cone_width == 0.0);
         assert_eq!((frame.width, frame.height, frame.seed), (200, 100, 7));
+    }
+
+    #[test]
+    fn a_sample_has_its_share_of_the_pixel() {
+        let mut frame = Frame::default();
+        Sampling { sampler: Sampler::Pcg, samples: 16 }.write(&mut frame);
+        assert_eq!((frame.sampling, frame.footprint_scale), (SAMPLER_PCG, 0.25));
+        Sampling::default().write(&mut frame);
+        assert_eq!((frame.sampling, frame.footprint_scale), (SAMPLER_SOBOL, 1.0));
     }
 
     #[test]

@@ -154,6 +154,26 @@ fn emissive_triangles_are_chosen_by_power() {
     assert_eq!(entries, [(4, 0.1), (5, 0.2), (6, 0.6), (7, 1.0)]);
     let first: Vec<u32> = tables.draw_shadings.iter().map(|draw| draw.first_emissive).collect();
     assert_eq!(first, [numbers::EMISSIVE_NONE, numbers::EMISSIVE_NONE, 0, 2]);
+    // A texture that glows on one half gives that half's triangles the light: 4 texels a row, 2 of them dark.
+    let whole = tables.emissive_triangles.len();
+    let dark_right = |texel: usize| texel % 4 >= 2;
+    let mut halved = scene.clone();
+    halved.images[1] = Image { name: "half".to_owned(), width: 4, height: 4, rgba8: Vec::new() };
+    halved.images[1].rgba8 = (0..16).flat_map(|texel| [if dark_right(texel) { 0 } else { 255 }; 4]).collect();
+    let square = &mut halved.meshes[1];
+    // The first triangle lies on the left half of the image, the second on the right.
+    square.indices = vec![0, 1, 2, 3, 4, 5];
+    let [a, b, c, d] = [0, 1, 2, 3].map(|corner| square.positions[corner]);
+    square.positions = vec![a, b, c, a, c, d];
+    (square.normals, square.tangents, square.colors) = (None, None, None);
+    square.uvs =
+        [Some(vec![[0.05, 0.1], [0.45, 0.1], [0.45, 0.9], [0.55, 0.1], [0.95, 0.9], [0.55, 0.9]]), None];
+    if let Some(used) = &mut halved.materials[1].emission_texture {
+        (used.uv_set, used.uv_transform) = (0, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    }
+    let halved = pack(&halved, DVec3::ZERO, &Parts::ALL).emissive_triangles;
+    let cumulative: Vec<_> = halved.iter().map(|entry| entry.cumulative).collect();
+    assert_eq!((cumulative, whole), (vec![0.2, 0.2, 1.0, 1.0], 4));
     // A black emission texture leaves nothing to sample.
     scene.images[1].rgba8.fill(0);
     let tables = pack(&scene, DVec3::ZERO, &Parts::ALL);
@@ -279,7 +299,7 @@ fn a_small_model_keeps_the_bits_of_its_file() {
 #[test]
 fn records_have_the_sizes_that_the_shaders_declare() {
     assert_eq!(size_of::<layout::Draw>(), 16);
-    assert_eq!(size_of::<layout::Frame>(), 120);
+    assert_eq!(size_of::<layout::Frame>(), 140);
     assert_eq!(size_of::<layout::DrawShading>(), 44);
     assert_eq!(size_of::<layout::TextureUse>(), 32);
     assert_eq!(size_of::<layout::Material>(), 256);

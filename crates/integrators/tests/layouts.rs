@@ -49,7 +49,7 @@ fn scene_records() {
             camera_position, projection, camera_right, half_width, camera_up, half_height, camera_forward,
             cone_spread, cone_width, width, height, seed, triangle_count, light_count, emissive_count,
             environment_kind, environment_width, environment_height, environment_sampled,
-            environment_radiance,
+            environment_radiance, sampling, footprint_scale, kind_shares,
         });
     }
     check_layout!(shade, scene::Material as "Material" {
@@ -61,7 +61,7 @@ fn scene_records() {
     check_layout!(shade, scene::TextureUse as "TextureRef" { texture, uv_set, row_u, row_v });
     check_layout!(shade, scene::Texture as "Texture" { first_texel, width, height, level_count, sampling });
     check_layout!(shade, scene::Light as "Light" {
-        position, kind, direction, range, intensity, cone_scale, cone_offset, spare,
+        position, kind, direction, range, intensity, cone_scale, cone_offset, cumulative,
     });
     check_layout!(shade, scene::EmissiveTriangle as "EmissiveTriangle" { primitive, cumulative });
     check_layout!(shade, scene::DrawShading as "DrawShading" {

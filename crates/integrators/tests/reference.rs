@@ -8,6 +8,7 @@ mod common;
 
 use common::{difference::*, scenes::*, *};
 use glam::DVec3;
+use rasray_reference::shading::Sampler;
 use rasray_scene::{Camera, Scene};
 
 /// At most `deviating` of the pixels may differ.
@@ -25,6 +26,13 @@ fn cornell_box() {
 }
 
 #[test]
+fn independent_numbers_are_the_same_ones_too() {
+    let (scene, camera) = cornell();
+    let found = sampled_difference(&scene, &scene, &camera, 4, &Kind::Path(4), Sampler::Pcg);
+    assert!(found.share <= 0.01 && found.mean <= 0.01, "{found:?}");
+}
+
+#[test]
 fn a_wrong_scene_is_noticed() {
     let (scene, camera) = cornell();
     let mut brighter = scene.clone();
@@ -37,7 +45,7 @@ fn a_wrong_scene_is_noticed() {
     for instance in &mut lower.instances {
         instance.world_from_mesh.translation.y -= 0.01;
     }
-    let found = difference(&lower, &scene, &camera, 4, &Kind::Occlusion(0.2));
+    let found = difference(&lower, &scene, &camera, 8, &Kind::Occlusion(0.2));
     assert!(found.share > 0.1, "{found:?}");
 }
 

@@ -3,7 +3,10 @@
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
 
-use crate::{integrators::Image, shading::View};
+use crate::{
+    integrators::Image,
+    shading::{Sampler, View},
+};
 
 /// A diffuse material without any specular reflection.
 pub fn diffuse(albedo: f32) -> Material {
@@ -105,7 +108,7 @@ pub fn view(eye: [f64; 3], target: [f64; 3], size: u32, samples: u32) -> View {
         world_from_camera,
         projection: Projection::Perspective { fov_y: 0.5 },
     };
-    View { camera, width: size, height: size, samples, seed: 1 }
+    View { camera, width: size, height: size, samples, seed: 1, sampler: Sampler::default() }
 }
 
 /// A parallel view that shows a square of twice `half_height` metres.

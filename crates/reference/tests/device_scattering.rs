@@ -4,9 +4,11 @@ use glam::Vec3;
 use rasray_gpu::{Access, BufferUsage, ComputePipelineDesc, Device, DeviceDesc};
 use rasray_reference::shading::{
     BsdfSample, Surface, bsdf_evaluate, bsdf_pdf, bsdf_sample,
-    random::{RandomStream, random_dimension},
+    random::{Numbers, RandomStream, Sampler, random_dimension},
 };
-use rasray_shaders_glsl::constants::scene::{SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID};
+use rasray_shaders_glsl::constants::scene::{
+    SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID, SAMPLER_PCG, SAMPLER_SOBOL,
+};
 
 const SEED: u32 = 77;
 const CASES: u32 = 6000;
@@ -14,8 +16,9 @@ const CASES: u32 = 6000;
 const CASE_WORDS: usize = 41;
 const RESULT_WORDS: usize = 16;
 /// Words of the frame and of a material, and where the fields lie that are read.
-const FRAME_WORDS: usize = 30;
+const FRAME_WORDS: usize = 35;
 const FRAME_SEED: usize = 19;
+const FRAME_SAMPLING: usize = 30;
 const MATERIAL_WORDS: usize = 64;
 const MATERIAL_SPECULAR_COLOR: usize = 16;
 const SPECULAR_COLOR: Vec3 = Vec3::new(0.2, 0.9, 1.0);
@@ -101,7 +104,7 @@ fn words(case: &Case) -> Vec<u32> {
     words
 }
 
-fn run(cases: &[Case]) -> Vec<u32> {
+fn run(cases: &[Case], sampler: Sampler) -> Vec<u32> {
     let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
     let device = Device::create(&desc).expect("this test needs a Vulkan device and the validation layer");
     let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
@@ -111,6 +114,10 @@ fn run(cases: &[Case]) -> Vec<u32> {
     let output = device.create_buffer_with("results", usage, &output).expect("buffer");
     let mut frame = vec![0_u32; FRAME_WORDS];
     frame[FRAME_SEED] = SEED;
+    frame[FRAME_SAMPLING] = match sampler {
+        Sampler::Sobol => SAMPLER_SOBOL,
+        Sampler::Pcg => SAMPLER_PCG,
+    };
     let frame = device.create_buffer_with("frame", usage, &frame).expect("buffer");
     let mut material = vec![0_u32; MATERIAL_WORDS];
     for (word, value) in material[MATERIAL_SPECULAR_COLOR..].iter_mut().zip(SPECULAR_COLOR.to_array()) {
@@ -160,12 +167,17 @@ fn flags(sample: &BsdfSample) -> u32 {
 
 /// Cases whose results are not those of the reference for `change`d surfaces; also how many were
 /// scattered at all, and how many of these through the surface.
-fn compare(cases: &[Case], results: &[u32], change: impl Fn(Surface) -> Surface) -> (Vec<usize>, u32, u32) {
+fn compare(
+    cases: &[Case],
+    results: &[u32],
+    sampler: Sampler,
+    change: impl Fn(Surface) -> Surface,
+) -> (Vec<usize>, u32, u32) {
     let (mut differ, mut sampled, mut transmitted) = (Vec::new(), 0, 0);
     for (index, (case, result)) in cases.iter().zip(results.chunks_exact(RESULT_WORDS)).enumerate() {
         let float = |word: usize| f32::from_bits(result[word]);
         let vec3 = |word: usize| Vec3::new(float(word), float(word + 1), float(word + 2));
-        let random = case.random.four(case.dimension);
+        let random = Numbers { sampler, stream: case.random }.four(case.dimension);
         assert_eq!(random.map(f32::to_bits), result[12..16], "random numbers are exact");
 
         let surface = change(case.surface);
@@ -193,8 +205,13 @@ fn compare(cases: &[Case], results: &[u32], change: impl Fn(Surface) -> Surface)
 #[test]
 fn scattering_on_the_device_is_that_of_the_reference() {
     let cases = cases();
-    let results = run(&cases);
-    let (differ, sampled, transmitted) = compare(&cases, &results, |surface| surface);
+    for sampler in [Sampler::Pcg, Sampler::Sobol] {
+        let (differ, ..) = compare(&cases, &run(&cases, sampler), sampler, |surface| surface);
+        assert!(differ.len() < 12, "{sampler:?}: {} cases differ", differ.len());
+    }
+    let sampler = Sampler::default();
+    let results = run(&cases, sampler);
+    let (differ, sampled, transmitted) = compare(&cases, &results, sampler, |surface| surface);
     assert!(sampled > CASES / 2 && transmitted > CASES / 10, "{sampled} {transmitted}: too few to tell");
     // A number next to a threshold, or a half vector near zero, may fall either way.
     assert!(differ.len() < 12, "{} cases differ: {:?}", differ.len(), &differ[..differ.len().min(8)]);
@@ -208,7 +225,7 @@ fn scattering_on_the_device_is_that_of_the_reference() {
         |surface| Surface { front: !surface.front, ..surface },
     ];
     for (number, mutant) in mutants.into_iter().enumerate() {
-        let (differ, ..) = compare(&cases, &results, mutant);
+        let (differ, ..) = compare(&cases, &results, sampler, mutant);
         assert!(differ.len() > 200, "mutant {number}: only {} cases differ", differ.len());
     }
 }

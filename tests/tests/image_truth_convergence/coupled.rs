@@ -1,6 +1,6 @@
 //! Device and reference with the same random numbers: what remains is no noise.
 
-use rasray_reference::shading::{PosedScene, View};
+use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{Stage, System};
 
@@ -74,7 +74,14 @@ fn wrong_occlusion_falls_with_the_size_of_a_cell() {
         stage.reseed(5);
         let image = stage.render(&stage.occlusion(f32::INFINITY), 0..1).pixels;
         let share = |seed| {
-            let view = View { camera: camera.clone(), width: SIZE, height: SIZE, samples: 1, seed };
+            let view = View {
+                camera: camera.clone(),
+                width: SIZE,
+                height: SIZE,
+                samples: 1,
+                seed,
+                sampler: Sampler::default(),
+            };
             let posed = PosedScene::new(&scene, stage.scene().frame_origin()).expect("the scene is whole");
             let truth = posed.render_ambient_occlusion(&view, f32::INFINITY).expect("the image has pixels");
             difference(&image, &truth.pixels).share

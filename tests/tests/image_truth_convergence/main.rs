@@ -6,7 +6,7 @@ mod metrics;
 mod slope;
 
 use glam::DVec3;
-use rasray_reference::shading::{PosedScene, View};
+use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{Camera, Scene};
 use rasray_tests::image_truth::Stage;
 
@@ -23,7 +23,14 @@ fn cornell() -> (Scene, Camera) {
 
 /// The same view on the CPU.
 fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f32; 3]> {
-    let view = View { camera: camera.clone(), width: SIZE, height: SIZE, samples: SAMPLES, seed };
+    let view = View {
+        camera: camera.clone(),
+        width: SIZE,
+        height: SIZE,
+        samples: SAMPLES,
+        seed,
+        sampler: Sampler::default(),
+    };
     let posed = PosedScene::new(scene, origin).expect("the scene is whole");
     posed.render_path(&view, BOUNCES).expect("the image has pixels").pixels
 }

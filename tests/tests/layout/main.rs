@@ -119,7 +119,7 @@ fn records_of_the_scene() {
         camera_position, projection, camera_right, half_width, camera_up, half_height, camera_forward,
         cone_spread, cone_width, width, height, seed, triangle_count, light_count, emissive_count,
         environment_kind, environment_width, environment_height, environment_sampled,
-        environment_radiance,
+        environment_radiance, sampling, footprint_scale, kind_shares,
     });
     check_layout!(modules, scene::Material as "Material" {
         base_color, emission, metallic, roughness, transmission, ior, thickness, attenuation_color,
@@ -135,7 +135,7 @@ fn records_of_the_scene() {
     });
     let lights = [&shaders::INTEGRATORS_PATH_SHADE];
     check_layout!(lights, scene::Light as "Light" {
-        position, kind, direction, range, intensity, cone_scale, cone_offset, spare,
+        position, kind, direction, range, intensity, cone_scale, cone_offset, cumulative,
     });
     check_layout!(lights, scene::EmissiveTriangle as "EmissiveTriangle" { primitive, cumulative });
 }

@@ -1,7 +1,7 @@
 //! Groups of options that several commands take.
 
 use super::values::{self, Size};
-use crate::backend::{DeviceChoice, Frame, Integrator};
+use crate::backend::{DeviceChoice, Frame, Integrator, Sampler};
 use crate::error::AppError;
 use crate::structure::Switch;
 use clap::{Args, ValueEnum};
@@ -68,6 +68,9 @@ pub struct FrameArguments {
     /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
+    /// Where random numbers come from
+    #[arg(long, value_enum, default_value_t = Sampler::Sobol)]
+    pub sampler: Sampler,
 }
 
 impl FrameArguments {
@@ -96,7 +99,7 @@ impl FrameArguments {
             Integrator::Raycast => Integrator::Raycast,
         };
         let Size { width, height } = self.size;
-        Ok(Frame { integrator, width, height, spp: self.spp, seed: self.seed })
+        Ok(Frame { integrator, width, height, spp: self.spp, seed: self.seed, sampler: self.sampler })
     }
 }
 

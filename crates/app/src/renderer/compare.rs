@@ -13,7 +13,7 @@ use super::replay::{ReplaySetting, replay_sets};
 use super::stage::{Stage, device_error};
 use super::traced_set::{RaysWithTruth, Wanted, compare_set};
 use super::work_maps::work_maps;
-use crate::backend::{CompareJob, Comparison, FILE_SET, OnProgress, Progress};
+use crate::backend::{CompareJob, Comparison, FILE_SET, OnProgress, Progress, Sampler};
 use crate::error::AppError;
 use crate::systems::word;
 
@@ -36,8 +36,9 @@ pub(super) fn compare(
     let frame = job.frame;
     let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
-    let stage =
+    let mut stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    stage.sample_as(&frame)?;
     let geometry = stage.scene.geometry().desc();
     let positions = device
         .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
@@ -59,6 +60,10 @@ pub(super) fn compare(
         height: frame.height,
         samples: frame.spp,
         seed: frame.seed,
+        sampler: match frame.sampler {
+            Sampler::Sobol => rasray_reference::shading::Sampler::Sobol,
+            Sampler::Pcg => rasray_reference::shading::Sampler::Pcg,
+        },
     };
     let center = views_center(&stage, geometry.bounds);
     let source = RaySource {

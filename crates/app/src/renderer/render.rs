@@ -144,8 +144,9 @@ pub(super) fn render(
     let frame = job.frame;
     let spec = spec_of(&job.system)?;
     _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
-    let stage =
+    let mut stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    stage.sample_as(&frame)?;
     _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
     let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
     for _ in 0..job.repetitions {

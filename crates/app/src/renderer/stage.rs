@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 use rasray_ads::{AdsError, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
-use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+use rasray_gpu_scene::{GpuScene, Parts, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_systems::{Spec, SystemsError};
@@ -14,6 +14,7 @@ use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
 use serde_json::Value;
 
 use super::passes::{Passes, median, spread};
+use crate::backend::{Frame, Sampler};
 use crate::error::AppError;
 use crate::report::{Counters, Memory, Spread, Times};
 
@@ -76,6 +77,17 @@ impl Stage {
             );
         }
         Ok(Self { scene: gpu_scene, dropped_triangles })
+    }
+}
+
+impl Stage {
+    /// Sets how the pixels of an image are sampled.
+    pub(super) fn sample_as(&mut self, frame: &Frame) -> Result<(), AppError> {
+        let sampler = match frame.sampler {
+            Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
+            Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
+        };
+        self.scene.set_sampling(Sampling { sampler, samples: frame.spp }).map_err(device_error)
     }
 }
 

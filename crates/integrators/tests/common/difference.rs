@@ -1,7 +1,8 @@
 //! A device image held against the one of the CPU.
 
+use rasray_gpu_scene::Sampling;
 use rasray_integrators::{AmbientOcclusion, Path};
-use rasray_reference::shading::{PosedScene, View};
+use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{Camera, Scene};
 
 use super::{Stage, assert_silent, device, mean};
@@ -29,9 +30,26 @@ pub struct Difference {
 
 /// Renders `shown` on the device and `scene` on the CPU.
 pub fn difference(shown: &Scene, scene: &Scene, camera: &Camera, samples: u32, kind: &Kind) -> Difference {
+    sampled_difference(shown, scene, camera, samples, kind, Sampler::default())
+}
+
+/// The same with the numbers of a sampler.
+pub fn sampled_difference(
+    shown: &Scene,
+    scene: &Scene,
+    camera: &Camera,
+    samples: u32,
+    kind: &Kind,
+    sampler: Sampler,
+) -> Difference {
     let device = device();
-    let stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
-    let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED };
+    let of_device = match sampler {
+        Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
+        Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
+    };
+    let mut stage = Stage::new(&device, shown, camera.clone(), WIDTH, HEIGHT, SEED);
+    stage.scene.set_sampling(Sampling { sampler: of_device, samples }).expect("the frame can be written");
+    let view = View { camera: camera.clone(), width: WIDTH, height: HEIGHT, samples, seed: SEED, sampler };
     let posed = PosedScene::new(scene, stage.scene.frame_origin()).expect("the scene is well formed");
     let (image, reference) = match *kind {
         Kind::Path(bounces) => (

@@ -3,13 +3,13 @@ use glam::{Vec2, Vec3};
 use super::Tracer;
 use crate::shading::{
     View, basis_around, camera_ray, cosine_hemisphere, pixel_position,
-    random::{RANDOM_BSDF_U, RANDOM_BSDF_V, RandomStream, random_dimension},
+    random::{Numbers, RANDOM_BSDF_U, RANDOM_BSDF_V, random_dimension},
     spawn_ray,
 };
 
 impl Tracer<'_> {
     /// One sample: 1 if nothing is met within `distance` metres, else 0.
-    pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: RandomStream) -> Vec3 {
+    pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: Numbers) -> Vec3 {
         let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
         let Some(surface) = self.closest(&ray) else { return Vec3::ONE };
         let place = Vec2::new(

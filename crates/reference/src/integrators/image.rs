@@ -1,7 +1,7 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::shading::{View, random::RandomStream};
+use crate::shading::{View, random::Numbers};
 
 /// A linear RGB image, rows top first.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,13 +16,13 @@ pub struct Image {
 
 impl Image {
     /// The mean of all samples of each pixel, added in f64 in the order of the samples.
-    pub(super) fn render(view: &View, sample: impl Fn(RandomStream) -> Vec3 + Sync) -> Self {
+    pub(super) fn render(view: &View, sample: impl Fn(Numbers) -> Vec3 + Sync) -> Self {
         let pixels = (0..view.width * view.height)
             .into_par_iter()
             .map(|pixel| {
                 let mut sum = glam::DVec3::ZERO;
                 for number in 0..view.samples {
-                    sum += sample(RandomStream { seed: view.seed, pixel, sample: number }).as_dvec3();
+                    sum += sample(view.numbers(pixel, number)).as_dvec3();
                 }
                 (sum / f64::from(view.samples)).as_vec3().to_array()
             })

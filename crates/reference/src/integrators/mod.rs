@@ -22,7 +22,7 @@ use rasray_scene::{Camera, Scene};
 
 use crate::{
     oracle::{Oracle, Outcome},
-    shading::{PosedScene, Ray, ReferenceError, Surface, View},
+    shading::{PosedScene, Ray, ReferenceError, Sampler, Surface, View},
 };
 
 /// Scene and oracle, ready to be rendered.
@@ -67,7 +67,7 @@ impl PosedScene<'_> {
     fn render(
         &self,
         view: &View,
-        sample: impl Fn(&Tracer<'_>, crate::shading::random::RandomStream) -> glam::Vec3 + Sync,
+        sample: impl Fn(&Tracer<'_>, crate::shading::random::Numbers) -> glam::Vec3 + Sync,
     ) -> Result<Image, ReferenceError> {
         view.check()?;
         let accept = |primitive: u32, barycentrics: [f64; 2]| self.alpha_accepts(primitive, barycentrics);
@@ -92,7 +92,7 @@ pub fn render_ambient_occlusion(
     seed: u32,
     distance: f32,
 ) -> Result<Image, ReferenceError> {
-    let view = View { camera: camera.clone(), width, height, samples, seed };
+    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
     PosedScene::new(scene, eye(camera))?.render_ambient_occlusion(&view, distance)
 }
 
@@ -109,7 +109,7 @@ pub fn render_path(
     seed: u32,
     bounces: u32,
 ) -> Result<Image, ReferenceError> {
-    let view = View { camera: camera.clone(), width, height, samples, seed };
+    let view = View { camera: camera.clone(), width, height, samples, seed, sampler: Sampler::default() };
     PosedScene::new(scene, eye(camera))?.render_path(&view, bounces)
 }
 

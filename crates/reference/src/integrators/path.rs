@@ -6,8 +6,7 @@ use super::Tracer;
 use crate::shading::{
     LightSample, Ray, Surface, View, bsdf_evaluate, bsdf_pdf, bsdf_sample, camera_ray, pixel_position,
     random::{
-        RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, RandomStream,
-        random_dimension,
+        Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
     },
     spawn_ray,
 };
@@ -18,7 +17,7 @@ const ROULETTE_BOUNCE: u32 = 3;
 const LAYER_LIMIT: u32 = 16;
 
 struct PathState {
-    random: RandomStream,
+    random: Numbers,
     throughput: Vec3,
     radiance: Vec3,
     /// 1/sr of the last scattering; `None`: emission met next counts fully.
@@ -48,7 +47,7 @@ impl PathState {
 
 impl Tracer<'_> {
     /// One sample, W/(sr m^2).
-    pub(super) fn path(&self, view: &View, max_bounces: u32, random: RandomStream) -> Vec3 {
+    pub(super) fn path(&self, view: &View, max_bounces: u32, random: Numbers) -> Vec3 {
         let mut state = PathState {
             random,
             throughput: Vec3::ONE,

@@ -5,7 +5,7 @@ use rasray_scene::{Camera, Projection};
 
 use super::{
     Ray, ReferenceError,
-    random::{RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RandomStream},
+    random::{Numbers, RANDOM_CAMERA_X, RANDOM_CAMERA_Y, RandomStream, Sampler},
 };
 
 /// What is rendered.
@@ -21,9 +21,16 @@ pub struct View {
     pub samples: u32,
     /// Seed of all random numbers.
     pub seed: u32,
+    /// Where random numbers come from.
+    pub sampler: Sampler,
 }
 
 impl View {
+    /// The numbers of one sample of one pixel.
+    pub fn numbers(&self, pixel: u32, sample: u32) -> Numbers {
+        Numbers { sampler: self.sampler, stream: RandomStream { seed: self.seed, pixel, sample } }
+    }
+
     /// # Errors
     /// If the image has no pixels or no samples.
     pub fn check(&self) -> Result<(), ReferenceError> {
@@ -36,13 +43,14 @@ impl View {
 }
 
 /// A place within the pixel of `random`, uniform, in pixels from the top left corner.
-pub fn pixel_position(width: u32, random: RandomStream) -> Vec2 {
-    let corner = Vec2::new((random.pixel % width) as f32, (random.pixel / width) as f32);
+pub fn pixel_position(width: u32, random: Numbers) -> Vec2 {
+    let pixel = random.stream.pixel;
+    let corner = Vec2::new((pixel % width) as f32, (pixel / width) as f32);
     corner + Vec2::new(random.float(RANDOM_CAMERA_X), random.float(RANDOM_CAMERA_Y))
 }
 
 /// The ray through `position` (pixels from the top left corner; the first pixel's centre is
-/// (0.5, 0.5)), relative to `frame_origin` (world, metres).
+/// (0.5, 0.5)), relative to `frame_origin` (world, metres). Its cone is that of one sample of the pixel.
 pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
     let placement = view.camera.world_from_camera;
     let axis = |axis: DVec3, otherwise: DVec3| axis.normalize_or(otherwise).as_vec3();
@@ -65,5 +73,13 @@ pub fn camera_ray(view: &View, frame_origin: DVec3, position: Vec2) -> Ray {
         }
         Projection::Orthographic { .. } => (eye + across, forward, (2.0 * half_height / height) as f32, 0.0),
     };
-    Ray { origin, direction, t_max: f32::INFINITY, exclude_primitive: None, cone_width, cone_spread }
+    let scale = 1.0 / (view.samples.max(1) as f32).sqrt();
+    Ray {
+        origin,
+        direction,
+        t_max: f32::INFINITY,
+        exclude_primitive: None,
+        cone_width: cone_width * scale,
+        cone_spread: cone_spread * scale,
+    }
 }

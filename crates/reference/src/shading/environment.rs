@@ -13,6 +13,7 @@ pub struct EnvironmentTable {
     constant: Vec3,
     map: Option<Map>,
     sampled: bool,
+    irradiance: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -52,7 +53,8 @@ impl EnvironmentTable {
         match environment {
             Environment::Constant(radiance) => {
                 let constant = Vec3::from(*radiance);
-                Self { constant, map: None, sampled: constant.max_element() > 0.0 }
+                let irradiance = 4.0 * std::f64::consts::PI * f64::from(luminance(constant));
+                Self { constant, map: None, sampled: constant.max_element() > 0.0, irradiance }
             }
             Environment::LatLong { width, height, radiance } => {
                 let (width, height) = (*width as usize, *height as usize);
@@ -73,7 +75,7 @@ impl EnvironmentTable {
                 }
                 let (total, rows) = cumulative_shares(&row_weights);
                 let map = Some(Map { width, height, radiance, rows, columns });
-                Self { constant: Vec3::ZERO, map, sampled: total > 0.0 }
+                Self { constant: Vec3::ZERO, map, sampled: total > 0.0, irradiance: total }
             }
         }
     }
@@ -81,6 +83,11 @@ impl EnvironmentTable {
     /// Whether light samples are worth taking.
     pub fn is_sampled(&self) -> bool {
         self.sampled
+    }
+
+    /// Luminance of the radiance over the whole sphere, W/m^2.
+    pub fn irradiance(&self) -> f64 {
+        self.irradiance
     }
 
     /// W/(sr m^2) that arrives against the unit `direction`.

@@ -1,25 +1,36 @@
 //! Directions chosen by the lights, and the density with which they would choose a given one.
 
-use glam::{DVec3, Vec2, Vec3};
+use std::f64::consts::PI;
+
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use rasray_scene::{AlphaMode, Light};
 
 use super::{
-    Ray, Surface,
+    Ray, Surface, attributes,
     environment::{cumulative_shares, search, share},
     luminance,
-    posed::PosedScene,
+    posed::{Draw, PosedScene},
     ray::{spawn_position, spawn_ray, spawn_segment},
     texture::Use,
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// The emissive triangles by power.
+/// Most parts a side into which a triangle is cut to look at its texels.
+const MOST_PARTS: f64 = 128.0;
+/// Least probability of a kind of light that is there, before the sum is made 1.
+const LEAST_KIND: f64 = 0.1;
+
+/// The emissive triangles, the lights without extent and the kinds of light, by power.
 #[derive(Clone, Debug, Default)]
 pub struct LightTable {
     primitives: Vec<u32>,
     cumulative: Vec<f32>,
     /// For each draw, the entry of its first triangle.
     first_of_draw: Vec<Option<u32>>,
+    /// Cumulative shares of the lights without extent.
+    punctual: Vec<f32>,
+    /// Probability of the kinds: punctual, emissive triangles, environment.
+    kinds: [f32; 3],
 }
 
 /// A direction chosen by the lights.
@@ -52,11 +63,10 @@ impl LightTable {
         let (mut primitives, mut powers, mut first_of_draw) = (Vec::new(), Vec::new(), Vec::new());
         for draw in &posed.draws {
             let material = posed.material(draw);
-            let texture = material.emission_texture.as_ref();
-            let bound = Vec3::from(material.emission) * posed.textures.bound(texture, Use::Color);
-            let bound = f64::from(luminance(bound)) * if material.double_sided { 2.0 } else { 1.0 };
+            let sides = if material.double_sided { 2.0 } else { 1.0 };
+            let radiosity = PI * f64::from(luminance(Vec3::from(material.emission)).max(0.0)) * sides;
             // Scattered rays alone meet what blends, as often as its opacity says.
-            if material.unlit || material.alpha_mode == AlphaMode::Blend || !(bound > 0.0) {
+            if material.unlit || material.alpha_mode == AlphaMode::Blend || !(radiosity > 0.0) {
                 first_of_draw.push(None);
                 continue;
             }
@@ -66,17 +76,98 @@ impl LightTable {
                 let [a, b, c] =
                     posed.vertices(primitive).map(|corner| DVec3::from(corner.to_array().map(f64::from)));
                 let area = 0.5 * (b - a).cross(c - a).length();
+                let power = area * radiosity * glow_share(posed, draw, primitive);
                 primitives.push(primitive);
-                powers.push(if area.is_finite() { area * bound } else { 0.0 });
+                powers.push(if power.is_finite() { power } else { 0.0 });
             }
         }
         let (total, cumulative) = cumulative_shares(&powers);
-        if total > 0.0 { Self { primitives, cumulative, first_of_draw } } else { Self::default() }
+        let mut table = if total > 0.0 {
+            Self { primitives, cumulative, first_of_draw, ..Self::default() }
+        } else {
+            Self::default()
+        };
+        let disk = disk(posed);
+        let punctual: Vec<f64> = posed.scene.lights.iter().map(|light| punctual_power(light, disk)).collect();
+        let (punctual_power, punctual) = cumulative_shares(&punctual);
+        table.kinds = kind_shares([
+            (!punctual.is_empty()).then_some(punctual_power),
+            (!table.primitives.is_empty()).then_some(total),
+            posed.environment.is_sampled().then_some(posed.environment.irradiance() * disk),
+        ]);
+        table.punctual = punctual;
+        table
     }
+}
 
-    fn is_empty(&self) -> bool {
-        self.primitives.is_empty()
+/// Mean over the triangle of the emission texture, by the luminance of the factor times it: texels at the
+/// centroids of n by n parts.
+fn glow_share(posed: &PosedScene<'_>, draw: &Draw, primitive: u32) -> f64 {
+    let material = posed.material(draw);
+    let Some(reference) = &material.emission_texture else { return 1.0 };
+    let mesh = posed.mesh(draw);
+    let [a, b, c] = posed.mesh_vertices(draw, primitive).map(|vertex| {
+        let uv = attributes::uv_at(mesh, reference.uv_set, vertex).as_dvec2();
+        let [u, v] = reference.uv_transform.map(|row| {
+            let [x, y, one] = row.map(f64::from);
+            x * uv.x + y * uv.y + one
+        });
+        DVec2::new(u, v)
+    });
+    let size = posed.textures.size(reference);
+    let parts = (0.5 * (b - a).perp_dot(c - a).abs() * size.x * size.y).sqrt().ceil();
+    let parts = if parts.is_finite() { parts.clamp(1.0, MOST_PARTS) as u32 } else { 1 };
+    let factor = Vec3::from(material.emission);
+    let mut sum = 0.0;
+    for row in 0..parts {
+        for column in 0..2 * (parts - row) - 1 {
+            let third = if column % 2 == 0 { 1.0 } else { 2.0 } / 3.0;
+            let across = (f64::from(column / 2) + third) / f64::from(parts);
+            let along = (f64::from(row) + third) / f64::from(parts);
+            let uv = a + (b - a) * across + (c - a) * along;
+            sum += f64::from(luminance(factor * posed.textures.nearest(reference, Use::Color, uv)));
+        }
     }
+    sum / f64::from(parts * parts) / f64::from(luminance(factor))
+}
+
+/// Luminous power, W; `disk` is the area that all triangles show at most, m^2.
+fn punctual_power(light: &Light, disk: f64) -> f64 {
+    let bright = |color: [f32; 3]| f64::from(luminance(Vec3::from(color)).max(0.0));
+    match *light {
+        Light::Point { intensity, .. } => 4.0 * PI * bright(intensity),
+        Light::Directional { irradiance, .. } => disk * bright(irradiance),
+        Light::Spot { intensity, inner_cone, outer_cone, .. } => {
+            let cosine = 0.5 * (f64::from(inner_cone).cos() + f64::from(outer_cone).cos());
+            2.0 * PI * (1.0 - cosine) * bright(intensity)
+        }
+    }
+}
+
+/// Area of the circle around the box of all triangles, m^2.
+fn disk(posed: &PosedScene<'_>) -> f64 {
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for index in posed.indices() {
+        let position = DVec3::from(posed.positions()[*index as usize].map(f64::from));
+        if position.is_finite() {
+            (lower, upper) = (lower.min(position), upper.max(position));
+        }
+    }
+    if lower.x <= upper.x { 0.25 * PI * (upper - lower).length_squared() } else { 0.0 }
+}
+
+/// Probabilities of the kinds from their powers; `None`: not there.
+fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
+    let present = powers.iter().flatten().count();
+    let total: f64 = powers.iter().flatten().sum();
+    let share = |power: f64| if total > 0.0 { power / total } else { 1.0 / present as f64 };
+    let weights = powers.map(|power| power.map_or(0.0, |power| share(power).max(LEAST_KIND)));
+    let sum: f64 = weights.iter().sum();
+    let mut shares = weights.map(|weight| if present > 0 { (weight / sum) as f32 } else { 0.0 });
+    if let Some(last) = powers.iter().rposition(Option::is_some) {
+        shares[last] = 1.0 - shares[..last].iter().sum::<f32>();
+    }
+    shares
 }
 
 /// 1/sr of a point uniform on a triangle, as seen along the unit `direction` from `distance` away.
@@ -86,40 +177,31 @@ fn area_pdf(normal: Vec3, twice_area: f32, direction: Vec3, distance: f32) -> f3
 }
 
 impl PosedScene<'_> {
-    /// Kinds of light the scene has: punctual, emissive triangles, environment.
-    fn light_kind_count(&self) -> u32 {
-        u32::from(!self.scene.lights.is_empty())
-            + u32::from(!self.lights.is_empty())
-            + u32::from(self.environment.is_sampled())
-    }
-
     /// A direction from the surface to a light, one random number for each of: kind, light or row,
     /// place. `None` where nothing can arrive.
     pub fn light_sample(&self, surface: &Surface, [kind, pick, u, v]: [f32; 4]) -> Option<LightSample> {
-        let kinds = self.light_kind_count();
-        if kinds == 0 {
-            return None;
-        }
-        let kind = ((kind * kinds as f32) as u32).min(kinds - 1);
-        let punctual = u32::from(!self.scene.lights.is_empty());
-        let emissive = u32::from(!self.lights.is_empty());
-        let mut chosen = if kind < punctual {
-            self.sample_punctual(surface.position, pick)?
+        let [punctual, emissive, environment] = self.lights.kinds;
+        let (share, mut chosen) = if kind < punctual {
+            (punctual, self.sample_punctual(surface.position, pick)?)
         } else if kind < punctual + emissive {
-            self.sample_emissive(surface.position, pick, Vec2::new(u, v))?
-        } else {
+            (emissive, self.sample_emissive(surface.position, pick, Vec2::new(u, v))?)
+        } else if environment > 0.0 {
             let (direction, radiance, pdf) = self.environment.sample(pick, Vec2::new(u, v));
-            LightSample { direction, target: None, radiance, pdf, delta: false }
+            (environment, LightSample { direction, target: None, radiance, pdf, delta: false })
+        } else {
+            return None;
         };
-        chosen.pdf /= kinds as f32;
+        chosen.pdf *= share;
         (chosen.pdf > 0.0).then_some(chosen)
     }
 
     fn sample_punctual(&self, from: Vec3, pick: f32) -> Option<LightSample> {
-        let lights = &self.scene.lights;
-        let index = ((pick * lights.len() as f32) as usize).min(lights.len() - 1);
-        let pdf = 1.0 / lights.len() as f32;
-        let (position, intensity, range, cone) = match lights[index] {
+        let index = search(&self.lights.punctual, pick);
+        let pdf = share(&self.lights.punctual, index);
+        if !(pdf > 0.0) {
+            return None;
+        }
+        let (position, intensity, range, cone) = match self.scene.lights[index] {
             Light::Directional { direction, irradiance } => {
                 let direction = -direction.normalize_or(DVec3::NEG_Z).as_vec3();
                 let radiance = Vec3::from(irradiance);
@@ -190,7 +272,7 @@ impl PosedScene<'_> {
         }
         let (normal, twice_area) = triangle_normal(corners[1] - corners[0], corners[2] - corners[0]);
         let density = area_pdf(normal, twice_area, towards / distance, distance);
-        share(&self.lights.cumulative, entry) * density / self.light_kind_count() as f32
+        share(&self.lights.cumulative, entry) * density * self.lights.kinds[1]
     }
 
     /// 1/sr with which [`PosedScene::light_sample`] chooses the environment in `direction`.
@@ -198,7 +280,7 @@ impl PosedScene<'_> {
         if !self.environment.is_sampled() {
             return 0.0;
         }
-        self.environment.pdf(direction) / self.light_kind_count() as f32
+        self.environment.pdf(direction) * self.lights.kinds[2]
     }
 
     /// W/(sr m^2) from outside against the unit `direction`.

@@ -38,5 +38,6 @@ pub use error::ReferenceError;
 pub use light::{LightSample, LightTable};
 pub use microfacet::{basis_around, cosine_hemisphere, luminance};
 pub use posed::PosedScene;
+pub use random::Sampler;
 pub use ray::{Ray, spawn_ray, spawn_segment};
 pub use surface::Surface;

@@ -1,9 +1,9 @@
-//! Random numbers: one integer-exact function of pixel, sample, dimension and seed.
+//! Random numbers: integer-exact functions of pixel, sample, dimension and seed.
 
 /// Position inside the pixel, along the row.
-pub const RANDOM_CAMERA_X: u32 = 0;
+pub const RANDOM_CAMERA_X: u32 = 2;
 /// Position inside the pixel, down the column.
-pub const RANDOM_CAMERA_Y: u32 = 1;
+pub const RANDOM_CAMERA_Y: u32 = 3;
 /// First dimension of the first scattering.
 pub const RANDOM_BOUNCE_FIRST: u32 = 4;
 /// Dimensions of one scattering.
@@ -53,15 +53,107 @@ impl RandomStream {
 
     /// 32 random bits: the first word of pcg4d.
     pub fn bits(self, dimension: u32) -> u32 {
-        let [mut x, mut y, mut z, mut w] = [self.pixel, self.sample, dimension, self.seed]
-            .map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
-        x = x.wrapping_add(y.wrapping_mul(w));
-        y = y.wrapping_add(z.wrapping_mul(x));
-        z = z.wrapping_add(x.wrapping_mul(y));
-        w = w.wrapping_add(y.wrapping_mul(z));
-        [x, y, w] = [x, y, w].map(|word| word ^ (word >> 16));
-        x.wrapping_add(y.wrapping_mul(w))
+        words([self.pixel, self.sample, dimension, self.seed])[0]
     }
+}
+
+/// Where the numbers of an image come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampler {
+    /// Sobol points in groups of four dimensions, shuffled and scrambled for every pixel.
+    #[default]
+    Sobol,
+    /// Independent numbers: those of [`RandomStream`].
+    Pcg,
+}
+
+/// The numbers of one sample of one pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Numbers {
+    /// Where they come from.
+    pub sampler: Sampler,
+    /// Which they are.
+    pub stream: RandomStream,
+}
+
+impl Numbers {
+    /// Uniform in [0, 1), a multiple of 2^-24.
+    pub fn float(self, dimension: u32) -> f32 {
+        match self.sampler {
+            Sampler::Sobol => unit(self.group(dimension / 4)[dimension as usize % 4]),
+            Sampler::Pcg => self.stream.float(dimension),
+        }
+    }
+
+    /// Four numbers of consecutive dimensions.
+    pub fn four(self, dimension: u32) -> [f32; 4] {
+        std::array::from_fn(|index| self.float(dimension + index as u32))
+    }
+
+    fn group(self, group: u32) -> [u32; 4] {
+        let RandomStream { seed, pixel, sample } = self.stream;
+        let seeds = words([pixel, GROUP_KEY, group, seed]);
+        let order = seeds[0] ^ seeds[2].wrapping_mul(0x9e37_79b9);
+        let index = scramble(sample, order);
+        let point = sobol(index);
+        // The first two Sobol dimensions are the last two of the group.
+        std::array::from_fn(|dimension| scramble(point[(dimension + 2) % 4], seeds[dimension]))
+    }
+}
+
+/// Mixed into the key of a group, so that groups share no key with [`RandomStream`].
+const GROUP_KEY: u32 = 0x8000_0000;
+
+fn unit(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// pcg4d.
+fn words(key: [u32; 4]) -> [u32; 4] {
+    let mut k = key.map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
+    let round = |k: &mut [u32; 4]| {
+        k[0] = k[0].wrapping_add(k[1].wrapping_mul(k[3]));
+        k[1] = k[1].wrapping_add(k[2].wrapping_mul(k[0]));
+        k[2] = k[2].wrapping_add(k[0].wrapping_mul(k[1]));
+        k[3] = k[3].wrapping_add(k[1].wrapping_mul(k[2]));
+    };
+    round(&mut k);
+    k = k.map(|word| word ^ (word >> 16));
+    round(&mut k);
+    k
+}
+
+/// Owen's scrambling: each bit is flipped by a hash of those above it.
+fn scramble(bits: u32, seed: u32) -> u32 {
+    let mut x = bits.reverse_bits();
+    x ^= x.wrapping_mul(0x3d20_adea);
+    x = x.wrapping_add(seed);
+    x = x.wrapping_mul((seed >> 16) | 1);
+    x ^= x.wrapping_mul(0x0552_6c56);
+    x ^= x.wrapping_mul(0x53a2_2864);
+    x.reverse_bits()
+}
+
+/// The first four Sobol dimensions of an index; directions of Joe and Kuo 2008.
+fn sobol(index: u32) -> [u32; 4] {
+    let mut point = [0; 4];
+    let mut directions = [[0_u32; 32]; 4];
+    for bit in 0..32 {
+        let v = |dimension: usize, before: usize| directions[dimension][bit - before];
+        let next = [
+            1 << (31 - bit),
+            if bit < 1 { 1 << 31 } else { v(1, 1) ^ (v(1, 1) >> 1) },
+            if bit < 2 { [1, 3][bit] << (31 - bit) } else { v(2, 1) ^ v(2, 2) ^ (v(2, 2) >> 2) },
+            if bit < 3 { [1, 3, 1][bit] << (31 - bit) } else { v(3, 2) ^ v(3, 3) ^ (v(3, 3) >> 3) },
+        ];
+        for dimension in 0..4 {
+            directions[dimension][bit] = next[dimension];
+            if index >> bit & 1 == 1 {
+                point[dimension] ^= next[dimension];
+            }
+        }
+    }
+    point
 }
 
 /// Dimension of one use at scattering `bounce`; `offset` is one of the offsets above.
@@ -127,6 +219,58 @@ mod tests {
             assert!((mean / root).abs() < 5.0 * (1.0_f64 / 12.0).sqrt(), "mean {step:?}");
             assert!((square / f64::from(count) - 1.0 / 12.0).abs() < 5.0 * (1.0_f64 / 180.0).sqrt() / root);
             assert!((product / root).abs() < 5.0 / 12.0, "correlation {step:?}: {}", product / root);
+        }
+    }
+
+    /// Any power of two of samples of a pixel: each dimension has one in each of as many equal parts, and a place
+    /// has one in each rectangle of as many equal ones. Owen's scrambling keeps that, independent numbers do not.
+    #[test]
+    fn samples_of_a_pixel_are_spread_evenly() {
+        for (pixel, group) in [(0, 0), (17, 1), (100_000, 4), (3, 16_384)] {
+            for bits in 1..=8_u32 {
+                let count = 1_u32 << bits;
+                let at = |sample: u32| {
+                    let stream = RandomStream { seed: 9, pixel, sample };
+                    Numbers { sampler: Sampler::Sobol, stream }.four(4 * group)
+                };
+                let part = |value: f32, parts: u32| (value * parts as f32) as u32;
+                for dimension in 0..4 {
+                    let parts: std::collections::BTreeSet<u32> =
+                        (0..count).map(|sample| part(at(sample)[dimension], count)).collect();
+                    assert_eq!(parts.len() as u32, count, "{pixel} {group} {count} {dimension}");
+                }
+                for wide in 0..=bits {
+                    let (columns, rows) = (1 << wide, 1 << (bits - wide));
+                    let places: std::collections::BTreeSet<_> = (0..count)
+                        .map(|sample| (part(at(sample)[2], columns), part(at(sample)[3], rows)))
+                        .collect();
+                    assert_eq!(places.len() as u32, count, "{pixel} {group} {columns} x {rows}");
+                }
+            }
+        }
+    }
+
+    /// Pixels, groups and seeds share nothing: the first sample is uniform over each of them and neighbours do not
+    /// correlate, within five standard deviations of independent numbers.
+    #[test]
+    fn points_of_neighbours_are_independent() {
+        let count = 1 << 14;
+        let at = |pixel: u32, group: u32, seed: u32, dimension: u32| {
+            let stream = RandomStream { seed, pixel, sample: 5 };
+            f64::from(Numbers { sampler: Sampler::Sobol, stream }.float(4 * group + dimension)) - 0.5
+        };
+        let root = f64::from(count).sqrt();
+        for dimension in 0..4 {
+            for [pixel, group, seed] in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [640, 0, 0]] {
+                let (mut mean, mut product) = (0.0, 0.0);
+                for index in 0..count {
+                    let first = at(index, 3, 1, dimension);
+                    mean += first;
+                    product += first * at(index + pixel, 3 + group, 1 + seed, dimension);
+                }
+                assert!((mean / root).abs() < 5.0 * (1.0_f64 / 12.0).sqrt(), "mean {dimension}");
+                assert!((product / root).abs() < 5.0 / 12.0, "{dimension}: {}", product / root);
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{DVec2, Vec2, Vec3, Vec4};
 use rasray_scene::{Filter, Image, Scene, TextureRef, Wrap};
 
 /// What the red, green and blue of an image mean.
@@ -83,13 +83,20 @@ impl<'a> TextureTable<'a> {
         if texels > 0.0 { 0.5 * texels.log2() + footprint.log2() } else { 0.0 }
     }
 
-    /// By channel, the largest decoded texel of level 0; white without a texture.
-    pub fn bound(&self, reference: Option<&TextureRef>, usage: Use) -> Vec3 {
-        let Some(reference) = reference else { return Vec3::ONE };
-        let level = &self.levels[&(self.scene.textures[reference.texture].image, usage)][0];
-        (0..level.width * level.height)
-            .map(|texel| decode(level, texel as usize, usage).truncate())
-            .fold(Vec3::ZERO, Vec3::max)
+    /// Texels of level 0 across and down.
+    pub fn size(&self, reference: &TextureRef) -> DVec2 {
+        let image = &self.scene.images[self.scene.textures[reference.texture].image];
+        DVec2::new(f64::from(image.width), f64::from(image.height))
+    }
+
+    /// The texel of level 0 that holds a place, whatever the filter; `uv` has been transformed.
+    pub fn nearest(&self, reference: &TextureRef, usage: Use, uv: DVec2) -> Vec3 {
+        let texture = &self.scene.textures[reference.texture];
+        let level = &self.levels[&(texture.image, usage)][0];
+        let place = (uv * self.size(reference)).floor();
+        let column = wrap_texel(place.x as i32, level.width, texture.wrap_u);
+        let row = wrap_texel(place.y as i32, level.height, texture.wrap_v);
+        decode(level, (row * level.width + column) as usize, usage).truncate()
     }
 }
 

@@ -4,7 +4,7 @@ mod device;
 mod scene;
 
 use crate::arguments::InfoArguments;
-use crate::backend::{Frame, OpenBackend};
+use crate::backend::{Frame, OpenBackend, Sampler};
 use crate::error::AppError;
 use crate::progress::during;
 use crate::{camera, scene_source, terminal};
@@ -24,7 +24,14 @@ const SCHEMA: &str = "rasray-info/1";
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     if let Some(name) = &given.scene {
         let mut loaded = during("scene", "reading", || scene_source::load(name))?;
-        let frame = Frame { integrator: given.integrator.by_default(), width: 1, height: 1, spp: 1, seed: 0 };
+        let frame = Frame {
+            integrator: given.integrator.by_default(),
+            width: 1,
+            height: 1,
+            spp: 1,
+            seed: 0,
+            sampler: Sampler::Sobol,
+        };
         let view = during("scene", "looking for a view", || camera::by_default(&loaded.scene));
         let info = SceneInfo::of(&mut loaded, &view, &frame);
         show(given.json, || info.json(), || info.text())?;

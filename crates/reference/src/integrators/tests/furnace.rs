@@ -70,7 +70,7 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
         let mut scene = scene(vec![material], vec![sphere(4, false, false, 0)]);
         scene.environment = Environment::Constant([1.0; 3]);
         let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
-        let image = posed.render_path(&view([0.0, 0.0, 4.0], [0.0; 3], 12, 16), 400).expect("rendered");
+        let image = posed.render_path(&view([0.0, 0.0, 4.0], [0.0; 3], 12, 64), 400).expect("rendered");
         // Roulette ends five percent of the paths after the third scattering and makes up for it.
         assert_mean(&image, 1.0, 1.0e-3, 0.03);
     }
