@@ -135,8 +135,8 @@ Surface scene_surface_as_described(Ray ray, float t, uint primitive, vec2 baryce
     s.geometric_normal = counter_clockwise ? normal : -normal;
     s.side = counter_clockwise == ((draw.flags & DRAW_MIRRORED) == 0u) ? 1u : 0u;
 
-    float cosine = max(dot(s.geometric_normal, o), 1.0e-4);
-    float footprint = (ray.cone_width + ray.cone_spread * t * speed) / cosine;
+    // The smaller axis of the cone's ellipse: along the larger one, the samples of a pixel are many.
+    float footprint = ray.cone_width + ray.cone_spread * t * speed;
 
     vec3 interpolated = attribute_normal(draw, triangle, weights);
     // Attributes describe the front; seen from behind they are turned.

@@ -199,8 +199,8 @@ impl PosedScene<'_> {
         let geometric_normal = if counter_clockwise { normal } else { -normal };
         let front = counter_clockwise != draw.mirrored;
 
-        let cosine = geometric_normal.dot(o).max(1.0e-4);
-        let footprint = (ray.cone_width + ray.cone_spread * t) / cosine;
+        // The smaller axis of the cone's ellipse.
+        let footprint = ray.cone_width + ray.cone_spread * t;
         let textured = Textured { posed: self, draw, triangle, weights, twice_area, footprint };
 
         let mut interpolated = attributes::normal(draw, triangle, weights);

@@ -3,7 +3,7 @@ use rasray_scene::{Filter, Image, Material, Texture, TextureRef, Wrap};
 
 use crate::{
     shading::{
-        PosedScene, Ray, ReferenceError, Surface, bsdf_sample, random::RandomStream,
+        PosedScene, Ray, ReferenceError, Surface, View, bsdf_sample, random::RandomStream,
         surface::mirroring_normal,
     },
     testing::{diffuse, quad, scene},
@@ -243,4 +243,39 @@ fn leaning_mirrors_are_not_black() {
         assert!(sample.delta && (sample.weight - 1.0).abs().max_element() < 1.0e-5, "{angle} {sample:?}");
         assert!(sample.direction.dot(surface.geometric_normal) > 0.0, "{angle}");
     }
+}
+
+/// Fine stripes seen at a grazing angle keep their contrast across them, and many samples of a pixel see them finer.
+#[test]
+fn footprints_are_those_of_one_sample_and_do_not_grow_with_the_angle() {
+    let mut scene = scene(vec![diffuse(1.0)], vec![unit_quad(0)]);
+    let stripes = (0..64 * 64).flat_map(|texel| [if texel % 2 == 0 { 0 } else { 255 }; 4]).collect();
+    scene.images.push(Image { name: "stripes".to_owned(), width: 64, height: 64, rgba8: stripes });
+    scene.textures.push(Texture {
+        image: 0,
+        wrap_u: Wrap::Repeat,
+        wrap_v: Wrap::Repeat,
+        filter: Filter::Linear,
+        mipmapped: true,
+    });
+    scene.materials[0].base_color_texture =
+        Some(TextureRef { texture: 0, uv_set: 0, uv_transform: IDENTITY });
+    let posed = PosedScene::new(&scene, DVec3::ZERO).expect("valid");
+    let contrast = |direction: Vec3, cone_width: f32| {
+        let seen = |u: f32| {
+            let ray = Ray { cone_width, ..ray(Vec3::Z, direction) };
+            posed.surface(&ray, 1.0, 0, Vec2::new(u, 0.25)).base_color.x
+        };
+        (seen(32.5 / 64.0) - seen(31.5 / 64.0)).abs()
+    };
+    // A texel is 1/64 m wide: a cone as wide sees level 0, from above and from the side; twice as wide a grey.
+    for direction in [Vec3::NEG_Z, Vec3::new(0.0, 1.0, -0.05)] {
+        assert!(contrast(direction, 1.0 / 64.0) > 0.99, "{direction}");
+        assert!(contrast(direction, 2.0 / 64.0) < 0.01, "{direction}");
+    }
+    let mut view = crate::testing::view([0.0, 0.0, 5.0], [0.0; 3], 8, 1);
+    let of = |view: &View| crate::shading::camera_ray(view, DVec3::ZERO, Vec2::splat(4.0)).cone_spread;
+    let whole = of(&view);
+    view.samples = 16;
+    assert_eq!(of(&view), 0.25 * whole);
 }
