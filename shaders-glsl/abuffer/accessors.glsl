@@ -35,90 +35,66 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer AbufferFringeBuffer { ui
 #endif
 
 // Lists by depth bucket, with depth bounds of each cell.
-bool abuffer_bucketed() {
-    return ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
-        || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
-}
+const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
+    || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
 // Whether a cell has several lists: where the nearest fragments alone are kept it has one, whatever the storage.
-bool abuffer_has_buckets() {
-    return abuffer_bucketed() && ABUFFER_SINGLE_LAYER == 0u;
-}
+const bool ABUFFER_HAS_BUCKETS = ABUFFER_BUCKETED && ABUFFER_SINGLE_LAYER == 0u;
 
 // Whether cells know the smallest and largest depth of their fragments.
-bool abuffer_has_ends() {
-    return abuffer_bucketed() || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID || ABUFFER_SINGLE_LAYER != 0u;
-}
+const bool ABUFFER_HAS_ENDS = ABUFFER_BUCKETED || ABUFFER_STEP == ABUFFER_STEP_LEAPS || ABUFFER_SINGLE_LAYER != 0u;
 
 // Nodes in pages that are linked.
-bool abuffer_paged() {
-    return ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
-}
+const bool ABUFFER_PAGED = ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
 // Nodes that link both ways.
-bool abuffer_doubly() {
-    return ABUFFER_STORAGE == ABUFFER_STORAGE_DLL || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB;
-}
+const bool ABUFFER_DOUBLY = ABUFFER_STORAGE == ABUFFER_STORAGE_DLL || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB;
 
 // Nodes of a list one behind the other, without links.
-bool abuffer_contiguous() {
-    return ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
-}
+const bool ABUFFER_CONTIGUOUS = ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
+
+// Whether lists can be read from their far end.
+const bool ABUFFER_HAS_FAR_END = ABUFFER_DOUBLY || ABUFFER_CONTIGUOUS;
 
 // Whether cells store how far triangles reach in depth from their fragments.
-bool abuffer_has_extent() {
-    return ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
-}
+const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 
 // Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the
 // head of its fringe.
-uint abuffer_bounds_stride() {
-    uint ends = abuffer_has_ends() ? 2u : 0u;
-    uint extent = abuffer_has_extent() ? (abuffer_has_buckets() ? 2u : 1u) : 0u;
-    return ends + extent + (abuffer_has_fringe() ? 1u : 0u);
-}
+const uint ABUFFER_BOUNDS_STRIDE = (ABUFFER_HAS_ENDS ? 2u : 0u)
+    + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_FRINGE ? 1u : 0u);
 
 // Word of the extent among a cell's bounds; the scale is the next one.
-uint abuffer_extent_word() {
-    return abuffer_has_ends() ? 2u : 0u;
-}
+const uint ABUFFER_EXTENT_WORD = ABUFFER_HAS_ENDS ? 2u : 0u;
 
 // Words of a fragment's payload.
-uint abuffer_payload_words() {
-    return ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX || ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL ? 1u : 4u;
-}
+const uint ABUFFER_PAYLOAD_WORDS =
+    ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX || ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL ? 1u : 4u;
 
 // Those and the triangle that is kept for diagnostics.
-uint abuffer_data_stride() {
-    return abuffer_payload_words() + ABUFFER_IDS;
-}
+const uint ABUFFER_DATA_STRIDE = ABUFFER_PAYLOAD_WORDS + ABUFFER_IDS;
 
 // Word of a node's first link: behind the depth, and behind the payload where that is inline.
-uint abuffer_link_word() {
-    return ABUFFER_INLINE != 0u ? 1u + abuffer_data_stride() : 1u;
-}
+const uint ABUFFER_LINK_WORD = ABUFFER_INLINE != 0u ? 1u + ABUFFER_DATA_STRIDE : 1u;
 
-// Words of a node: depth, inline payload, links. Nodes in pages and contiguous ones have no links; decoupled contiguous
-// ones name their payload instead, because sorting moves them.
-uint abuffer_node_stride() {
-    if (abuffer_paged()) {
-        return abuffer_link_word();
-    }
-    if (abuffer_contiguous()) {
-        return ABUFFER_INLINE != 0u ? abuffer_link_word() : 2u;
-    }
-    return abuffer_link_word() + (abuffer_doubly() ? 2u : 1u);
-}
+// Words of a node's links. Nodes in pages and contiguous ones have none; decoupled contiguous ones name their
+// payload instead, because sorting moves them.
+const uint ABUFFER_LINK_WORDS = ABUFFER_PAGED ? 0u
+    : (ABUFFER_CONTIGUOUS ? (ABUFFER_INLINE != 0u ? 0u : 1u) : (ABUFFER_DOUBLY ? 2u : 1u));
 
-// Words of a page: the word that leads to the next one, and nodes.
-uint abuffer_page_stride() {
-    return 1u + ABUFFER_PAGE * abuffer_node_stride();
-}
+// Words of a node: depth, inline payload, links.
+const uint ABUFFER_NODE_STRIDE = ABUFFER_LINK_WORD + ABUFFER_LINK_WORDS;
+
+// Nodes of a page, the word that leads to the next page ahead of them, and words of all; where there are no pages each
+// node is one.
+const uint ABUFFER_PAGE_SLOTS = ABUFFER_PAGED ? ABUFFER_PAGE : 1u;
+const uint ABUFFER_PAGE_WORDS = ABUFFER_PAGED ? 1u : 0u;
+const uint ABUFFER_PAGE_STRIDE = ABUFFER_PAGE_WORDS + ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 
 // Widens the depths of a cell. Word 0 holds the complement of the smallest depth's bits, so that a
 // cleared cell is empty and both ends are maxima; positive floats order like their bits.
 void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
-    uint word = cell * abuffer_bounds_stride();
+    uint word = cell * ABUFFER_BOUNDS_STRIDE;
     uint bits = floatBitsToUint(z);
     atomicMax(ABUFFER_BOUNDS(s)[word], ~bits);
     atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
@@ -127,31 +103,31 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
 // The same for one end alone, where only the nearest fragments are kept: the near one is known before they
 // are stored, the far one is that of what is.
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
-    atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()], ~floatBitsToUint(z));
+    atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
 }
 
 void abuffer_widen_far(AbufferRef s, uint cell, float z) {
-    atomicMax(ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride() + 1u], floatBitsToUint(z));
+    atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
 }
 
 // The smallest depth of a cell. False where nothing has been met.
 bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
-    uint word = ABUFFER_BOUNDS(s)[cell * abuffer_bounds_stride()];
+    uint word = ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE];
     z_min = uintBitsToFloat(~word);
     return word != 0u;
 }
 
 // Widens the extent of a cell, where it has one.
 void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
-    if (abuffer_has_extent()) {
-        uint word = cell * abuffer_bounds_stride() + abuffer_extent_word();
+    if (ABUFFER_HAS_EXTENT) {
+        uint word = cell * ABUFFER_BOUNDS_STRIDE + ABUFFER_EXTENT_WORD;
         atomicMax(ABUFFER_BOUNDS(s)[word], floatBitsToUint(extent));
     }
 }
 
 // Stores the scale of a cell's buckets beside its bounds.
 void abuffer_store_scale(AbufferRef s, uint cell) {
-    uint word = cell * abuffer_bounds_stride();
+    uint word = cell * ABUFFER_BOUNDS_STRIDE;
     uint z_max = ABUFFER_BOUNDS(s)[word + 1u];
     float z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
     float scale = z_max == 0u ? 0.0 : bucket_scale(z_min, uintBitsToFloat(z_max), ABUFFER_BUCKETS);
@@ -171,7 +147,7 @@ uint abuffer_mark_words(AbufferRef s) {
 
 // Word of the first mark.
 uint abuffer_marks(AbufferRef s) {
-    return abuffer_cell_count(s) * abuffer_bounds_stride();
+    return abuffer_cell_count(s) * ABUFFER_BOUNDS_STRIDE;
 }
 
 // Marks a triangle that a cell keeps in a set.
@@ -195,11 +171,11 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     if (cell >= abuffer_cell_count(s)) {
         return bounds;
     }
-    uint word = cell * abuffer_bounds_stride();
-    if (abuffer_has_extent()) {
-        bounds.extent = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + abuffer_extent_word()]);
+    uint word = cell * ABUFFER_BOUNDS_STRIDE;
+    if (ABUFFER_HAS_EXTENT) {
+        bounds.extent = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + ABUFFER_EXTENT_WORD]);
     }
-    if (!abuffer_has_ends()) {
+    if (!ABUFFER_HAS_ENDS) {
         bounds.empty = false;
         bounds.z_max = uintBitsToFloat(0x7F800000u);
         return bounds;
@@ -211,10 +187,10 @@ AbufferBounds abuffer_bounds(AbufferRef s, uint cell) {
     bounds.empty = false;
     bounds.z_min = uintBitsToFloat(~ABUFFER_BOUNDS(s)[word]);
     bounds.z_max = uintBitsToFloat(z_max);
-    if (!abuffer_has_buckets()) {
+    if (!ABUFFER_HAS_BUCKETS) {
         return bounds;
     }
-    if (abuffer_has_extent()) {
+    if (ABUFFER_HAS_EXTENT) {
         bounds.scale = uintBitsToFloat(ABUFFER_BOUNDS(s)[word + 3u]);
     } else {
         bounds.scale = bucket_scale(bounds.z_min, bounds.z_max, ABUFFER_BUCKETS);

@@ -20,12 +20,12 @@
 #define bin_built abuffer_built
 
 uint bin_view_count() {
-    return (abuffer_has_cube() ? VIEW_FACES : 0u) + (abuffer_has_camera() ? 1u : 0u);
+    return (ABUFFER_HAS_CUBE ? VIEW_FACES : 0u) + (ABUFFER_HAS_CAMERA ? 1u : 0u);
 }
 
 // The number of a view by its place among those that are built.
 uint bin_view(uint place) {
-    return place < VIEW_FACES && abuffer_has_cube() ? place : ABUFFER_CAMERA;
+    return place < VIEW_FACES && ABUFFER_HAS_CUBE ? place : ABUFFER_CAMERA;
 }
 
 // A triangle in a view, and the first and last cell that may keep it, the same in every pass.
@@ -48,7 +48,7 @@ bool bin_begin(uint primitive, uint place, out Bin bin) {
     bin.resolution = abuffer_resolution(abuffer_built, bin.view);
     abuffer_view_vertices(abuffer_built, primitive, bin.view, bin.a, bin.b, bin.c);
     float margin = 0.0;
-    if (abuffer_has_fringe()) {
+    if (ABUFFER_HAS_FRINGE) {
         margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
     }
     bool any_cell = coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper);

@@ -40,11 +40,11 @@ void main() {
     if (ABUFFER_HEADER(abuffer_built).demand > ABUFFER_HEADER(abuffer_built).capacity) {
         return;
     }
-    if (abuffer_paged()) {
+    if (ABUFFER_PAGED) {
         if (thread < ABUFFER_HEADER(abuffer_built).demand) {
             abuffer_sort_page(abuffer_built, thread);
         }
-    } else if (abuffer_contiguous()) {
+    } else if (ABUFFER_CONTIGUOUS) {
         uint progress = 0u;
         if (thread < abuffer_list_count(abuffer_built)
             && abuffer_sort_contiguous(abuffer_built, thread, ABUFFER_SORT_LIMIT, ABUFFER_SORT_STEPS, progress) != SORT_DONE) {

@@ -25,7 +25,7 @@ void main() {
         return;
     }
     uint result = SORT_DONE;
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         result = abuffer_sort_contiguous(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS, progress);
     } else {
         result = abuffer_sort_linked(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS);

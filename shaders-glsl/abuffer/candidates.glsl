@@ -6,12 +6,35 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/judge_plane.glsl"
+#include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
 // Whether a fragment without an id replaces the best hit: nearer, or as near as another such and lower in its words.
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
+}
+
+// Judges a fragment that a ray meets at t, where its depth is z, logs it, and lets it replace the best hit if it may.
+void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, float z, float t, inout Hit best) {
+    bool better;
+    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+        better = hit_is_better(best, t, primitive);
+    } else {
+        better = abuffer_is_better(s, best, t, link);
+    }
+    bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
+    uint verdict = excluded ? TEST_EXCLUDED : (!(t > ray.t_min) ? TEST_BEFORE
+        : (!(t < ray.t_max) ? TEST_BEYOND : (better ? TEST_ACCEPTED : TEST_NOT_BETTER)));
+    trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, z);
+    if (verdict == TEST_ACCEPTED) {
+        trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
+        vec2 found = vec2(uintBitsToFloat(link), 0.0);
+        if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
+            found = plane_barycentrics(primitive, ray.origin + t * ray.direction);
+        }
+        best = Hit(t, primitive, found.x, found.y);
+    }
 }
 
 // Judges the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
@@ -36,16 +59,6 @@ void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, fl
     if (verdict == TEST_ACCEPTED) {
         trace_log(STEP_BEST, PRIMITIVE_UNKNOWN, 0u, 0u, t, t);
         best = Hit(t, PRIMITIVE_UNKNOWN, uintBitsToFloat(link), 0.0);
-    }
-}
-
-// Tests a triangle itself. A hit counts wherever it lies. The caller counts the test.
-void abuffer_test(Ray ray, uint primitive, inout TraceState state) {
-    float infinity = uintBitsToFloat(0x7F800000u);
-    if (abuffer_conservative()) {
-        test_triangle(ray, primitive, -infinity, infinity, state.best);
-    } else {
-        test_beside_planes(ray, primitive, -infinity, infinity, state.best);
     }
 }
 

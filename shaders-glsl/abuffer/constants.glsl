@@ -8,6 +8,16 @@
 #define ABUFFER_MARCH_DDA 2u
 #define ABUFFER_MARCH_PYRAMID 3u
 
+// How a ray steps, as modules tell it apart: from cell to cell, with leaps over blocks of them, or by samples.
+#define ABUFFER_STEP_CELLS 0u
+#define ABUFFER_STEP_LEAPS 1u
+#define ABUFFER_STEP_SAMPLES 2u
+
+// What a ray tests, as modules tell it apart: triangles alone, the planes of fragments, or their depths.
+#define ABUFFER_TEST_TRIANGLES 0u
+#define ABUFFER_TEST_PLANES 1u
+#define ABUFFER_TEST_DEPTHS 2u
+
 // Which views are drawn: bits.
 #define ABUFFER_VIEWS_CUBE 1u
 #define ABUFFER_VIEWS_CAMERA 2u

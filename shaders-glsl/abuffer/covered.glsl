@@ -21,13 +21,13 @@ bool abuffer_overlaps(AbufferRef s, vec3 a, vec3 b, vec3 c, ivec2 place, uint re
 
 // Whether a cell keeps a fragment there: where triangles are tested, masks are looked up at the hit.
 bool abuffer_keeps(uint primitive, CellCoverage coverage) {
-    return abuffer_conservative() || alpha_accepts(primitive, coverage.barycentrics);
+    return ABUFFER_CONSERVATIVE || alpha_accepts(primitive, coverage.barycentrics);
 }
 
 // Whether a triangle covers the centre of a cell, and what it is there. a, b, c in the view.
 bool abuffer_covers(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out CellCoverage coverage) {
     bool covered = coverage_at_center(a, b, c, place, resolution, coverage);
-    if (covered && abuffer_conservative()) {
+    if (covered && ABUFFER_CONSERVATIVE) {
         // Of the triangle itself, rounding included, not of its plane.
         vec2 depths;
         bool known = abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths);

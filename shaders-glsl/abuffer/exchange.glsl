@@ -8,14 +8,14 @@
 void abuffer_exchange(AbufferRef s, uint left, uint right) {
     uint left_word = abuffer_node_word(left);
     uint right_word = abuffer_node_word(right);
-    for (uint word = 0u; word < abuffer_node_stride(); word++) {
+    for (uint word = 0u; word < ABUFFER_NODE_STRIDE; word++) {
         uint value = ABUFFER_NODES(s)[left_word + word];
         ABUFFER_NODES(s)[left_word + word] = ABUFFER_NODES(s)[right_word + word];
         ABUFFER_NODES(s)[right_word + word] = value;
     }
     // Contiguous nodes name their payload, those of pages share its number.
-    if (abuffer_paged() && ABUFFER_INLINE == 0u) {
-        for (uint word = 0u; word < abuffer_data_stride(); word++) {
+    if (ABUFFER_PAGED && ABUFFER_INLINE == 0u) {
+        for (uint word = 0u; word < ABUFFER_DATA_STRIDE; word++) {
             uint value = abuffer_data(s, left, word);
             abuffer_set_data(s, left, word, abuffer_data(s, right, word));
             abuffer_set_data(s, right, word, value);

@@ -8,12 +8,12 @@
 
 // Word of a cell's head, the last of its bounds.
 uint abuffer_fringe_word(uint cell) {
-    return (cell + 1u) * abuffer_bounds_stride() - 1u;
+    return (cell + 1u) * ABUFFER_BOUNDS_STRIDE - 1u;
 }
 
 // The first link of a cell's fringe.
 uint abuffer_fringe_head(AbufferRef s, uint cell) {
-    return abuffer_has_fringe() && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_fringe_word(cell)] : 0u;
+    return ABUFFER_HAS_FRINGE && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_fringe_word(cell)] : 0u;
 }
 
 #define FringeRef AbufferRef

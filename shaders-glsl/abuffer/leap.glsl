@@ -68,7 +68,7 @@ bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, fl
             return true;
         }
         if (march_take_leap_exactly(walk.cells, leap)) {
-            walk.searched = walk.cells.cell;
+            abuffer_come_to(walk);
             return true;
         }
     }
@@ -76,8 +76,8 @@ bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, fl
     if (!(walk.cells.t_out + walk.cells.error_out <= leap.t_out + slack)) {
         return false;
     }
-    more = march_next(walk.cells);
-    walk.searched = walk.cells.cell;
+    more = march_step(walk.cells);
+    abuffer_come_to(walk);
     return true;
 }
 

@@ -9,7 +9,7 @@
 #define PageRef AbufferRef
 #define PAGE_SIZE ABUFFER_PAGE
 #define PAGE_LIST(s, list) ABUFFER_LISTS(s)[list]
-#define PAGE_NEXT(s, page) ABUFFER_NODES(s)[(page) * abuffer_page_stride()]
+#define PAGE_NEXT(s, page) ABUFFER_NODES(s)[(page) * ABUFFER_PAGE_STRIDE]
 #define PAGE_DEMAND(s) ABUFFER_HEADER(s).demand
 #define PAGE_CAPACITY(s) ABUFFER_HEADER(s).capacity
 #include "ads/pages.glsl"

@@ -20,7 +20,7 @@ uint abuffer_list_count(AbufferRef s) {
 
 // Words of the scratch pool that the scan takes.
 uint abuffer_scan_words(AbufferRef s) {
-    return abuffer_contiguous() ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
+    return ABUFFER_CONTIGUOUS ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
 // Word of the scratch pool at which a long list stands: list and progress, behind the sums of the scan.
@@ -30,7 +30,7 @@ uint abuffer_long_word(AbufferRef s, uint place) {
 
 // Word of a linked list's head; a tail is the next word.
 uint abuffer_head_word(uint list) {
-    return abuffer_doubly() ? 2u * list : list;
+    return ABUFFER_DOUBLY ? 2u * list : list;
 }
 
 // Links of the first and the last node of a contiguous list, zeros where it is empty. Nodes past the end of the pool
@@ -57,10 +57,10 @@ void abuffer_count_one(AbufferRef s, uint list) {
 // Takes a node for a fragment of a list; 0 where there is no room, which is counted.
 uint abuffer_allocate(AbufferRef s, uint list) {
     uint node = 0u;
-    if (abuffer_paged()) {
+    if (ABUFFER_PAGED) {
         return abuffer_page_allocate(s, list);
     }
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         uint count = abuffer_list_count(s);
         node = ABUFFER_LISTS(s)[list] + atomicAdd(ABUFFER_LISTS(s)[count + list], 1u);
         uint end = list + 1u < count ? ABUFFER_LISTS(s)[list + 1u] : ABUFFER_HEADER(s).demand;
@@ -80,13 +80,13 @@ uint abuffer_allocate(AbufferRef s, uint list) {
 // tail is the one that found the list empty.
 void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     abuffer_set_z(s, link, z);
-    if (abuffer_contiguous() || abuffer_paged()) {
+    if (ABUFFER_CONTIGUOUS || ABUFFER_PAGED) {
         return;
     }
     uint word = abuffer_head_word(list);
     uint old = atomicExchange(ABUFFER_LISTS(s)[word], link);
     abuffer_set_next(s, link, old);
-    if (!abuffer_doubly()) {
+    if (!ABUFFER_DOUBLY) {
         return;
     }
     if (old == 0u) {
@@ -103,18 +103,13 @@ struct AbufferCursor {
     bool backward;        // towards the eye where the list is sorted
 };
 
-// Whether lists can be read from their far end.
-bool abuffer_has_far_end() {
-    return abuffer_doubly() || abuffer_contiguous();
-}
-
 // Begins a list at its far end (if it has one) or at its near end.
 AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         uvec2 ends = abuffer_ends(s, list);
         return backward ? AbufferCursor(ends.y, ends.x, true) : AbufferCursor(ends.x, ends.y, false);
     }
-    if (abuffer_paged()) {
+    if (ABUFFER_PAGED) {
         return AbufferCursor(page_link(s, ABUFFER_LISTS(s)[list]), 0u, false);
     }
     uint word = abuffer_head_word(list);
@@ -124,7 +119,7 @@ AbufferCursor abuffer_list_begin(AbufferRef s, uint list, bool backward) {
 // A list that has been read up to `link`.
 AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint link) {
     AbufferCursor cursor = AbufferCursor(link, 0u, backward);
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         cursor.last = abuffer_list_begin(s, list, backward).last;
     }
     return cursor;
@@ -146,9 +141,9 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
         cursor.link = 0u;
         return 0u;
     }
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         cursor.link = link == cursor.last ? 0u : (cursor.backward ? link - 1u : link + 1u);
-    } else if (abuffer_paged()) {
+    } else if (ABUFFER_PAGED) {
         cursor.link = page_link_behind(s, link);
     } else {
         cursor.link = cursor.backward ? abuffer_prev(s, link) : abuffer_next(s, link);
@@ -158,7 +153,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
 
 // Passes over what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
-    cursor.link = abuffer_paged() ? page_link_of_next(s, link) : 0u;
+    cursor.link = ABUFFER_PAGED ? page_link_of_next(s, link) : 0u;
 }
 
 #endif

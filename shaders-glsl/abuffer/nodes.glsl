@@ -10,15 +10,13 @@
 
 // Nodes that were stored; of pages all slots.
 uint abuffer_stored(AbufferRef s) {
-    return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand) * (abuffer_paged() ? ABUFFER_PAGE : 1u);
+    return min(ABUFFER_HEADER(s).capacity, ABUFFER_HEADER(s).demand) * ABUFFER_PAGE_SLOTS;
 }
 
 uint abuffer_node_word(uint link) {
-    if (abuffer_paged()) {
-        uint slot = link - 1u;
-        return slot / ABUFFER_PAGE * abuffer_page_stride() + 1u + slot % ABUFFER_PAGE * abuffer_node_stride();
-    }
-    return (link - 1u) * abuffer_node_stride();
+    uint slot = link - 1u;
+    return slot / ABUFFER_PAGE_SLOTS * ABUFFER_PAGE_STRIDE + ABUFFER_PAGE_WORDS
+        + slot % ABUFFER_PAGE_SLOTS * ABUFFER_NODE_STRIDE;
 }
 
 // Depth at the cell's centre, metres.
@@ -32,20 +30,20 @@ void abuffer_set_z(AbufferRef s, uint link, float z) {
 
 // The link away from the eye, of linked nodes.
 uint abuffer_next(AbufferRef s, uint link) {
-    return ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word()];
+    return ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD];
 }
 
 void abuffer_set_next(AbufferRef s, uint link, uint next) {
-    ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word()] = next;
+    ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD] = next;
 }
 
 // The link towards the eye; of nodes that link both ways.
 uint abuffer_prev(AbufferRef s, uint link) {
-    return ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word() + 1u];
+    return ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u];
 }
 
 void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
-    ABUFFER_NODES(s)[abuffer_node_word(link) + abuffer_link_word() + 1u] = prev;
+    ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
 }
 
 // A word of a fragment's payload. A contiguous node that names a payload past the end is counted and gives 0.
@@ -54,14 +52,14 @@ uint abuffer_data(AbufferRef s, uint link, uint word) {
         return ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word];
     }
     uint place = link - 1u;
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         place = ABUFFER_NODES(s)[abuffer_node_word(link) + 1u];
         if (place >= abuffer_stored(s)) {
             atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
             return 0u;
         }
     }
-    return ABUFFER_DATA(s)[place * abuffer_data_stride() + word];
+    return ABUFFER_DATA(s)[place * ABUFFER_DATA_STRIDE + word];
 }
 
 // Stores a word of payload, before anything is sorted: until then payload and node have one number.
@@ -70,16 +68,16 @@ void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
         ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word] = value;
         return;
     }
-    if (abuffer_contiguous()) {
+    if (ABUFFER_CONTIGUOUS) {
         ABUFFER_NODES(s)[abuffer_node_word(link) + 1u] = link - 1u;
     }
-    ABUFFER_DATA(s)[(link - 1u) * abuffer_data_stride() + word] = value;
+    ABUFFER_DATA(s)[(link - 1u) * ABUFFER_DATA_STRIDE + word] = value;
 }
 
 // The words of a fragment's payload; zeros behind its last.
 uvec4 abuffer_payload(AbufferRef s, uint link) {
     uvec4 words = uvec4(0u);
-    for (uint word = 0u; word < abuffer_payload_words(); word++) {
+    for (uint word = 0u; word < ABUFFER_PAYLOAD_WORDS; word++) {
         words[word] = abuffer_data(s, link, word);
     }
     return words;
@@ -91,7 +89,7 @@ uvec4 abuffer_payload(AbufferRef s, uint link) {
 bool abuffer_payload_is_lower(AbufferRef s, uint left, uint right) {
     bool lower = false;
     bool equal = true;
-    [[dont_unroll]] for (uint word = 0u; equal && word < abuffer_payload_words(); word++) {
+    [[dont_unroll]] for (uint word = 0u; equal && word < ABUFFER_PAYLOAD_WORDS; word++) {
         uint left_word = abuffer_data(s, left, word);
         uint right_word = abuffer_data(s, right, word);
         equal = left_word == right_word;

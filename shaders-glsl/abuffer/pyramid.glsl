@@ -20,7 +20,7 @@ PyramidLevel abuffer_pyramid_first(AbufferRef s, uint view) {
     if (view != ABUFFER_CAMERA) {
         return cube;
     }
-    return pyramid_first(abuffer_pyramid_cells(s, view), 1u, abuffer_has_cube() ? pyramid_end(cube) : base);
+    return pyramid_first(abuffer_pyramid_cells(s, view), 1u, ABUFFER_HAS_CUBE ? pyramid_end(cube) : base);
 }
 
 uvec2 abuffer_pyramid_read(AbufferRef s, uint word) {

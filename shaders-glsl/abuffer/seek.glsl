@@ -44,10 +44,10 @@ uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, in
 void abuffer_seek(AbufferRef s, uint list, float low, float high, inout AbufferCursor cursor, inout TraceState state,
     inout uint work) {
     // Where there are buckets, the cell's bounds have told already.
-    if (cursor.link == 0u || abuffer_bucketed() || !abuffer_has_far_end()) {
+    if (cursor.link == 0u || ABUFFER_BUCKETED || !ABUFFER_HAS_FAR_END) {
         return;
     }
-    if (abuffer_contiguous() && max(cursor.link, cursor.last) - min(cursor.link, cursor.last) >= ABUFFER_SEEK_LENGTH) {
+    if (ABUFFER_CONTIGUOUS && max(cursor.link, cursor.last) - min(cursor.link, cursor.last) >= ABUFFER_SEEK_LENGTH) {
         cursor.link = abuffer_halve(s, cursor, low, high, state, work);
         return;
     }

@@ -15,6 +15,9 @@
 #define ABUFFER_STAGE_NEAR 2u
 #define ABUFFER_STAGE_FACES 3u
 
+// In place of the number of a view: whichever face the stretch begins in.
+#define ABUFFER_IN_FACES 8u
+
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
 // How far the stretches of a ray have been followed.
@@ -24,7 +27,7 @@ struct AbufferStretch {
 };
 
 AbufferStretch abuffer_stretch_begin(vec2 clip) {
-    return AbufferStretch(abuffer_has_camera() ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
+    return AbufferStretch(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
 }
 
 // The part of `clip` in which the ray lies in the camera's pyramid; empty if x > y.
@@ -51,7 +54,7 @@ vec2 abuffer_camera_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 cli
 vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint stage) {
     bool has_near = near.x <= near.y;
     if (stage == ABUFFER_STAGE_NEAR) {
-        return has_near && !abuffer_has_cube() ? vec2(max(near.x, clip.x), min(near.y, clip.y)) : vec2(1.0, 0.0);
+        return has_near && !ABUFFER_HAS_CUBE ? vec2(max(near.x, clip.x), min(near.y, clip.y)) : vec2(1.0, 0.0);
     }
     if (stage == ABUFFER_STAGE_BEHIND && !has_near) {
         return vec2(1.0, 0.0);
@@ -63,34 +66,38 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
     return interval;
 }
 
-// A stretch that is known by its ends.
-Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, uint view, float t_begin, float t_end) {
-    Segment segment = segment_at(origin, direction, t_begin, t_end, near);
-    segment.face = view;
-    segment.t_end = t_end;
-    return segment;
-}
-
-// The next stretch that may hold something nearer than `best`; false where none is left.
-bool abuffer_next_segment(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
-    inout AbufferStretch stretch, out Segment segment) {
+// The next stretch that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
+// face is still to be found and the stretch ends with it; false where none is left.
+bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
+    inout AbufferStretch stretch, out vec2 ends, out uint view) {
+    view = ABUFFER_IN_FACES;
     while (stretch.stage < ABUFFER_STAGE_FACES) {
         uint stage = stretch.stage++;
         vec2 interval = abuffer_stage_interval(s, origin, direction, near, clip, stage);
         if (interval.x < interval.y && !(interval.x > best)) {
-            uint view = stage == ABUFFER_STAGE_NEAR ? SEGMENT_NEAR : ABUFFER_CAMERA;
-            segment = abuffer_segment(origin, direction, near, view, interval.x, interval.y);
+            view = stage == ABUFFER_STAGE_NEAR ? SEGMENT_NEAR : ABUFFER_CAMERA;
+            ends = interval;
             return true;
         }
     }
-    float t = stretch.t;
-    if (!abuffer_has_cube() || !(t < clip.y) || t > best) {
-        trace_log(STEP_SKIP, abuffer_has_cube() && t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
+    ends = vec2(stretch.t, clip.y);
+    if (!ABUFFER_HAS_CUBE || !(ends.x < clip.y) || ends.x > best) {
+        trace_log(STEP_SKIP, ABUFFER_HAS_CUBE && ends.x < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, ends.x, ends.y);
         return false;
     }
-    segment = segment_at(origin, direction, t, clip.y, near);
-    stretch.t = segment.t_end;
     return true;
+}
+
+// The stretch of these ends in that view.
+Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferStretch stretch) {
+    Segment segment = segment_at(origin, direction, ends.x, ends.y, near);
+    if (view == ABUFFER_IN_FACES) {
+        stretch.t = segment.t_end;
+    } else {
+        segment.face = view;
+        segment.t_end = ends.y;
+    }
+    return segment;
 }
 
 #endif

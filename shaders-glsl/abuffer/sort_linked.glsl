@@ -56,7 +56,7 @@ void abuffer_merge_take(AbufferRef s, inout AbufferMerge merge) {
     } else {
         abuffer_set_next(s, merge.tail, taken);
     }
-    if (abuffer_doubly()) {
+    if (ABUFFER_DOUBLY) {
         abuffer_set_prev(s, taken, merge.tail);
     }
     merge.tail = taken;
@@ -94,7 +94,7 @@ uint abuffer_sort_step(AbufferRef s, uint list, inout AbufferMerge merge) {
         merge.right = next;
         merge.right_ended = next == 0u;
         // A single run: the list is sorted, and its backward links are taken along.
-        return merge.right_ended && merge.runs == 1u && !abuffer_doubly() ? SORT_DONE : SORT_MORE;
+        return merge.right_ended && merge.runs == 1u && !ABUFFER_DOUBLY ? SORT_DONE : SORT_MORE;
     }
     abuffer_merge_take(s, merge);
     if (!merge.left_ended || !merge.right_ended) {
@@ -108,7 +108,7 @@ uint abuffer_sort_step(AbufferRef s, uint list, inout AbufferMerge merge) {
     abuffer_set_next(s, merge.tail, 0u);
     uint word = abuffer_head_word(list);
     ABUFFER_LISTS(s)[word] = merge.head;
-    if (abuffer_doubly()) {
+    if (ABUFFER_DOUBLY) {
         ABUFFER_LISTS(s)[word + 1u] = merge.tail;
     }
     if (merge.runs == 1u) {

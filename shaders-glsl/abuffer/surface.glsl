@@ -13,8 +13,8 @@
 // The size of a cell at a point: what the A-buffer cannot tell apart, metres.
 float abuffer_footprint(AbufferRef s, vec3 position) {
     vec3 p = abs(position - ABUFFER_HEADER(s).eye);
-    float cube = abuffer_has_cube() ? abuffer_cell_slope(s, 0u) : 0.0;
-    float camera = abuffer_has_camera() ? abuffer_cell_slope(s, ABUFFER_CAMERA) : 0.0;
+    float cube = ABUFFER_HAS_CUBE ? abuffer_cell_slope(s, 0u) : 0.0;
+    float camera = ABUFFER_HAS_CAMERA ? abuffer_cell_slope(s, ABUFFER_CAMERA) : 0.0;
     return max(cube, camera) * max(p.x, max(p.y, p.z));
 }
 

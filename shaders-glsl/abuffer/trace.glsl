@@ -9,25 +9,8 @@
 #include "contract/trace_log.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
-#include "ads/judge.glsl"
 #include "abuffer/leap.glsl"
-
-// Tests triangles one by one: those of the near box, or all; true if the budget ended first.
-bool abuffer_trace_listed(AbufferRef s, Ray ray, bool all_triangles, inout AbufferWalk walk, inout TraceState state, inout uint work) {
-    uint count = all_triangles ? geometry_triangle_count() : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
-    float infinity = uintBitsToFloat(0x7F800000u);
-    float t_low = abuffer_conservative() ? -infinity : walk.segment.t_begin - walk.segment.t_error;
-    float t_high = abuffer_conservative() ? infinity : walk.segment.t_end + walk.segment.t_error;
-    for (; walk.place < count; walk.place++) {
-        if (work >= WORK_BUDGET) {
-            return true;
-        }
-        work++;
-        state.tests++;
-        test_triangle(ray, all_triangles ? walk.place : ABUFFER_NEAR(s)[walk.place], t_low, t_high, state.best);
-    }
-    return false;
-}
+#include "abuffer/listed.glsl"
 
 bool abuffer_finite(vec3 v) {
     uvec3 bits = floatBitsToUint(v) & 0x7F800000u;
@@ -47,56 +30,46 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     vec2 near = near_box_interval(origin, direction, ABUFFER_HEADER(s).near_size);
     // Where triangles are tested a hit counts by its t alone, wherever rounding has moved it.
     float reach = ABUFFER_HEADER(s).reach;
-    float slack = abuffer_conservative() ? hit_slack(origin, direction, reach) : 0.0;
-    bool distant = abuffer_conservative() && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
+    float slack = ABUFFER_CONSERVATIVE ? hit_slack(origin, direction, reach) : 0.0;
+    bool distant = ABUFFER_CONSERVATIVE && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     vec2 clip = bounds_interval(ABUFFER_HEADER(s).lower, ABUFFER_HEADER(s).upper, origin, direction, ray.t_min - slack,
         ray.t_max + slack);
     AbufferWalk walk;
-    AbufferSearch search;
+    AbufferSearch search = AbufferSearch(0u, ivec2(0), 0u, 0.0, 0.0, vec2(0.0), 0.0, 0u, 0u, false, false);
     uint work = 0u;
+    bool paused = false;
     walk.stretch = abuffer_stretch_begin(clip);
     bool restored = (state.cursor[0] & ABUFFER_CURSOR_STARTED) != 0u;
     bool searching = (state.cursor[0] & ABUFFER_CURSOR_SEARCHING) != 0u;
-    if (restored) {
-        abuffer_restore(s, origin, direction, near, clip, state, walk, search);
-    }
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
-        if (!restored) {
+        vec2 ends;
+        uint view;
+        if (restored) {
+            abuffer_restore_stretch(state, clip, walk.stretch, ends, view);
+        } else if (!abuffer_next_stretch(s, origin, direction, near, clip, state.best.t + slack, walk.stretch, ends, view)) {
             // Nothing behind the best hit can be nearer.
-            if (!abuffer_next_segment(s, origin, direction, near, clip, state.best.t + slack, walk.stretch, walk.segment)) {
-                break;
-            }
-            walk.segment.face = distant ? SEGMENT_NEAR : walk.segment.face;
-            abuffer_begin_walk(s, origin, direction, walk);
+            break;
+        }
+        walk.segment = abuffer_segment(origin, direction, near, ends, view, walk.stretch);
+        walk.segment.face = distant ? SEGMENT_NEAR : walk.segment.face;
+        abuffer_begin_walk(s, origin, direction, walk);
+        if (restored) {
+            abuffer_restore(state, walk, search);
+        } else {
             trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
             searching = false;
         }
         restored = false;
-        if (walk.segment.face == SEGMENT_NEAR) {
-            if (abuffer_trace_listed(s, ray, distant, walk, state, work)) {
-                abuffer_save(walk, search, false, state);
-                return TRACE_PAUSED;
-            }
-            if (distant) {
+        bool near_list = walk.segment.face == SEGMENT_NEAR;
+        bool more = true;
+        while (more) {
+            abuffer_find_exit(walk);
+            if (work >= WORK_BUDGET) {
+                paused = true;
                 break;
             }
-        } else {
-            bool more = true;
-            while (more) {
-                if (work >= WORK_BUDGET) {
-                    abuffer_save(walk, search, searching, state);
-                    return TRACE_PAUSED;
-                }
-                AbufferSearch saved = search;
-                abuffer_begin_search(s, walk, search);
-                if (searching) {
-                    search.in_fringe = saved.in_fringe;
-                    search.in_bucket = saved.in_bucket;
-                    search.bucket = saved.in_bucket ? saved.bucket : 0u;
-                    search.link = saved.in_bucket || saved.in_fringe ? saved.link : 0u;
-                }
-                bool begun = search.in_bucket || search.in_fringe;
-                searching = false;
+            if (!near_list) {
+                abuffer_begin_search(s, searching, walk, search);
                 if (search.t_low > state.best.t + slack) {
                     trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
                     break;
@@ -105,20 +78,33 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 state.cells++;
                 trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
                 // A search that was begun goes on: leaps only pass by cells that have not been.
-                if (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID && !begun
+                if (ABUFFER_STEP == ABUFFER_STEP_LEAPS && !searching
                     && abuffer_leap(s, walk, search, state.best.t + slack, work, more)) {
                     continue;
                 }
-                if (abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {
-                    abuffer_save(walk, search, true, state);
-                    return TRACE_PAUSED;
-                }
-                more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && abuffer_next_cell(walk);
             }
+            searching = false;
+            uint listed = near_list ? (distant ? ABUFFER_LISTED_ALL : ABUFFER_LISTED_NEAR) : ABUFFER_LISTED_FRINGE;
+            bool has_listed = near_list || (ABUFFER_HAS_FRINGE && !search.in_bucket);
+            if (has_listed && abuffer_test_listed(s, ray, listed, walk, search, state, work)) {
+                searching = !near_list;
+                paused = true;
+                break;
+            }
+            if (!near_list && abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {
+                searching = true;
+                paused = true;
+                break;
+            }
+            more = !near_list && !(any_hit && state.best.primitive != PRIMITIVE_NONE) && abuffer_next_cell(walk);
         }
-        if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
+        if (paused || distant || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
             break;
         }
+    }
+    if (paused) {
+        abuffer_save(walk, search, searching, state);
+        return TRACE_PAUSED;
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
@@ -127,7 +113,7 @@ uint abuffer_trace_closest(AbufferRef s, Ray ray, inout TraceState state, out Hi
     uint result = abuffer_trace(s, ray, state, false);
     hit = state.best;
     if (ABUFFER_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), abuffer_payload_words()));
+        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), ABUFFER_PAYLOAD_WORDS));
     }
     return result;
 }

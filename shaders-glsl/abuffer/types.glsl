@@ -23,15 +23,34 @@ layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
 
+// How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
+// trace are compiled once for each (permutations.txt) and hold one alone; elsewhere the options decide.
+#ifdef ABUFFER_STEPS
+const uint ABUFFER_STEP = ABUFFER_STEPS;
+#else
+const uint ABUFFER_STEP = ABUFFER_MARCH == ABUFFER_MARCH_EXACT ? ABUFFER_STEP_CELLS
+    : (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID ? ABUFFER_STEP_LEAPS : ABUFFER_STEP_SAMPLES);
+#endif
+#ifdef ABUFFER_TESTS
+const uint ABUFFER_TEST = ABUFFER_TESTS;
+#else
+const uint ABUFFER_TEST = ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE ? ABUFFER_TEST_TRIANGLES
+    : (ABUFFER_ACCEPT == ABUFFER_ACCEPT_PLANE ? ABUFFER_TEST_PLANES : ABUFFER_TEST_DEPTHS);
+#endif
+
 // Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
-bool abuffer_conservative() {
-    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE;
-}
+const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
 // Whether cells keep triangles beside their centres.
-bool abuffer_has_fringe() {
-    return ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE || ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
-}
+const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
+const bool ABUFFER_HAS_FRINGE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
+
+// Whether rays visit the cells that they cross; else they are sampled.
+const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
+
+// Which views there are.
+const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
+const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 
 // State and sizes of one A-buffer. 232 bytes.
 struct AbufferHeader {

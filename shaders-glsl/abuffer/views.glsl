@@ -8,14 +8,6 @@
 #include "abuffer/header.glsl"
 #include "ads/views.glsl"
 
-bool abuffer_has_cube() {
-    return (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
-}
-
-bool abuffer_has_camera() {
-    return (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
-}
-
 // Cells a side, border not counted.
 uint abuffer_resolution(AbufferRef s, uint view) {
     return view == ABUFFER_CAMERA ? ABUFFER_HEADER(s).camera_resolution : ABUFFER_HEADER(s).resolution;
@@ -54,12 +46,12 @@ float abuffer_cell_slope(AbufferRef s, uint view) {
 
 // Cells of the cube, which come before those of the camera.
 uint abuffer_cube_cells(AbufferRef s) {
-    return abuffer_has_cube() ? VIEW_FACES * face_cells(ABUFFER_HEADER(s).resolution) : 0u;
+    return ABUFFER_HAS_CUBE ? VIEW_FACES * face_cells(ABUFFER_HEADER(s).resolution) : 0u;
 }
 
 // Cells of all views.
 uint abuffer_cell_count(AbufferRef s) {
-    return abuffer_cube_cells(s) + (abuffer_has_camera() ? face_cells(ABUFFER_HEADER(s).camera_resolution) : 0u);
+    return abuffer_cube_cells(s) + (ABUFFER_HAS_CAMERA ? face_cells(ABUFFER_HEADER(s).camera_resolution) : 0u);
 }
 
 // Running index of a cell of a view over all views.

@@ -43,11 +43,11 @@ void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
         words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
     }
 #endif
-    for (uint word = 0u; word < abuffer_payload_words(); word++) {
+    for (uint word = 0u; word < ABUFFER_PAYLOAD_WORDS; word++) {
         abuffer_set_data(abuffer_built, link, word, words[word]);
     }
     if (ABUFFER_IDS != 0u) {
-        abuffer_set_data(abuffer_built, link, abuffer_payload_words(), primitive);
+        abuffer_set_data(abuffer_built, link, ABUFFER_PAYLOAD_WORDS, primitive);
     }
 }
 
@@ -90,14 +90,14 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
         z = max(z, z_min);
         abuffer_widen_far(abuffer_built, cell, z);
         abuffer_widen_extent(abuffer_built, cell, coverage.extent);
-    } else if (abuffer_bucketed()) {
+    } else if (ABUFFER_BUCKETED) {
         AbufferBounds bounds = abuffer_bounds(abuffer_built, cell);
         // The bounds pass may have seen a depth that differs in the last bit.
         z = clamp(z, bounds.z_min, bounds.z_max);
         bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     } else {
         abuffer_widen_extent(abuffer_built, cell, coverage.extent);
-        if (abuffer_has_ends()) {
+        if (ABUFFER_HAS_ENDS) {
             abuffer_widen_bounds(abuffer_built, cell, z);
         }
     }

@@ -22,13 +22,28 @@ struct AbufferWalk {
     vec3 direction;
     CellMarch cells;
     SampleMarch samples;
+    bool came;            // to a cell whose way out is still to be found
+    bool resumed;         // in that cell, with some of its neighbours
     uint place;           // sample, or entry of the near list
     ivec2 searched;       // the cell being searched
 };
 
-// Whether rays visit the cells that they cross; else they are sampled.
-bool abuffer_follows_cells() {
-    return ABUFFER_MARCH == ABUFFER_MARCH_EXACT || ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID;
+// The walk has come to the cell of its march.
+void abuffer_come_to(inout AbufferWalk walk) {
+    walk.searched = walk.cells.cell;
+    walk.came = true;
+}
+
+// Finds the way out of a cell that a walk has come to.
+void abuffer_find_exit(inout AbufferWalk walk) {
+    if (!ABUFFER_FOLLOWS_CELLS || !walk.came) {
+        return;
+    }
+    uint left = walk.cells.neighbours;
+    march_find_exit(walk.cells);
+    walk.cells.neighbours = walk.resumed ? left : walk.cells.neighbours;
+    walk.came = false;
+    walk.resumed = false;
 }
 
 void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout AbufferWalk walk) {
@@ -36,12 +51,14 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
     walk.origin = abuffer_view_from_world(s, origin, walk.segment.face);
     walk.direction = abuffer_view_from_world(s, direction, walk.segment.face);
     walk.place = 0u;
+    walk.came = false;
+    walk.resumed = false;
     if (walk.segment.face == SEGMENT_NEAR) {
         return;
     }
-    if (abuffer_follows_cells()) {
-        walk.cells = march_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end, walk.segment.t_error);
-        walk.searched = walk.cells.cell;
+    if (ABUFFER_FOLLOWS_CELLS) {
+        walk.cells = march_place(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end, walk.segment.t_error);
+        abuffer_come_to(walk);
     } else {
         walk.samples = samples_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end,
             ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples);
@@ -58,41 +75,48 @@ void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout 
     state.cursor[4] = floatBitsToUint(walk.cells.t_in);
     state.cursor[5] = floatBitsToUint(walk.cells.error_in);
     state.cursor[6] = search.link;
-    state.cursor[7] = abuffer_follows_cells() && walk.segment.face != SEGMENT_NEAR
+    state.cursor[7] = ABUFFER_FOLLOWS_CELLS && walk.segment.face != SEGMENT_NEAR
         ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
 }
 
-void abuffer_restore(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, TraceState state, out AbufferWalk walk,
-    out AbufferSearch search) {
+// The stretch that a ray was in.
+void abuffer_restore_stretch(TraceState state, vec2 clip, out AbufferStretch stretch, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
-    walk.segment = abuffer_segment(origin, direction, near, (flags >> 2) & 7u, uintBitsToFloat(state.cursor[1]),
-        uintBitsToFloat(state.cursor[2]));
+    view = (flags >> 2) & 7u;
+    ends = vec2(uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]));
     // Before the faces none of them has been followed.
-    bool in_faces = walk.segment.face != ABUFFER_CAMERA && abuffer_has_cube();
-    walk.stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? walk.segment.t_end : clip.x);
-    abuffer_begin_walk(s, origin, direction, walk);
+    bool in_faces = view != ABUFFER_CAMERA && ABUFFER_HAS_CUBE;
+    stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? ends.y : clip.x);
+}
+
+// Where the ray was in that stretch, whose walk has been begun.
+void abuffer_restore(TraceState state, inout AbufferWalk walk, out AbufferSearch search) {
+    uint flags = state.cursor[0];
     walk.place = state.cursor[7];
-    if (abuffer_follows_cells() && walk.segment.face != SEGMENT_NEAR) {
+    if (ABUFFER_FOLLOWS_CELLS && walk.segment.face != SEGMENT_NEAR) {
         walk.cells.cell = ivec2(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16) - 1;
         walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
         walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
-        march_find_exit(walk.cells);
         walk.cells.neighbours = (flags >> 6) & 511u;
+        walk.came = true;
+        walk.resumed = true;
         walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
     }
     search.in_bucket = (flags & 32u) != 0u;
     search.in_fringe = (flags & ABUFFER_CURSOR_IN_FRINGE) != 0u;
-    search.bucket = (flags >> 16) & 31u;
+    search.bucket = search.in_bucket ? (flags >> 16) & 31u : 0u;
     search.link = state.cursor[6];
 }
 
-// Prepares the search of the cell the walk is at.
-void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSearch search) {
-    search.in_bucket = false;
-    search.in_fringe = false;
-    search.bucket = 0u;
-    search.link = 0u;
-    if (abuffer_follows_cells()) {
+// Prepares the search of the cell the walk is at; `begun` where it goes on.
+void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferWalk walk, inout AbufferSearch search) {
+    if (!begun) {
+        search.in_bucket = false;
+        search.in_fringe = false;
+        search.bucket = 0u;
+        search.link = 0u;
+    }
+    if (ABUFFER_FOLLOWS_CELLS) {
         search.t_low = walk.cells.t_in - walk.cells.error_in;
         search.t_high = walk.cells.t_out + walk.cells.error_out;
     } else {
@@ -101,16 +125,20 @@ void abuffer_begin_search(AbufferRef s, inout AbufferWalk walk, inout AbufferSea
     search.view = walk.segment.face;
     search.place = walk.searched;
     search.cell = abuffer_cell(s, search.view, search.place);
+    vec2 z = walk.origin.z + vec2(search.t_low, search.t_high) * walk.direction.z;
+    search.z = vec2(min(z.x, z.y), max(z.x, z.y));
+    search.rounding = ABUFFER_HEADER(s).rounding
+        + 4.8e-7 * (abs(walk.origin.z) + max(abs(search.t_low), abs(search.t_high)) * abs(walk.direction.z));
 }
 
 // Goes to the next cell; false at the end of the segment.
 bool abuffer_next_cell(inout AbufferWalk walk) {
-    if (abuffer_follows_cells()) {
+    if (ABUFFER_FOLLOWS_CELLS) {
         if (march_take_neighbour(walk.cells, walk.searched)) {
             return true;
         }
-        bool more = march_next(walk.cells);
-        walk.searched = walk.cells.cell;
+        bool more = march_step(walk.cells);
+        abuffer_come_to(walk);
         return more;
     }
     walk.place++;

@@ -102,14 +102,18 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     return !proper || alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// Judges a triangle alone among fragments whose planes count, logs it, and lets it replace the best hit if it
-// may. The caller counts the test.
-void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+// Judges a triangle that is listed by itself, logs it, and lets it replace the best hit if it may; `beside_planes`
+// where fragments count by their planes. The caller counts the test.
+void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool beside_planes, inout Hit best) {
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict = judge_triangle(ray, plane_rival(best), primitive, t_low, t_high, t, barycentrics, t_error);
-    if (verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
+    Hit rival = best;
+    if (beside_planes) {
+        rival = plane_rival(best);
+    }
+    uint verdict = judge_triangle(ray, rival, primitive, t_low, t_high, t, barycentrics, t_error);
+    if (beside_planes && verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
         verdict = TEST_NOT_BETTER;
     }
     trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
@@ -117,6 +121,11 @@ void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inou
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
         best = Hit(t, primitive, barycentrics.x, barycentrics.y);
     }
+}
+
+// The same among fragments whose planes count.
+void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+    test_listed(ray, primitive, t_low, t_high, true, best);
 }
 
 // Judges a fragment's triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.

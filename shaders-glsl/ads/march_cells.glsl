@@ -109,9 +109,10 @@ ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
     return ivec2(floor(q));
 }
 
-// Starts a walk. origin and direction are in face space; the segment [t_begin, t_end] lies in the
-// face's pyramid within rounding. t_error bounds the error of t_begin.
-CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
+// Places a walk at the begin of a segment, whose way out of its first cell is still to be found (march_find_exit).
+// origin and direction are in face space; the segment [t_begin, t_end] lies in the face's pyramid within
+// rounding. t_error bounds the error of t_begin.
+CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m;
     m.origin = origin;
     m.direction = direction;
@@ -130,12 +131,18 @@ CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begi
     m.step_x = false;
     m.step_y = false;
     m.neighbours = march_touched(m, t_begin, t_error, true, true);
+    return m;
+}
+
+// The same with the way out.
+CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
+    CellMarch m = march_place(origin, direction, resolution, t_begin, t_end, t_error);
     march_find_exit(m);
     return m;
 }
 
-// Goes on to the next cell of the ray; false at the end of the segment.
-bool march_next(inout CellMarch m) {
+// Steps into the next cell of the ray, whose way out is still to be found; false at the end of the segment.
+bool march_step(inout CellMarch m) {
     if (!m.step_x && !m.step_y) {
         return false;
     }
@@ -144,6 +151,14 @@ bool march_next(inout CellMarch m) {
     m.error_in = m.error_out;
     // What was touched on the way out of the last cell is touched on the way into this one.
     m.neighbours = m.touched;
+    return true;
+}
+
+// Goes on to the next cell of the ray; false at the end of the segment.
+bool march_next(inout CellMarch m) {
+    if (!march_step(m)) {
+        return false;
+    }
     march_find_exit(m);
     return true;
 }

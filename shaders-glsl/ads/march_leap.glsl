@@ -86,7 +86,8 @@ float march_leap_error(CellMarch m, ivec2 cell, float t) {
     return error;
 }
 
-// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit. False where
+// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit, with the way out still to
+// be found. False where
 // rounding leaves open how it does, because the ray leaves the block where it touches another boundary; then
 // nothing is changed.
 bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
@@ -109,7 +110,6 @@ bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
     m.error_in = leap.error_out;
     m.touched = 0u;
     m.neighbours = 0u;
-    march_find_exit(m);
     return true;
 }
 

@@ -7,16 +7,19 @@
 #include "ads/queue.glsl"
 #include "contract/trace_state.glsl"
 
-// The slot that this invocation traces.
-uint trace_log_slot = 0xFFFFFFFFu;
+// Whether this invocation's slot is the logged one. Asked once a ray: structures log in many places.
+bool trace_log_on = false;
+
+void trace_log_begin(uint slot) {
+    trace_log_on = COUNTERS >= COUNTERS_STEPS && slot == queue_logged_slot;
+}
 
 void trace_log(uint kind, uint a, uint b, uint c, float t_low, float t_high) {
-    if (COUNTERS < COUNTERS_STEPS || trace_log_slot != queue_logged_slot) {
-        return;
-    }
-    uint place = atomicAdd(queue_step_demand, 1u);
-    if (place < uint(queue_steps.length())) {
-        queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
+    if (trace_log_on) {
+        uint place = atomicAdd(queue_step_demand, 1u);
+        if (place < uint(queue_steps.length())) {
+            queue_steps[place] = TraceStep(kind, queue_header.round, a, b, c, t_low, t_high);
+        }
     }
 }
 

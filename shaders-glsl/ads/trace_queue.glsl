@@ -51,7 +51,7 @@ bool trace_slot(uint invocation, out uint slot) {
     if (queue_header.round > 0u) {
         slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
     }
-    trace_log_slot = slot;
+    trace_log_begin(slot);
     trace_log(STEP_ROUND, queue_header.round, 0u, 0u, 0.0, 0.0);
     return true;
 }

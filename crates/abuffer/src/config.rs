@@ -216,6 +216,21 @@ impl Config {
         if self.has_buckets() { self.buckets } else { 1 }
     }
 
+    /// The ending of the names of the modules that trace it: how rays step, and what they test.
+    pub(crate) fn trace_variant(&self) -> String {
+        let steps = match self.march {
+            March::Exact => "cells",
+            March::Pyramid => "leaps",
+            March::Samples | March::Dda => "samples",
+        };
+        let tests = match self.accept {
+            Accept::Plane if self.tests_triangles() => "triangles",
+            Accept::Plane => "planes",
+            Accept::Interval | Accept::Thickness | Accept::Slope => "depths",
+        };
+        format!(".{steps}.{tests}")
+    }
+
     /// Specialisation constants: id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         vec![

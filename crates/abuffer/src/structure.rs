@@ -57,7 +57,7 @@ impl ABuffer {
             device,
             geometry,
             &TraceKernelsDesc {
-                modules: modules.trace(scene)?,
+                modules: modules.trace_variant(&config.trace_variant(), scene)?,
                 structure_layout: pools.layout(),
                 constants: &constants,
                 counters: config.counters,

@@ -113,10 +113,23 @@ impl Modules {
     /// # Errors
     /// The scene has alpha masks and the scene's shaders are not compiled in.
     pub fn trace(&self, scene: Option<&SceneBinding>) -> Result<TraceModules, AdsError> {
-        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
+        self.trace_variant("", scene)
+    }
+
+    /// The same of a structure whose traces are compiled once for each of several options: `variant` is the ending of
+    /// the modules' names that tells them apart, such as `.cells`.
+    ///
+    /// # Errors
+    /// As [`Modules::trace`].
+    pub fn trace_variant(
+        &self,
+        variant: &str,
+        scene: Option<&SceneBinding>,
+    ) -> Result<TraceModules, AdsError> {
+        let masked = if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" };
         Ok(TraceModules {
-            closest: self.find(if alpha { "trace_closest.alpha" } else { "trace_closest" })?,
-            occluded: self.find(if alpha { "trace_occluded.alpha" } else { "trace_occluded" })?,
+            closest: self.find(&format!("trace_closest{variant}{masked}"))?,
+            occluded: self.find(&format!("trace_occluded{variant}{masked}"))?,
             surfaces: self.find("surfaces").ok(),
         })
     }

@@ -31,7 +31,7 @@ fn records_of_the_abuffer() {
         &shaders::ABUFFER_BUILD_7_REORDER,
         &shaders::ABUFFER_BUILD_8_REORDER_LONG,
         &shaders::ABUFFER_BUILD_9_STATUS,
-        &shaders::ABUFFER_TRACE_CLOSEST,
+        &shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES,
     ];
     check_layout!(modules, Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,

@@ -23,9 +23,9 @@ use crate::reader::{Member, Record, difference, read_by_spirq, read_by_us};
 const TRACES: [&Shader; 5] = [
     &shaders::BRUTE_TRACE_CLOSEST,
     &shaders::BRUTE_TRACE_OCCLUDED,
-    &shaders::ABUFFER_TRACE_CLOSEST,
+    &shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES,
     &shaders::ABUFFER_TRACE_OCCLUDED,
-    &shaders::ABUFFER_TRACE_CLOSEST_ADDRESS,
+    &shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES_ADDRESS,
 ];
 
 #[test]
@@ -102,8 +102,8 @@ fn records_are_the_same_in_all_modules() {
 /// With device addresses the header is reached by a pointer, which only the own reader follows.
 #[test]
 fn records_reached_by_address_are_the_same() {
-    let direct = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST);
-    let by_address = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_ADDRESS);
+    let direct = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES);
+    let by_address = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES_ADDRESS);
     assert_eq!(direct["AbufferHeader"], by_address["AbufferHeader"]);
     let direct = read_by_us(&shaders::BVH_TRACE_CLOSEST);
     let by_address = read_by_us(&shaders::BVH_TRACE_CLOSEST_ADDRESS);
