@@ -96,7 +96,7 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     row("E1", "missed rays", NoneMissed, Law),
     row("E2", "missed rays", NoneMissed, Law),
     row("E3", "missed rays", NoneMissed, Law),
-    row("E4", "misses at the seam, which are legal", Counted, Counted),
+    row("E4", "misses at the seam, which are legal", Counted, Law),
     row("E5", "missed rays, |dt| / t", NoneMissed, Law),
     row("E6", "false hits, NaN", NoneMissed, Law),
     row("E7", "NaN, t of what is hit", Finite, Finite),
@@ -187,7 +187,7 @@ mod tests {
 
     /// Letters of the themes with how many numbers each has: 90 in all.
     const THEMES: [(&str, usize); 8] =
-        [("G", 12), ("E", 8), ("V", 16), ("Z", 15), ("X", 15), ("C", 10), ("T", 5), ("P", 9)];
+        [("G", 12), ("E", 9), ("V", 16), ("Z", 15), ("X", 15), ("C", 10), ("T", 5), ("P", 9)];
 
     fn numbers() -> Vec<String> {
         THEMES
@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn every_number_of_the_catalogue_has_a_row_and_a_case() {
-        assert_eq!(numbers().len(), 90);
+        assert_eq!(numbers().len(), 91);
         let rows: Vec<_> = CATALOGUE.iter().map(|row| row.id.to_owned()).collect();
         let [stated, found] = [numbers(), rows].map(|mut list| {
             list.sort();

@@ -47,6 +47,9 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
             format!("{} hits are wrong where nothing may be hit wrongly", measured.rejected_hits.len());
         fault(what, Some(first));
     }
+    if matches!(row.demand, Demand::Law { .. }) && case.target.fragments == Target::Counted {
+        return faults;
+    }
     let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
     // Cases all of whose rays are ambiguous are judged by these alone, below.
     if !row.is_exact() && measured.errors.total > 0 && measured.inadmissible.total > 0 {

@@ -13,6 +13,9 @@ use super::grey;
 
 const SIZE: u32 = 64;
 
+/// What the polynomials that stand for the integrals of facets may be off by (docs/shading.md, "Energy").
+const FITTED: f64 = 0.01;
+
 /// Base colour, metallic, roughness.
 const MATERIALS: [(f32, f32, f32); 4] = [(1.0, 1.0, 0.5), (0.7, 1.0, 1.0), (0.8, 0.0, 0.5), (1.0, 0.0, 0.9)];
 
@@ -61,18 +64,18 @@ fn metal_and_plastic_reflect_what_their_lobes_integrate_to() {
         for cosine in [0.9, 0.3] {
             let expected = truth(material, cosine);
             // Nothing shows more of a white sky than there is.
-            assert!(expected < 1.0);
+            assert!(expected < 1.0 + 1e-9);
             let name = format!("albedo of {material:?} under cosine {cosine}");
             stage.look(camera(index, cosine));
-            assert_truth(&name, &stage.estimate(&paths[0], samples), grey(expected), 0.0);
+            assert_truth(&name, &stage.estimate(&paths[0], samples), grey(expected), FITTED);
             if cosine == 0.9 {
                 darker.look(camera(index, cosine));
-                assert_refused(&name, &darker.estimate(&paths[2], samples), grey(expected), 0.0);
+                assert_refused(&name, &darker.estimate(&paths[2], samples), grey(expected), FITTED);
             }
         }
     }
     // A rough metal that is a little smoother reflects more at a slant.
     smoother.look(camera(1, 0.3));
     let expected = truth(MATERIALS[1], 0.3);
-    assert_refused("smoother metal", &smoother.estimate(&paths[1], samples), grey(expected), 0.0);
+    assert_refused("smoother metal", &smoother.estimate(&paths[1], samples), grey(expected), FITTED);
 }
