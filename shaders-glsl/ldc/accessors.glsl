@@ -127,22 +127,19 @@ uint ldc_kept_id(LdcRef s, uint place) {
     return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place + 2u];
 }
 
-// Depth of a fragment as stored, metres: with 16 bits a share of the cube's side.
-float ldc_depth(LdcRef s, uint place) {
-    if (LDC_DEPTH_BITS == 16u) {
-        vec2 pair = unpackHalf2x16(LDC_DEPTHS(s)[place >> 1u]);
-        return ((place & 1u) == 0u ? pair.x : pair.y) * LDC_HEADER(s).size;
-    }
-    return uintBitsToFloat(LDC_DEPTHS(s)[place]);
-}
-
-// The bits a depth is stored as.
+// The bits a depth is stored as: with 16 bits a share of the cube's side.
 uint ldc_depth_bits(LdcRef s, float z) {
     return LDC_DEPTH_BITS == 16u ? packHalf2x16(vec2(z / LDC_HEADER(s).size, 0.0)) & 0xFFFFu : floatBitsToUint(z);
 }
 
+// The value of a half that is not negative. By its bits: compilers take unpackHalf2x16(packHalf2x16(x)) for x, and what
+// is stored is not.
+float ldc_half(uint bits) {
+    return bits < 0x400u ? float(bits) * (1.0 / 16777216.0) : uintBitsToFloat((bits << 13u) + 0x38000000u);
+}
+
 float ldc_depth_of_bits(LdcRef s, uint bits) {
-    return LDC_DEPTH_BITS == 16u ? unpackHalf2x16(bits).x * LDC_HEADER(s).size : uintBitsToFloat(bits);
+    return LDC_DEPTH_BITS == 16u ? ldc_half(bits) * LDC_HEADER(s).size : uintBitsToFloat(bits);
 }
 
 // How far a stored depth may be from the depth, metres.
@@ -174,6 +171,11 @@ void ldc_lower_depth(LdcRef s, uint place, uint bits) {
         word = (place & 1u) == 0u ? 0xFFFF0000u | bits : bits << 16u | ldc_bits_at(s, place - 1u);
     }
     atomicMin(LDC_DEPTHS(s)[LDC_DEPTH_BITS == 16u ? place >> 1u : place], word);
+}
+
+// Depth of a fragment as stored, metres.
+float ldc_depth(LdcRef s, uint place) {
+    return ldc_depth_of_bits(s, ldc_bits_at(s, place));
 }
 
 // Counts a fragment as its cell's next layer.

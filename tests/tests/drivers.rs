@@ -7,6 +7,7 @@ use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{closed_box, sphere};
+use rasray_tests::tier::is_full;
 
 const RAYS: usize = 400;
 
@@ -35,7 +36,13 @@ fn hits_are_the_same_on_every_driver() {
     let brute_force_first = |subject: &&Subject| subject.spec.system().name != "brute-force";
     let mut robust: Vec<_> = robust.collect();
     robust.sort_by_key(brute_force_first);
+    // Its compiler takes minutes for the traces of fragments.
+    let slow = bench.device().name().contains("SwiftShader") && !is_full();
     for subject in robust {
+        if slow && !subject.kind.finds_triangles() {
+            println!("skipped: {} on {}: set RASRAY_FULL to 1", subject.name(), bench.device().name());
+            continue;
+        }
         let mut structure = subject.spec.create(bench.device(), &geometry, None).expect("it can be made");
         let hits = bench.build_and_trace(structure.as_mut(), [0.0; 3], &rays);
         println!("{}: {:016x} on {}", subject.name(), fnv(&hits), bench.device().name());

@@ -19,7 +19,7 @@ fn stderr(output: &Output) -> String {
 #[test]
 fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {
     let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("broken.glb"), b"glTF but not really").expect("a file");
+    std::fs::write(folder.path().join("broken.glb"), b"glTF\x02\0\0\0but not really").expect("a file");
     std::fs::write(folder.path().join("notes.txt"), b"text").expect("a file");
     std::fs::write(folder.path().join("short.rays"), b"RASRAY").expect("a file");
     let cases = [

@@ -8,6 +8,8 @@ use std::process::{Command, Output};
 fn rasray(folder: &Path, line: &str, environment: &[(&str, &str)]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rasray"))
         .args(line.split_whitespace())
+        .env_remove("VK_DRIVER_FILES")
+        .env_remove("VK_ICD_FILENAMES")
         .envs(environment.iter().copied())
         .current_dir(folder)
         .output()

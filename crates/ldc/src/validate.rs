@@ -140,13 +140,8 @@ impl Contents {
         let side = self.config.resolution as usize;
         let (view, x, y) = (cell / (side * side), cell % side, cell / side % side);
         let words = if self.config.occupancy == Occupancy::Slices { 4 } else { 2 };
-        // The device's arithmetic of a half's share may differ in the last place, and a device may take halves that are
-        // not normal for 0.
-        let slack = match self.config.depth {
-            Depth::Bits16 if z < HALF_NORMAL * self.header.size => z,
-            Depth::Bits16 => 1.0e-6 * z,
-            Depth::Bits32 => 0.0,
-        };
+        // The device's arithmetic of a half's share may differ in the last place.
+        let slack = if self.config.depth == Depth::Bits16 { 1.0e-6 * z } else { 0.0 };
         let (mut before, mut size) = (0, self.config.block as usize);
         for _ in 0..self.config.levels {
             let blocks = side.div_ceil(size);
@@ -167,9 +162,6 @@ impl Contents {
         true
     }
 }
-
-/// The smallest normal half.
-const HALF_NORMAL: f32 = 1.0 / 16384.0;
 
 /// The value of a half that is not negative.
 fn half(bits: u32) -> f32 {
