@@ -48,7 +48,7 @@ impl RaySource<'_> {
                 total
             })
             .collect();
-        if !(total > 0.0) {
+        if total <= 0.0 {
             return Vec::new();
         }
         let ray = |index| {
