@@ -5,7 +5,7 @@ use std::ops::Range;
 use rasray_abuffer::{ABuffer, Config};
 use rasray_ads::{BruteForce, RayQueue, Structure};
 use rasray_gpu::Timing;
-use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
+use rasray_gpu_scene::{GpuScene, Parts, Sampler, Sampling, SceneTables, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, Wave};
 use rasray_scene::{Camera, Scene};
 use rasray_tracer::build_until_complete;
@@ -90,6 +90,15 @@ impl<'a> Stage<'a> {
     pub fn reseed(&mut self, seed: u32) {
         self.view.seed = seed;
         self.scene.update_camera(&self.view).expect("the frame can be written");
+    }
+
+    /// Draws independent random numbers from now on, whose errors have a law.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn sample_independently(&mut self) {
+        let sampling = Sampling { sampler: Sampler::Pcg, ..Sampling::default() };
+        self.scene.set_sampling(sampling).expect("the frame can be written");
     }
 
     /// What is rendered.

@@ -60,6 +60,7 @@ fn slope(stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64, repeat:
 }
 
 fn check(name: &str, stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64) {
+    stage.sample_independently();
     let found = slope(stage, integrator, truth, false);
     let repeated = slope(stage, integrator, truth, true);
     let biased = slope(stage, integrator, truth * 1.2, false);
