@@ -1,11 +1,10 @@
 // What: the surface at a hit of the A-buffer.
-// Reads: the scene (payload index) or the fragment's own words (the other payloads). Writes: nothing.
+// Reads: the scene (payload index, and fragments that emit) or the fragment's own words (the others). Writes: nothing.
 // With payload index the hit names a triangle and the barycentrics of the point on its plane.
 #ifndef ABUFFER_SURFACE_GLSL
 #define ABUFFER_SURFACE_GLSL
 
 #include "contract/stored_hit.glsl"
-#include "scene/plane_surface.glsl"
 #include "abuffer/nodes.glsl"
 #include "abuffer/attributes.glsl"
 #include "abuffer/stored_plane.glsl"
@@ -19,12 +18,20 @@ float abuffer_footprint(AbufferRef s, vec3 position) {
 }
 
 Surface abuffer_surface_at(AbufferRef s, Ray ray, Hit hit) {
-    if (!stored_hit_is(hit)) {
-        return plane_surface(ray, hit);
-    }
-    uint link = floatBitsToUint(hit.a);
-    uvec4 words = abuffer_payload(s, link);
+    bool stored = stored_hit_is(hit);
     float footprint = abuffer_footprint(s, ray.origin + hit.t * ray.direction);
+    uvec4 words = uvec4(0u);
+    bool emits = false;
+    if (stored) {
+        words = abuffer_payload(s, floatBitsToUint(hit.a));
+        emits = ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_ATTRIBUTES && stored_emits(words.xy);
+    }
+    if (!stored || emits) {
+        if (emits) {
+            hit = stored_triangle_hit(words.y, ray, hit.t);
+        }
+        return stored_triangle_surface(ray, hit, emits, footprint);
+    }
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
         return stored_shape(stored_unpack_normal(words.x), ray, hit.t, footprint);
     }

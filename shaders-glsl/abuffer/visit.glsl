@@ -34,10 +34,7 @@ bool abuffer_in_layer(uint cell, CellCoverage coverage) {
 void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
     uvec4 words = uvec4(primitive, 0u, 0u, 0u);
 #ifdef PAYLOAD_ATTRIBUTES
-    words = abuffer_pack_attributes(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
-    if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
-        words.x = words.y;
-    }
+    words = abuffer_pack_attributes(primitive, coverage.barycentrics);
 #else
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
         words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);

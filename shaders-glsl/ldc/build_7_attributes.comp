@@ -35,6 +35,6 @@ void main() {
     float z;
     vec2 barycentrics;
     if (ldc_fragment(ldc_built_view(list / (resolution * resolution)), primitive, cell, z, barycentrics)) {
-        ldc_set_attributes(ldc_built, place, stored_pack(stored_source_from_front(primitive, barycentrics)));
+        ldc_set_attributes(ldc_built, place, stored_pack(stored_source(primitive, barycentrics)));
     }
 }

@@ -1,12 +1,15 @@
 // What: what is shaded at a point, stored as two words with the fragments of a structure: colour and normal, which all
 // published fragments have.
-// Reads: the scene, when storing. Writes: nothing.
+// Reads: the scene, when storing, and of what emits when shading. Writes: nothing.
 // Source: MMRT section 3.3, albedo 8:8:8:8 and normal 16:16; Bürger et al. section 1.2.1, Hu et al. section 3.1.
-// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal, 16 bits a side.
+// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal of the front, 16 bits a side: rays that
+// come against it meet the front, others the back. Of what emits the opacity is 0 and word 1 is the triangle: how bright
+// it is, and how likely light sampling would have chosen it, is known of triangles alone.
 #ifndef SCENE_STORED_SURFACE_GLSL
 #define SCENE_STORED_SURFACE_GLSL
 
-#include "scene/surface.glsl"
+#include "ads/triangle.glsl"
+#include "scene/plane_surface.glsl"
 
 uint stored_pack_normal(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
@@ -22,31 +25,27 @@ vec3 stored_unpack_normal(uint word) {
     return normalize(n);
 }
 
-// What is shaded at a point of a triangle, as seen from a point; textures at their finest level.
-Surface stored_source(uint primitive, vec2 barycentrics, vec3 from) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    vec3 p = (1.0 - barycentrics.x - barycentrics.y) * a + barycentrics.x * b + barycentrics.y * c;
-    Ray ray = Ray(from, 0.0, p - from, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface_as_described(ray, 1.0, primitive, barycentrics);
-}
-
-// The same for structures that do not know who will look: as seen along the triangle's normal.
-Surface stored_source_from_front(uint primitive, vec2 barycentrics) {
+// What is shaded at a point of a triangle, as seen from straight ahead of its front; textures at their finest level.
+Surface stored_source(uint primitive, vec2 barycentrics) {
     vec3 a;
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
     float twice_area;
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
-    Ray ray = Ray(a, 0.0, -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
+    bool mirrored = (scene_draw_shading(scene_draw_of(primitive)).flags & DRAW_MIRRORED) != 0u;
+    Ray ray = Ray(a, 0.0, mirrored ? normal : -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
     return scene_surface_as_described(ray, 1.0, primitive, barycentrics);
 }
 
+// The least opacity that is stored of what does not emit.
+#define STORED_OPACITY (1.0 / 255.0)
+
 uvec2 stored_pack(Surface s) {
-    return uvec2(packUnorm4x8(vec4(s.base_color, s.opacity)), stored_pack_normal(s.normal));
+    if (any(greaterThan(s.emission, vec3(0.0)))) {
+        return uvec2(packUnorm4x8(vec4(s.base_color, 0.0)), s.primitive);
+    }
+    return uvec2(packUnorm4x8(vec4(s.base_color, max(s.opacity, STORED_OPACITY))), stored_pack_normal(s.normal));
 }
 
 // How the material reflects and transmits, in a further word: metallic, roughness, transmission, specular, 8 bits each.
@@ -64,13 +63,14 @@ void stored_set_terms(inout Surface s, uint word) {
 
 // The surface of a fragment that a ray meets at t, known within `position_error` metres, of which the normal
 // alone is stored: white, dull and opaque to light, no emission, the stored normal as geometric and shading
-// normal.
+// normal; the front where the ray comes against the normal.
 Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     Surface s = surface_miss(ray);
     s.position = ray.origin + t * ray.direction;
     s.position_error = position_error;
     s.geometric_normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
     s.primitive = PRIMITIVE_UNKNOWN;
+    s.side = dot(normal, ray.direction) > 0.0 ? 0u : 1u;
     s.normal = s.geometric_normal;
     s.valid = SURFACE_POSITION | SURFACE_NORMAL;
     s.base_color = vec3(1.0);
@@ -78,7 +78,46 @@ Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     return s;
 }
 
-// The same with colour and opacity. Terms that these words lack take their defaults.
+// The hit of a ray that meets a triangle at t; a miss where there is none of that number.
+Hit stored_triangle_hit(uint primitive, Ray ray, float t) {
+    if (primitive >= geometry_triangle_count()) {
+        return Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    vec2 barycentrics = triangle_barycentrics(ray.origin + t * ray.direction, a, b, c);
+    return Hit(t, primitive, barycentrics.x, barycentrics.y);
+}
+
+// The surface at a hit on the plane of a triangle, or at a fragment that stands for it: then the point is the ray's and
+// known within `position_error` metres.
+Surface stored_triangle_surface(Ray ray, Hit hit, bool fragment, float position_error) {
+    Surface s = surface_miss(ray);
+    if (hit.primitive != PRIMITIVE_NONE) {
+        s = plane_surface(ray, hit);
+        if (fragment) {
+            s.position = ray.origin + hit.t * ray.direction;
+            s.position_error = max(s.position_error, position_error);
+        }
+    }
+    return s;
+}
+
+// Whether a triangle's material may emit.
+bool stored_triangle_emits(uint primitive) {
+    DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
+    return draw.first_emissive != EMISSIVE_NONE || (scene_material(draw.material).flags & MATERIAL_UNLIT) != 0u;
+}
+
+// Whether these words are of a fragment that emits: its surface is that of triangle words.y.
+bool stored_emits(uvec2 words) {
+    return words.x >> 24 == 0u;
+}
+
+// The surface of a fragment that does not emit, with its colour and opacity. Terms that these words lack take their
+// defaults.
 Surface stored_surface(uvec2 words, Ray ray, float t, float position_error) {
     Surface s = stored_shape(stored_unpack_normal(words.y), ray, t, position_error);
     vec4 albedo = unpackUnorm4x8(words.x);

@@ -5,36 +5,61 @@
 //
 // Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the triangle.
 // Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is the
-// reflectivity.
+// reflectivity, and of what transmits it is 1 for a thin wall, else 1 + (index of refraction - 1) * 100 in steps of 1/255.
 #ifndef VOXEL_ATTRIBUTES_GLSL
 #define VOXEL_ATTRIBUTES_GLSL
 
 #include "scene/stored_surface.glsl"
 #include "voxel/types.glsl"
 
+// Steps of the fourth share that one of the index of refraction is, and the last of them for an index.
+#define VOXEL_INDEX_STEPS 100.0
+#define VOXEL_INDEX_LAST 254.0
+
 // Words 1 to 3 of a fragment.
 uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
-    Surface s = stored_source_from_front(primitive, barycentrics);
+    Surface s = stored_source(primitive, barycentrics);
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
-        s.opacity = s.metallic;
-        return uvec3(primitive, stored_pack(s));
+        return uvec3(primitive, packUnorm4x8(vec4(s.base_color, s.metallic)), stored_pack_normal(s.normal));
+    }
+    if (s.transmission > 0.0) {
+        float index = clamp(1.0 + round((s.ior - 1.0) * VOXEL_INDEX_STEPS), 1.0, VOXEL_INDEX_LAST);
+        s.opacity = s.thickness > 0.0 ? index / 255.0 : 1.0;
     }
     return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
-// The surface of a fragment with these words that a ray hits, known within `position_error` metres.
-Surface voxel_attributes_surface(uvec3 words, Ray ray, Hit hit, float position_error) {
-    Surface s = stored_surface(words.yz, ray, hit.t, position_error);
+// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors know their triangle, and it is asked.
+uint voxel_emitter(uvec3 words) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
+        bool known = words.x < geometry_triangle_count();
+        return known && stored_triangle_emits(words.x) ? words.x : PRIMITIVE_NONE;
+    }
+    return stored_emits(words.yz) ? words.z : PRIMITIVE_NONE;
+}
+
+// The surface of a fragment with these words that does not emit and that a ray hits, known within `position_error` metres.
+Surface voxel_attributes_surface(uvec3 words, Ray ray, Hit hit, float position_error) {
+    if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
+        Surface s = stored_shape(stored_unpack_normal(words.z), ray, hit.t, position_error);
+        vec4 albedo = unpackUnorm4x8(words.y);
+        s.base_color = albedo.rgb;
         // What reflects is a mirror, and everything else is dull.
-        s.metallic = s.opacity;
+        s.metallic = albedo.a;
         s.roughness = s.metallic > 0.0 ? 0.0 : 1.0;
-        s.opacity = 1.0;
         s.primitive = hit.primitive;
-        s.valid |= SURFACE_PRIMITIVE;
+        s.valid |= SURFACE_MATERIAL | SURFACE_PRIMITIVE;
         return s;
     }
+    Surface s = stored_surface(words.yz, ray, hit.t, position_error);
     stored_set_terms(s, words.x);
+    if (s.transmission > 0.0) {
+        float index = round(s.opacity * 255.0);
+        bool thin = index > VOXEL_INDEX_LAST;
+        s.ior = thin ? s.ior : 1.0 + (index - 1.0) / VOXEL_INDEX_STEPS;
+        s.thickness = thin ? 0.0 : 1.0;
+        s.opacity = 1.0;
+    }
     return s;
 }
 

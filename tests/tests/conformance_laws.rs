@@ -92,7 +92,7 @@ fn thickness_closes_the_gaps_by_its_share() {
     let per_cell = 5.0 * 2.0 / RESOLUTION as f32;
     for (share, found) in [(0.5, 0.75), (1.1, 1.0)] {
         let config =
-            Config { accept: Accept::Thickness, thickness: share * per_cell, ..interval(RESOLUTION) };
+            Config { accept: Accept::Thickness, thickness: Some(share * per_cell), ..interval(RESOLUTION) };
         let missed = run(&bench, config, &prepared).confusion.missed;
         // Depth a cell varies by 4 % over the depths kept.
         assert_rate("thickness", missed, 1.0 - found, 0.03);

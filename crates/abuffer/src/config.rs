@@ -32,8 +32,10 @@ pub struct Config {
     pub samples: u32,
     /// When a fragment counts.
     pub accept: Accept,
-    /// Metres; only for [`Accept::Thickness`].
-    pub thickness: f32,
+    /// Metres; only for [`Accept::Thickness`]. Where absent half the width of a step of the march at the farthest
+    /// geometry: `f / n` for `n` cells a side, or samples a face where these are fewer, and `f` the largest
+    /// coordinate of the geometry relative to the eye; of a camera's view with wider cells accordingly.
+    pub thickness: Option<f32>,
     /// What a fragment carries.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
@@ -73,7 +75,7 @@ impl Config {
             march: March::Exact,
             samples: 100,
             accept: Accept::Plane,
-            thickness: 0.0,
+            thickness: None,
             payload: Payload::Index,
             ids: false,
             coverage: Coverage::Exact,
@@ -87,12 +89,12 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: 100 samples a face, half-open depth intervals, quantised
+    /// The paper's approximations: 100 samples a face, fragments as voxels of one thickness, quantised
     /// attributes, the rasterizer's own coverage.
     pub fn published(resolution: u32) -> Self {
         Self {
             march: March::Samples,
-            accept: Accept::Interval,
+            accept: Accept::Thickness,
             payload: Payload::Attributes,
             coverage: Coverage::Hardware,
             ..Self::robust(resolution)
@@ -125,10 +127,11 @@ impl Config {
         // A dispatch that resumes a search counts its cell before it reads an entry.
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 2, u32::MAX, "2 units or more a dispatch, or rays make no progress")?;
-        if !(self.thickness >= 0.0 && self.thickness.is_finite()) {
+        let thickness = self.thickness.unwrap_or(0.0);
+        if !(thickness >= 0.0 && thickness.is_finite()) {
             return Err(AdsError::Option {
                 option: "thickness",
-                value: self.thickness.to_string(),
+                value: thickness.to_string(),
                 expected: "a finite length in metres, 0 or more",
             });
         }
@@ -282,7 +285,8 @@ impl Config {
             options.push(("samples", self.samples.to_string()));
         }
         if self.accept == Accept::Thickness {
-            options.push(("thickness", self.thickness.to_string()));
+            let thickness = self.thickness.map_or_else(|| "auto".to_owned(), |metres| metres.to_string());
+            options.push(("thickness", thickness));
         }
         options
     }

@@ -14,7 +14,7 @@ use crate::layout::{
     Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
     widest_view,
 };
-use crate::{Accept, Builder, Config, Contents, Header, Storage};
+use crate::{Builder, Config, Contents, Header, March, Storage};
 
 /// A multiview, multilayer A-buffer.
 #[derive(Debug)]
@@ -119,12 +119,15 @@ impl ABuffer {
         let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
         let triangle_rounding =
             if config.has_fringe() { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
-        // Planes stand for all that is in their cell, so they are met up to a cell beyond the geometry.
-        let margin = match config.accept {
-            _ if config.tests_triangles() => triangle_rounding,
-            Accept::Slope | Accept::Plane => rounding + widest * farthest,
-            Accept::Interval | Accept::Thickness => rounding,
+        // Planes and depths stand for all that is in their cell, so they are met up to a cell beyond the geometry. A
+        // ray that ended at the bounds would not come behind what lies on them.
+        let margin = if config.tests_triangles() { triangle_rounding } else { rounding + widest * farthest };
+        // Half as deep as a ray moves sideways from one look at lists to the next, where steps are widest.
+        let step = match config.march {
+            March::Samples => widest.max(2.0 / config.samples as f32),
+            March::Dda | March::Exact | March::Pyramid => widest,
         };
+        let thickness = config.thickness.unwrap_or(0.5 * step * farthest);
         let cells = (faces as f32).max(camera_cells);
         // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be
         // lost the march needs more, and what a ray meets outside of the near box is not behind the eye.
@@ -140,7 +143,7 @@ impl ABuffer {
             long_capacity: long_capacity(config, self.pools.sizes()) as u32,
             resolution: self.config.resolution,
             samples: self.config.samples,
-            thickness: self.config.thickness,
+            thickness,
             near_size,
             eye,
             lower: lower.map(|x| x - margin),

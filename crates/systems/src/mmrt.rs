@@ -59,7 +59,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "buckets" => config.buckets = given.number()?,
             "samples" => config.samples = given.number()?,
             "capacity" => config.fragments = Some(given.number()?.into()),
-            "thickness" => config.thickness = given.length()?,
+            "thickness" => config.thickness = Some(given.length()?),
             "single-layer" => config.single_layer = given.switch()?,
             "sort" => config.sort = given.switch()?,
             "skip" => config.skip = given.switch()?,

@@ -10,7 +10,6 @@ const LEANING: &str =
 const CENTRE: &str = "t is that of a fragment at its cell's centre, in a triangle that holds the eye";
 const SEAM: &str = "rays along the seams of three views, where neither may cover a cell's centre";
 const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is passed by";
-const LEAKS: &str = "corners of a closed box, at which a sample's depths leave a gap";
 
 /// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to
 /// others. Where that allows half of them or more, nothing is demanded of ambiguous ones.
@@ -32,7 +31,6 @@ const DEVIATIONS: &[(&str, Deviation)] = &[
     ("dirt-published-64", deviation("V6", PASSED, 0.08, 0.16)),
     ("dirt-published-hardware-128", deviation("P9", PASSED, 0.47, 0.72)),
     ("dirt-published-hardware-128", deviation("P6", PASSED, 0.1, 0.16)),
-    ("mmrt-published-128", deviation("P6", LEAKS, 0.03, 0.14)),
 ];
 
 /// The least and the largest share of ambiguous rays that a row may answer inadmissibly on a case where
