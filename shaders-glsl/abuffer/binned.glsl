@@ -51,9 +51,16 @@ bool bin_begin(uint primitive, uint place, out Bin bin) {
     if (ABUFFER_HAS_FRINGE) {
         margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
     }
-    bool any_cell = coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper);
+    if (!coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper)) {
+        return false;
+    }
+    ivec2 lower;
+    ivec2 upper;
+    abuffer_view_cells(abuffer_built, bin.view, lower, upper);
+    bin.lower = max(bin.lower, lower);
+    bin.upper = min(bin.upper, upper);
     bin.many = bin_is_many(bin.lower, bin.upper);
-    return any_cell;
+    return all(lessThanEqual(bin.lower, bin.upper));
 }
 
 void bin_visit(Bin bin, ivec2 place) {

@@ -26,8 +26,8 @@ void name_long(uint list) {
 
 // Threads side by side have lists side by side.
 void sort_linked(uint group, uint count) {
-    uint first = group * ABUFFER_GROUP_SIZE * ABUFFER_SORT_LISTS + gl_LocalInvocationID.x;
-    uint left_over = abuffer_sort_several(abuffer_built, first, ABUFFER_GROUP_SIZE, count);
+    uint first = group * ABUFFER_GROUP_SIZE * NODE_SORT_LISTS + gl_LocalInvocationID.x;
+    uint left_over = linked_sort_several(abuffer_built, first, ABUFFER_GROUP_SIZE, count);
     while (left_over != 0u) {
         name_long(first + uint(findLSB(left_over)) * ABUFFER_GROUP_SIZE);
         left_over &= left_over - 1u;
@@ -47,7 +47,7 @@ void main() {
     } else if (ABUFFER_CONTIGUOUS) {
         uint progress = 0u;
         if (thread < abuffer_list_count(abuffer_built)
-            && abuffer_sort_contiguous(abuffer_built, thread, ABUFFER_SORT_LIMIT, ABUFFER_SORT_STEPS, progress) != SORT_DONE) {
+            && abuffer_sort_contiguous(abuffer_built, thread, NODE_SORT_LIMIT, NODE_SORT_STEPS, progress) != SORT_DONE) {
             name_long(thread);
         }
     } else {

@@ -21,17 +21,17 @@ void main() {
     uint word = abuffer_long_word(abuffer_built, place);
     uint list = ABUFFER_SCRATCH(abuffer_built)[word];
     uint progress = ABUFFER_SCRATCH(abuffer_built)[word + 1u];
-    if (progress == ABUFFER_LONG_DONE) {
+    if (progress == LONG_LIST_DONE) {
         return;
     }
     uint result = SORT_DONE;
     if (ABUFFER_CONTIGUOUS) {
-        result = abuffer_sort_contiguous(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS, progress);
+        result = abuffer_sort_contiguous(abuffer_built, list, NODE_SORT_LONG_LIMIT, LONG_LIST_STEPS, progress);
     } else {
-        result = abuffer_sort_linked(abuffer_built, list, ABUFFER_LONG_LIMIT, ABUFFER_LONG_STEPS);
+        result = linked_sort(abuffer_built, list, NODE_SORT_LONG_LIMIT, LONG_LIST_STEPS);
     }
-    ABUFFER_SCRATCH(abuffer_built)[word + 1u] = result == SORT_DONE ? ABUFFER_LONG_DONE : progress;
-    if (result != SORT_DONE && build_round == ABUFFER_LONG_ROUNDS - 1u) {
+    ABUFFER_SCRATCH(abuffer_built)[word + 1u] = result == SORT_DONE ? LONG_LIST_DONE : progress;
+    if (result != SORT_DONE && build_round == LONG_LIST_ROUNDS - 1u) {
         atomicAdd(ABUFFER_HEADER(abuffer_built).unsorted, 1u);
     }
 }

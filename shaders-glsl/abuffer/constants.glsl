@@ -57,27 +57,8 @@
 #define ABUFFER_STORAGE_SB 4u
 #define ABUFFER_STORAGE_PAGED 5u
 
-// Longest list that the reorder pass sorts at once, and steps that suffice for it, which is merged ten times.
-// Longer lists are sorted a share a dispatch.
-#define ABUFFER_SORT_LIMIT 1024u
-#define ABUFFER_SORT_STEPS 24000u
-
-// Linked lists that one thread of the pass sorts, within the same steps; most have a node or none. 32 at most.
-#define ABUFFER_SORT_LISTS 16u
-
-// Longest list that the dispatches for long lists sort; longer ones stay unordered and are counted.
-#define ABUFFER_LONG_LIMIT 19000u
-
-// Those dispatches, and the steps of a list in each. Drivers may end all loops of an invocation after 65,535
-// iterations: a list of ABUFFER_LONG_LIMIT is counted and merged once within the steps, and 15 times in all.
-#define ABUFFER_LONG_ROUNDS 16u
-#define ABUFFER_LONG_STEPS 60000u
-
 // A contiguous list of more nodes than this is searched for the depth to begin at.
 #define ABUFFER_SEEK_LENGTH 16u
-
-// What the record of a long list says once it is sorted.
-#define ABUFFER_LONG_DONE 0xFFFFFFFFu
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell at that depth. More closes
 // gaps between triangles smaller than a cell, less keeps planes seen edge-on out of the way.

@@ -16,6 +16,9 @@ bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell,
     uint resolution = abuffer_resolution(abuffer_built, view);
     ivec2 place = abuffer_place(frag_coord);
     cell = abuffer_cell(abuffer_built, view, place);
+    if (cell >= abuffer_cell_count(abuffer_built)) {
+        return false;
+    }
     vec3 a;
     vec3 b;
     vec3 c;

@@ -78,11 +78,6 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         }
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
         last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
-        if (!ABUFFER_HAS_EXTENT) {
-            // The scale is computed anew by each stage, so a fragment may lie one bucket off.
-            first = first - min(first, 1u);
-            last = min(last + 1u, ABUFFER_BUCKETS - 1u);
-        }
     }
     // Bounds that are no numbers must not lead beyond the lists of the cell.
     first = min(first, ABUFFER_BUCKETS - 1u);

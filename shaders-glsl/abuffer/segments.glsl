@@ -35,10 +35,13 @@ vec2 abuffer_camera_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 cli
     vec3 o = abuffer_view_from_world(s, origin, ABUFFER_CAMERA);
     vec3 d = abuffer_view_from_world(s, direction, ABUFFER_CAMERA);
     vec2 interval = clip;
+    // x/z and y/z at the pyramid's sides.
+    vec2 ends = vec2(abuffer_camera_cells(s)) / float(abuffer_resolution(s, ABUFFER_CAMERA));
     for (int side = 0; side < 4; side++) {
         float turn = (side & 1) != 0 ? -1.0 : 1.0;
-        float value = o.z + turn * (side < 2 ? o.x : o.y);
-        float slope = d.z + turn * (side < 2 ? d.x : d.y);
+        float end = side < 2 ? ends.x : ends.y;
+        float value = end * o.z + turn * (side < 2 ? o.x : o.y);
+        float slope = end * d.z + turn * (side < 2 ? d.x : d.y);
         if (slope > 0.0) {
             interval.x = max(interval.x, -value / slope);
         } else if (slope < 0.0) {

@@ -6,7 +6,7 @@
 
 #include "abuffer/exchange.glsl"
 #include "abuffer/lists.glsl"
-#include "abuffer/sort.glsl"
+#include "ads/sort.glsl"
 
 // The list that is being sorted: the functions of the shared sort know elements by their number.
 AbufferRef sort_structure;

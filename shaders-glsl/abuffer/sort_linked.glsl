@@ -1,180 +1,32 @@
-// What: sorts a linked list in place by merging the ascending runs it consists of, two and two, until one is left.
+// What: the linked lists of an A-buffer for the shared sort.
 // Reads, writes: lists, nodes.
-// Source: MMRT section 3.3, reorder pass; Knuth 1998, section 5.2.4, natural merges. The paper's private array, whose
-// length cut longer lists short, is not needed: only links change.
-// Everything is one loop of bounded length: drivers may end all loops of an invocation after 65,535 iterations,
-// and invocations that run side by side pay for the longest of each loop.
+// Source: MMRT section 3.3, reorder pass.
 #ifndef ABUFFER_SORT_LINKED_GLSL
 #define ABUFFER_SORT_LINKED_GLSL
 
 #include "abuffer/lists.glsl"
-#include "abuffer/sort.glsl"
 
-// One pass over a list that merges neighbouring runs.
-struct AbufferMerge {
-    uint left;            // the rest of two runs that are being merged
-    uint right;
-    bool left_ended;
-    bool right_ended;
-    uint head;            // of what has been merged
-    uint tail;
-    uint runs;            // pairs begun
-    bool finding;         // where the left run ends is still being looked for
-    uint at;              // its last node so far
-};
+#define SortRef AbufferRef
+#define LINKED_DOUBLY ABUFFER_DOUBLY
 
-void abuffer_merge_pair(uint begin, inout AbufferMerge merge) {
-    merge.left = begin;
-    merge.at = begin;
-    merge.finding = true;
-    merge.left_ended = false;
-    merge.right_ended = false;
-    merge.runs++;
-}
+uint linked_next(AbufferRef s, uint link) { return abuffer_next(s, link); }
 
-void abuffer_merge_begin(uint head, inout AbufferMerge merge) {
-    merge.head = 0u;
-    merge.tail = 0u;
-    merge.runs = 0u;
-    abuffer_merge_pair(head, merge);
-}
+void linked_set_next(AbufferRef s, uint link, uint next) { abuffer_set_next(s, link, next); }
 
-// Moves the first node of one of the two runs behind what has been merged.
-void abuffer_merge_take(AbufferRef s, inout AbufferMerge merge) {
-    bool take_left = merge.right_ended || (!merge.left_ended && abuffer_comes_first(s, merge.left, merge.right));
-    uint taken = take_left ? merge.left : merge.right;
-    uint next = abuffer_next(s, taken);
-    if (take_left) {
-        merge.left_ended = taken == merge.at;
-        merge.left = next;
-    } else {
-        merge.right_ended = next == 0u || !abuffer_comes_first(s, taken, next);
-        merge.right = next;
-    }
-    if (merge.tail == 0u) {
-        merge.head = taken;
-    } else {
-        abuffer_set_next(s, merge.tail, taken);
-    }
-    if (ABUFFER_DOUBLY) {
-        abuffer_set_prev(s, taken, merge.tail);
-    }
-    merge.tail = taken;
-}
+void linked_set_prev(AbufferRef s, uint link, uint prev) { abuffer_set_prev(s, link, prev); }
 
-// Nodes of a list; of a longer one than `limit` one more than that.
-uint abuffer_sort_count(AbufferRef s, uint list, uint limit) {
-    uint count = 0u;
-    uint link = ABUFFER_LISTS(s)[abuffer_head_word(list)];
-    while (link != 0u && count <= limit) {
-        link = abuffer_next(s, link);
-        count++;
-    }
-    return count;
-}
+bool linked_comes_first(AbufferRef s, uint left, uint right) { return abuffer_comes_first(s, left, right); }
 
-void abuffer_sort_begin(AbufferRef s, uint list, inout AbufferMerge merge) {
-    abuffer_merge_begin(ABUFFER_LISTS(s)[abuffer_head_word(list)], merge);
-}
+uint linked_head(AbufferRef s, uint list) { return ABUFFER_LISTS(s)[abuffer_head_word(list)]; }
 
-// Steps that suffice for a list: each pass finds the ends of runs and moves nodes, and halves the runs.
-uint abuffer_sort_cost(uint count) {
-    return count < 2u ? 0u : (uint(findMSB(count - 1u)) + 1u) * (2u * count + 2u);
-}
-
-// One step of the sorting of a list of two nodes and more. Between passes the list is whole.
-uint abuffer_sort_step(AbufferRef s, uint list, inout AbufferMerge merge) {
-    if (merge.finding) {
-        uint next = abuffer_next(s, merge.at);
-        if (next != 0u && abuffer_comes_first(s, merge.at, next)) {
-            merge.at = next;
-            return SORT_MORE;
-        }
-        merge.finding = false;
-        merge.right = next;
-        merge.right_ended = next == 0u;
-        // A single run: the list is sorted, and its backward links are taken along.
-        return merge.right_ended && merge.runs == 1u && !ABUFFER_DOUBLY ? SORT_DONE : SORT_MORE;
-    }
-    abuffer_merge_take(s, merge);
-    if (!merge.left_ended || !merge.right_ended) {
-        return SORT_MORE;
-    }
-    // What follows both runs stands behind the right one, or nothing where there was none.
-    if (merge.right != 0u) {
-        abuffer_merge_pair(merge.right, merge);
-        return SORT_MORE;
-    }
-    abuffer_set_next(s, merge.tail, 0u);
+void linked_set_ends(AbufferRef s, uint list, uint head, uint tail) {
     uint word = abuffer_head_word(list);
-    ABUFFER_LISTS(s)[word] = merge.head;
+    ABUFFER_LISTS(s)[word] = head;
     if (ABUFFER_DOUBLY) {
-        ABUFFER_LISTS(s)[word + 1u] = merge.tail;
+        ABUFFER_LISTS(s)[word + 1u] = tail;
     }
-    if (merge.runs == 1u) {
-        return SORT_DONE;
-    }
-    abuffer_merge_begin(merge.head, merge);
-    return SORT_PASSED;
 }
 
-// Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than
-// `limit` nodes stay as they are.
-uint abuffer_sort_linked(AbufferRef s, uint list, uint limit, uint steps) {
-    uint count = abuffer_sort_count(s, list, limit);
-    if (count > limit) {
-        return SORT_TOO_LONG;
-    }
-    if (count < 2u) {
-        return SORT_DONE;
-    }
-    AbufferMerge merge;
-    abuffer_sort_begin(s, list, merge);
-    for (uint i = count; i < steps; i++) {
-        uint result = abuffer_sort_step(s, list, merge);
-        if (result == SORT_DONE) {
-            return SORT_DONE;
-        }
-        // A pass finds the end of every other run and moves every node.
-        if (result == SORT_PASSED && i + 1u + 2u * count + 2u > steps) {
-            return SORT_MORE;
-        }
-    }
-    return SORT_MORE;
-}
-
-// Sorts the lists first, first + stride, ... that come before `end`, ABUFFER_SORT_LISTS at most. The set of
-// those that stay as they are, by bits: they are longer than ABUFFER_SORT_LIMIT, or ABUFFER_SORT_STEPS do not
-// suffice for them beside those before. That follows from the numbers of nodes alone, in whatever order they
-// stand.
-uint abuffer_sort_several(AbufferRef s, uint first, uint stride, uint end) {
-    uint waiting = 0u;
-    uint left_over = 0u;
-    uint reserved = 0u;
-    for (uint k = 0u; k < ABUFFER_SORT_LISTS; k++) {
-        uint list = first + k * stride;
-        uint count = list < end ? abuffer_sort_count(s, list, ABUFFER_SORT_LIMIT) : 0u;
-        if (count >= 2u) {
-            uint cost = abuffer_sort_cost(count);
-            bool taken = count <= ABUFFER_SORT_LIMIT && reserved + cost <= ABUFFER_SORT_STEPS;
-            reserved += taken ? cost : 0u;
-            waiting |= taken ? 1u << k : 0u;
-            left_over |= taken ? 0u : 1u << k;
-        }
-    }
-    // One loop for all of them, so that neighbours need not wait for each other's lists.
-    bool sorting = false;
-    uint list = 0u;
-    AbufferMerge merge;
-    for (uint i = 0u; i < ABUFFER_SORT_STEPS && (sorting || waiting != 0u); i++) {
-        if (!sorting) {
-            list = first + uint(findLSB(waiting)) * stride;
-            waiting &= waiting - 1u;
-            abuffer_sort_begin(s, list, merge);
-        }
-        sorting = abuffer_sort_step(s, list, merge) != SORT_DONE;
-    }
-    return left_over;
-}
+#include "ads/sort_linked.glsl"
 
 #endif

@@ -22,6 +22,8 @@ layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
+// Whether samples look at a place in their steps that is the ray's own.
+layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 
 // How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
 // trace are compiled once for each (permutations.txt) and hold one alone; elsewhere the options decide.
@@ -71,8 +73,8 @@ struct AbufferHeader {
     vec3 lower;           // bounds of the geometry relative to the eye, metres
     uint fragments;       // met by the build, ABUFFER_STORAGE_PAGED only
     vec3 upper;
-    uint camera_resolution; // cells a side of the camera's view, border not counted
-    vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into |x| <= z, |y| <= z
+    uint camera_cells;    // columns of the camera's view, border not counted, and from bit 16 on rows
+    vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into the middle of |x| <= z, |y| <= z
     vec3 camera_y;
     vec3 camera_z;
     uint lost;            // triangles with an area that no cell of any view keeps

@@ -1,16 +1,39 @@
 // What: the views of an A-buffer: the faces of a cube around the eye, what the camera at the eye sees, or both.
 // Reads: header. Writes: nothing.
-// Source: MMRT section 3.1. Every view is a pyramid |x| <= z, |y| <= z with a border of one cell; turning a
-// point into the camera's rounds, turning it into a face does not.
+// Source: MMRT section 3.1. Every face is a pyramid |x| <= z, |y| <= z with a border of one cell; the
+// camera's view is the middle of one, as wide or as high. Turning a point into it rounds, turning one into a face does not.
 #ifndef ABUFFER_VIEWS_GLSL
 #define ABUFFER_VIEWS_GLSL
 
 #include "abuffer/header.glsl"
 #include "ads/views.glsl"
 
-// Cells a side, border not counted.
+// Columns and rows of the camera's view, border not counted, both even or both odd.
+ivec2 abuffer_camera_cells(AbufferRef s) {
+    uint cells = ABUFFER_HEADER(s).camera_cells;
+    return ivec2(cells & 0xFFFFu, cells >> 16);
+}
+
+// Cells a side of the square around a view, border not counted.
 uint abuffer_resolution(AbufferRef s, uint view) {
-    return view == ABUFFER_CAMERA ? ABUFFER_HEADER(s).camera_resolution : ABUFFER_HEADER(s).resolution;
+    ivec2 cells = abuffer_camera_cells(s);
+    return view == ABUFFER_CAMERA ? uint(max(cells.x, cells.y)) : ABUFFER_HEADER(s).resolution;
+}
+
+// The first cell of the camera's view within its square.
+ivec2 abuffer_camera_first(AbufferRef s) {
+    ivec2 cells = abuffer_camera_cells(s);
+    return (ivec2(max(cells.x, cells.y)) - cells) / 2;
+}
+
+// The cells of a view within its square, border counted: all of a face, the middle ones of the camera.
+void abuffer_view_cells(AbufferRef s, uint view, out ivec2 lower, out ivec2 upper) {
+    lower = ivec2(-1);
+    upper = ivec2(ABUFFER_HEADER(s).resolution);
+    if (view == ABUFFER_CAMERA) {
+        lower += abuffer_camera_first(s);
+        upper = lower + 1 + abuffer_camera_cells(s);
+    }
 }
 
 // Common centre of the views. A function: with addresses, glslang does not end where precise expressions
@@ -41,7 +64,7 @@ float abuffer_cell_slope(AbufferRef s, uint view) {
     }
     // Rows are as long as the pyramid is narrow.
     float narrowest = min(length(ABUFFER_HEADER(s).camera_x), length(ABUFFER_HEADER(s).camera_y));
-    return 2.0 / (narrowest * float(ABUFFER_HEADER(s).camera_resolution));
+    return 2.0 / (narrowest * float(abuffer_resolution(s, view)));
 }
 
 // Cells of the cube, which come before those of the camera.
@@ -51,13 +74,23 @@ uint abuffer_cube_cells(AbufferRef s) {
 
 // Cells of all views.
 uint abuffer_cell_count(AbufferRef s) {
-    return abuffer_cube_cells(s) + (ABUFFER_HAS_CAMERA ? face_cells(ABUFFER_HEADER(s).camera_resolution) : 0u);
+    ivec2 camera = abuffer_camera_cells(s) + 2;
+    return abuffer_cube_cells(s) + (ABUFFER_HAS_CAMERA ? uint(camera.x * camera.y) : 0u);
 }
 
-// Running index of a cell of a view over all views.
+// Running index of a cell of a view over all views; abuffer_cell_count where the view has no such cell.
 uint abuffer_cell(AbufferRef s, uint view, ivec2 cell) {
-    uint index = cell_index(view == ABUFFER_CAMERA ? 0u : view, cell, abuffer_resolution(s, view));
-    return view == ABUFFER_CAMERA ? abuffer_cube_cells(s) + index : index;
+    if (view != ABUFFER_CAMERA) {
+        return cell_index(view, cell, ABUFFER_HEADER(s).resolution);
+    }
+    ivec2 lower;
+    ivec2 upper;
+    abuffer_view_cells(s, view, lower, upper);
+    if (any(lessThan(cell, lower)) || any(greaterThan(cell, upper))) {
+        return abuffer_cell_count(s);
+    }
+    ivec2 place = cell - lower;
+    return abuffer_cube_cells(s) + uint(place.y * (upper.x - lower.x + 1) + place.x);
 }
 
 #endif

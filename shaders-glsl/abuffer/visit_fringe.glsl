@@ -22,6 +22,10 @@ bool abuffer_fringe_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, u
 
 void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
     uint resolution = abuffer_resolution(abuffer_built, view);
+    uint cell = abuffer_cell(abuffer_built, view, place);
+    if (cell >= abuffer_cell_count(abuffer_built)) {
+        return;
+    }
     vec3 a;
     vec3 b;
     vec3 c;
@@ -37,7 +41,7 @@ void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
         && abuffer_fringe_keeps(primitive, a, b, c, place, resolution)) {
         // In a set of its own where the first one is being read.
         abuffer_mark(abuffer_built, primitive, abuffer_mark_sets() - 1u);
-        fringe_add(abuffer_built, abuffer_cell(abuffer_built, view, place), primitive, depths);
+        fringe_add(abuffer_built, cell, primitive, depths);
     }
 }
 

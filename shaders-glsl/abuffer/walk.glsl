@@ -61,7 +61,8 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
         abuffer_come_to(walk);
     } else {
         walk.samples = samples_begin(walk.origin, walk.direction, resolution, walk.segment.t_begin, walk.segment.t_end,
-            ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples);
+            ABUFFER_MARCH == ABUFFER_MARCH_DDA ? 0xFFFFu : ABUFFER_HEADER(s).samples,
+            ABUFFER_JITTER != 0u ? samples_jitter(origin, direction) : 0.5);
     }
 }
 

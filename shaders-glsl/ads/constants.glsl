@@ -18,6 +18,20 @@
 // and are counted.
 #define LONG_LIST_LIMIT 50000u
 
+// Longest list of nodes that is sorted in one dispatch, and steps that suffice for it, which is merged ten times.
+#define NODE_SORT_LIMIT 1024u
+#define NODE_SORT_STEPS 24000u
+
+// Linked lists that one thread sorts, within the same steps; most have a node or none. 32 at most.
+#define NODE_SORT_LISTS 16u
+
+// Longest list of nodes that the dispatches for longer ones sort: it is counted and merged once within LONG_LIST_STEPS,
+// and 15 times in all. Longer ones stay unordered and are counted.
+#define NODE_SORT_LONG_LIMIT 19000u
+
+// What stands for the progress of a list that is sorted.
+#define LONG_LIST_DONE 0xFFFFFFFFu
+
 // In the word of a brick: it lists nothing.
 #define BRICK_EMPTY 0x80000000u
 // Bricks that one step over empty ones crosses at most, its own included.

@@ -1,11 +1,12 @@
 // What: marches a segment in steps of equal length on the screen, as the MMRT paper does.
 // Reads, writes: nothing.
-// Source: MMRT section 3.4; McGuire and Mara 2014. Each sample tests one cell against the depths of
+// Source: MMRT section 3.4, with its jitter "using a fixed offset per ray"; McGuire and Mara 2014. Each sample tests one cell against the depths of
 // its step; cells between samples are not visited, which is the published approximation.
 // Steps are taken between fixed end points, 1/z being linear on the screen; nothing is accumulated.
 #ifndef ADS_MARCH_SAMPLES_GLSL
 #define ADS_MARCH_SAMPLES_GLSL
 
+#include "contract/random_words.glsl"
 #include "ads/views.glsl"
 
 struct SampleMarch {
@@ -17,10 +18,18 @@ struct SampleMarch {
     float t_end;
     uint resolution;
     uint count;           // samples
+    float offset;         // where in its step a sample looks, a share of it
 };
 
-// origin and direction are in face space; the segment lies in the face's pyramid.
-SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples) {
+// A share of a step that is a ray's own: a function of its bits.
+float samples_jitter(vec3 origin, vec3 direction) {
+    uvec3 words = random_words(uvec4(floatBitsToUint(origin), 0u)).xyz;
+    return random_unit(random_words(uvec4(words ^ floatBitsToUint(direction), 1u)).x);
+}
+
+// origin and direction are in face space; the segment lies in the face's pyramid. `jitter` is where samples look where
+// their steps are longer than a cell; else they look at the middle.
+SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples, float jitter) {
     SampleMarch m;
     vec3 p = origin + t_begin * direction;
     vec3 q = origin + t_end * direction;
@@ -34,7 +43,9 @@ SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_
     m.resolution = resolution;
     vec2 span = abs(m.place_end - m.place_begin);
     // A step is a cell of the longer axis, or more where the samples would not suffice.
-    m.count = uint(clamp(ceil(max(span.x, span.y)), 1.0, float(samples)));
+    float cells = ceil(max(span.x, span.y));
+    m.count = uint(clamp(cells, 1.0, float(samples)));
+    m.offset = cells > float(samples) ? jitter : 0.5;
     return m;
 }
 
@@ -48,7 +59,7 @@ float samples_t(SampleMarch m, float share) {
 // The cell of sample `i` and the t its step spans.
 void samples_cell(SampleMarch m, uint i, out ivec2 cell, out float t_in, out float t_out) {
     float step_share = 1.0 / float(m.count);
-    vec2 place = mix(m.place_begin, m.place_end, (float(i) + 0.5) * step_share);
+    vec2 place = mix(m.place_begin, m.place_end, (float(i) + m.offset) * step_share);
     cell = min(ivec2(place), ivec2(m.resolution) - 1);
     t_in = samples_t(m, float(i) * step_share);
     t_out = samples_t(m, float(i + 1u) * step_share);

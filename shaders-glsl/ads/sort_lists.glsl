@@ -15,8 +15,13 @@
 #include "ads/constants.glsl"
 #include "ads/heap_sort.glsl"
 
-// What stands for the progress of a list that is sorted.
-#define LONG_LIST_DONE 0xFFFFFFFFu
+// Names a list that is too long for a dispatch.
+void sort_name_long(SortRef s, uint list) {
+    uint place = sort_long_take(s);
+    if (place < sort_long_count(s)) {
+        sort_set_long(s, place, uvec2(list, 0u));
+    }
+}
 
 // Sorts a list, or names it where it is too long for a dispatch.
 void sort_list(SortRef s, uint list) {
@@ -28,10 +33,7 @@ void sort_list(SortRef s, uint list) {
         heap_sort(length);
         return;
     }
-    uint place = sort_long_take(s);
-    if (place < sort_long_count(s)) {
-        sort_set_long(s, place, uvec2(list, 0u));
-    }
+    sort_name_long(s, list);
 }
 
 // Sorts a share of the long list at a place.

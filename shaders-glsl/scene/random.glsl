@@ -5,6 +5,7 @@
 #ifndef SCENE_RANDOM_GLSL
 #define SCENE_RANDOM_GLSL
 
+#include "contract/random_words.glsl"
 #include "scene/constants.glsl"
 #include "scene/random_dimensions.glsl"
 
@@ -14,23 +15,6 @@
 // The seed of the whole image and its SAMPLER_*; scene/accessors.glsl answers them from the frame.
 uint random_seed();
 uint random_sampler();
-
-uvec4 random_words(uvec4 key) {
-    key = key * 1664525u + 1013904223u;
-    key.x += key.y * key.w;
-    key.y += key.z * key.x;
-    key.z += key.x * key.y;
-    key.w += key.y * key.z;
-    key ^= key >> 16;
-    key.x += key.y * key.w;
-    key.y += key.z * key.x;
-    key.z += key.x * key.y;
-    key.w += key.y * key.z;
-    return key;
-}
-
-// The upper 24 bits: a multiple of 2^-24 in [0, 1), exact in f32.
-float random_unit(uint bits) { return float(bits >> 8) * (1.0 / 16777216.0); }
 
 // Owen's scrambling of a number whose bits are in reverse: each is flipped by a hash of those below it.
 uint random_scramble_reversed(uint bits, uint seed) {

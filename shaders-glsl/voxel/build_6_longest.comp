@@ -1,4 +1,4 @@
-// What: how many fragments the longest list has, where lists are not sorted: so many entries a ray may have
+// What: how many fragments the longest list has, where lists are not bisected: so many entries a ray may have
 // to read at a time.
 // Reads: lists, fragments. Writes: header.longest.
 // Source: not in the papers, whose rays read lists to their ends however long that takes.

@@ -12,10 +12,28 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
     uint build_round;
 };
 
+// The same of a linked list: passes over it, as far as one dispatch goes.
+void sort_linked_share(uint place) {
+    uvec2 long_list = sort_long(voxel_built, place);
+    if (long_list.y == LONG_LIST_DONE) {
+        return;
+    }
+    uint result = linked_sort(voxel_built, long_list.x, NODE_SORT_LONG_LIMIT, LONG_LIST_STEPS);
+    sort_set_long(voxel_built, place, uvec2(long_list.x, result == SORT_DONE ? LONG_LIST_DONE : 0u));
+    if (result != SORT_DONE && build_round == LONG_LIST_ROUNDS - 1u) {
+        sort_count_unsorted(voxel_built);
+    }
+}
+
 void main() {
     uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (place < VOXEL_HEADER(voxel_built).long_demand
-        && VOXEL_HEADER(voxel_built).demand <= VOXEL_HEADER(voxel_built).capacity) {
+    if (place >= min(VOXEL_HEADER(voxel_built).long_demand, sort_long_count(voxel_built))
+        || VOXEL_HEADER(voxel_built).demand > VOXEL_HEADER(voxel_built).capacity) {
+        return;
+    }
+    if (voxel_contiguous()) {
         sort_long_list(voxel_built, place, build_round);
+    } else {
+        sort_linked_share(place);
     }
 }

@@ -1,8 +1,8 @@
 // What: reads the list of a cell for a point of a ray: how many fragments lie before it, and which one is
 // nearest to it.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2. Sorted lists are entered by bisection; others are read to their end, in
-// dispatches of bounded work. The order of a list has no influence on what is found.
+// Source: Hu et al. section 3.2. Sorted lists are entered by bisection, or read up to the point where
+// they are linked; others are read to their end, in dispatches of bounded work. The order of a list has no influence on what is found.
 #ifndef VOXEL_INSIDE_GLSL
 #define VOXEL_INSIDE_GLSL
 
@@ -89,7 +89,8 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk
             trace_log(STEP_CELL, walk.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
         }
     }
-    if (voxel_lists_sorted(s)) {
+    bool sorted = voxel_lists_sorted(s);
+    if (sorted && voxel_contiguous()) {
         uvec2 list = voxel_list(s, point.list);
         if (nearest) {
             walk.held = voxel_nearest_sorted(s, list, point.depth, state, work);
@@ -116,6 +117,10 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk
             voxel_hold_nearer(s, point.depth, place, z, walk.held, held_z);
         } else if (z < point.depth) {
             walk.odd = !walk.odd;
+        }
+        // In order, those that follow lie no nearer and not before the point.
+        if (sorted && z >= point.depth) {
+            break;
         }
     }
     return false;

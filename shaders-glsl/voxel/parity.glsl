@@ -2,7 +2,7 @@
 // being inside where an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
 // Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one a cell,
-// then bisection. As published it takes surfaces for closed, and a voxel for one smooth surface.
+// then bisection, which a ray that asks for any hit does without. As published it takes surfaces for closed, and a voxel for one smooth surface.
 // The order of fragments in their lists has no influence: it only says how many of them are read.
 #ifndef VOXEL_PARITY_GLSL
 #define VOXEL_PARITY_GLSL
@@ -109,8 +109,8 @@ bool voxel_next_step(VoxelRef s, vec2 stretch, inout VoxelWalk walk, inout Voxel
 
 // Goes on from the list that the walk's stage has read; false at the end of the voxel, or at the first
 // crossing that counts, which is the nearest.
-bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, inout VoxelWalk walk, inout VoxelSpan span,
-    inout TraceState state) {
+bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, bool any_hit, inout VoxelWalk walk,
+    inout VoxelSpan span, inout TraceState state) {
     if (walk.stage == VOXEL_STAGE_ENTER) {
         walk.inside = walk.odd;
         walk.stage = VOXEL_STAGE_STEP;
@@ -119,6 +119,12 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, inout Voxe
     if (walk.stage == VOXEL_STAGE_STEP) {
         if (walk.odd == walk.inside) {
             return voxel_next_step(s, stretch, walk, span);
+        }
+        // A ray that asks for any hit has it: the crossing lies between the points, and these between the ray's ends.
+        // Where fragments name a triangle it may be the one that the ray excludes.
+        if (any_hit && VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL) {
+            state.best = Hit(0.5 * (span.t_before + span.t_after), PRIMITIVE_UNKNOWN, 0.0, 0.0);
+            return false;
         }
         walk.stage = VOXEL_STAGE_HALVE;
         walk.halvings = 1u;
@@ -142,7 +148,7 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, inout Voxe
 }
 
 // Searches the walk's voxel in the walk's view. True if the work budget ended first.
-bool voxel_search_parity(VoxelRef s, Ray ray, inout VoxelWalk walk, inout TraceState state, inout uint work) {
+bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelWalk walk, inout TraceState state, inout uint work) {
     vec2 stretch = vec2(max(walk.voxels.t_in, ray.t_min), min(walk.voxels.t_out, ray.t_max));
     bool restored = walk.searching;
     if (!(stretch.x <= stretch.y) || !voxel_begin_cells(s, stretch, walk)) {
@@ -172,7 +178,7 @@ bool voxel_search_parity(VoxelRef s, Ray ray, inout VoxelWalk walk, inout TraceS
         if (voxel_read_list(s, point, nearest, walk, state, work)) {
             return true;
         }
-        more = voxel_next_stage(s, ray, stretch, point.depth, walk, span, state);
+        more = voxel_next_stage(s, ray, stretch, point.depth, any_hit, walk, span, state);
     }
     walk.searching = false;
     return false;

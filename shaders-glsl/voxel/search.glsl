@@ -58,7 +58,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     PlaneCell plane_cell = PlaneCell(vec3(0.0), 0.0, width, VOXEL_PLANE_REACH, true);
     if (!walk.in_list) {
         trace_log(STEP_LIST, index, max(cursor.link, 1u) - 1u, cursor.last, low, high);
-        if (sorted && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
+        if (sorted && voxel_contiguous() && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
             uint first = voxel_bisect(s, uvec2(cursor.link - 1u, cursor.last), low, state, work);
             cursor.link = first < cursor.last ? first + 1u : 0u;
         }

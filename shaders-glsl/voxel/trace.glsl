@@ -52,7 +52,7 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
                 continue;
             }
             bool paused = VOXEL_ACCEPT == VOXEL_ACCEPT_PLANE ? voxel_search(s, ray, stretch, any_hit, walk, state, work)
-                : voxel_search_parity(s, ray, walk, state, work);
+                : voxel_search_parity(s, ray, any_hit, walk, state, work);
             if (paused) {
                 voxel_save(walk, state);
                 return TRACE_PAUSED;

@@ -32,7 +32,7 @@ struct VoxelHeader {
     uint corrupted;       // lists that reached beyond the pool or came back to themselves
     uint resolution;      // cells a side of a view
     uint grid;            // voxels a side
-    uint longest;         // fragments of the longest list where lists are not sorted; all bits where that is not known
+    uint longest;         // fragments of the longest list where lists are not bisected; all bits where that is not known
     uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
     float cell;           // metres: side of a cell
     float voxel;          // metres: side of a voxel

@@ -70,7 +70,7 @@ fn both_builders_store_the_same_fragments() {
                 coverage,
                 accept,
                 views,
-                camera_resolution: resolution + 9,
+                camera_resolution: [resolution + 9, resolution],
                 addressing,
                 ..Config::robust(resolution)
             };

@@ -112,7 +112,7 @@ fn a_single_layer_is_the_nearest_of_all() {
                 builder,
                 addressing,
                 inline: index % 3 == 0,
-                camera_resolution: 41,
+                camera_resolution: [41, 30],
                 ..Config::robust(32)
             };
             let [all, kept] = compare(&bench, config, &geometry, None, EYE);
@@ -154,7 +154,7 @@ fn through_centres_a_single_layer_is_enough() {
     let mut expected: Option<Vec<[u32; 4]>> = None;
     for (storage, march) in Storage::ALL.into_iter().zip([March::Exact, March::Pyramid].into_iter().cycle()) {
         let all =
-            Config { storage, march, views: Views::Camera, camera_resolution: SIDE, ..Config::robust(SIDE) };
+            Config { storage, march, views: Views::Camera, camera_resolution: [SIDE; 2], ..Config::robust(SIDE) };
         let [of_all, of_single] = [false, true]
             .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None, EYE).0);
         let hits = |structure: &ABuffer, rays: &[Ray]| bench.trace(structure, rays).hits;

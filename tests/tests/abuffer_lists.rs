@@ -3,7 +3,7 @@
 use rasray_abuffer::{ABuffer, Config, Storage, well_formed};
 use rasray_ads::{BruteForce, Hit, PRIMITIVE_NONE, Ray, Structure};
 use rasray_gpu::Timing;
-use rasray_shaders_glsl::constants::abuffer::{ABUFFER_LONG_LIMIT, ABUFFER_SORT_LIMIT};
+use rasray_shaders_glsl::constants::ads::{NODE_SORT_LIMIT, NODE_SORT_LONG_LIMIT};
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -66,7 +66,7 @@ fn rays_between_layers(layers: usize, count: usize) -> Vec<Ray> {
 fn a_deep_cell_is_sorted_by_every_storage() {
     const LAYERS: usize = 5_000;
     const FRAGMENTS: u32 = 10_000;
-    const { assert!(FRAGMENTS > ABUFFER_SORT_LIMIT && FRAGMENTS < ABUFFER_LONG_LIMIT) };
+    const { assert!(FRAGMENTS > NODE_SORT_LIMIT && FRAGMENTS < NODE_SORT_LONG_LIMIT) };
     let bench = Bench::new();
     let triangles = layers(LAYERS);
     let rays = rays_between_layers(LAYERS, 200);
@@ -101,7 +101,7 @@ fn a_deep_cell_is_sorted_by_every_storage() {
 #[test]
 fn lists_that_one_thread_cannot_sort_together_are_sorted() {
     const LAYERS: u32 = 400;
-    const { assert!(3 * LAYERS < 2 * ABUFFER_SORT_LIMIT) };
+    const { assert!(3 * LAYERS < 2 * NODE_SORT_LIMIT) };
     let bench = Bench::new();
     let wide = |layer: u32| {
         let depth = layer_depth((layer * 157 % LAYERS) as usize);
@@ -123,7 +123,7 @@ fn lists_that_one_thread_cannot_sort_together_are_sorted() {
 /// More fragments in one linked list than the dispatches sort: it is counted, and hits are the same.
 #[test]
 fn a_list_beyond_the_limit_is_counted_and_searched_in_full() {
-    let layers_beyond = ABUFFER_LONG_LIMIT as usize / 2 + 100;
+    let layers_beyond = NODE_SORT_LONG_LIMIT as usize / 2 + 100;
     let bench = Bench::new();
     let triangles = layers(layers_beyond);
     let rays = rays_between_layers(layers_beyond, 60);

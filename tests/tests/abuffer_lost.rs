@@ -235,10 +235,11 @@ fn fringes_are_searched_to_their_end() {
     configs.push(Config { march: March::Pyramid, ..conservative });
     configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..conservative });
     configs.push(Config { sort: false, skip: false, ..conservative });
-    let with_camera = Config { views: Views::CubeCamera, camera_resolution: 21, ..conservative };
+    let with_camera = Config { views: Views::CubeCamera, camera_resolution: [21, 12], ..conservative };
     configs.push(with_camera);
     configs.push(Config { march: March::Pyramid, storage: Storage::Sb, ..with_camera });
-    configs.push(Config { resolution: 13, ..with_camera });
+    configs.push(Config { resolution: 13, camera_resolution: [5, 40], ..with_camera });
+    configs.push(Config { builder: Builder::Binning, camera_resolution: [30, 7], ..with_camera });
     configs.push(Config { work_budget: Some(3), ..conservative });
     configs.push(Config { work_budget: Some(17), march: March::Pyramid, ..conservative });
     for config in configs {

@@ -1,6 +1,6 @@
 //! The replay of one ray: its steps are the work that was counted, and they show where a hit was lost.
 
-use rasray_abuffer::{ABuffer, Config, Payload};
+use rasray_abuffer::{ABuffer, Accept, Config, Payload};
 use rasray_ads::{
     BruteForce, Counters, Geometry, Hit, PRIMITIVE_UNKNOWN, Ray, StepKind, Structure, TestVerdict, TraceMode,
 };
@@ -195,7 +195,8 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
     let robust =
         abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..Config::robust(RESOLUTION) });
     // Few samples leave cells out; depth intervals refuse fragments of slanted triangles.
-    let broken = [("interval", published()), ("4 samples", Config { samples: 4, ..published() })];
+    let interval = Config { accept: Accept::Interval, ..published() };
+    let broken = [("interval", interval), ("4 samples", Config { samples: 4, ..interval })];
     for (name, config) in broken {
         let structure = abuffer(&bench, &geometry, Config { counters: Counters::Steps, ..config });
         let hits = bench.trace(structure.as_ref(), &rays).hits;

@@ -6,7 +6,8 @@ use rasray_ads::{
     AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::abuffer::{ABUFFER_GROUP_SIZE, ABUFFER_LONG_ROUNDS, ABUFFER_SORT_LISTS};
+use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
+use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 
 use crate::layout::{cell_count, draws, long_capacity};
 use crate::{Config, Header, March, Storage};
@@ -139,7 +140,7 @@ impl Build {
             let sorted = match config.storage {
                 Storage::Paged => target.pools.sizes().elements("nodes"),
                 Storage::Sb => lists,
-                _ => lists.div_ceil(u64::from(ABUFFER_SORT_LISTS)),
+                _ => lists.div_ceil(u64::from(NODE_SORT_LISTS)),
             };
             target.compute_pass(
                 recorder,
@@ -150,7 +151,7 @@ impl Build {
                 readers,
             );
             let long = groups(long_capacity(config, target.pools.sizes()));
-            let (label, rounds) = ("abuffer/build_8_reorder_long", ABUFFER_LONG_ROUNDS);
+            let (label, rounds) = ("abuffer/build_8_reorder_long", LONG_LIST_ROUNDS);
             target.rounds_pass(recorder, label, &reorder.long, long, rounds, readers);
         }
         target.status_pass(recorder, "abuffer/build_9_status", &self.status);

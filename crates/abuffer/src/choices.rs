@@ -150,7 +150,7 @@ pub enum Views {
     /// Six faces of a cube around the eye: all that is around it.
     Cube,
     /// The same, and what the camera sees, with
-    /// [`Config::camera_resolution`](crate::Config::camera_resolution) cells a side.
+    /// [`Config::camera_resolution`](crate::Config::camera_resolution) columns and rows.
     CubeCamera,
     /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
     Camera,

@@ -11,8 +11,9 @@ pub struct Config {
     pub resolution: u32,
     /// Which views are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
     pub views: Views,
-    /// Cells a side of the camera's view, 1 to 8192, whatever its aspect; only for views with a camera.
-    pub camera_resolution: u32,
+    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. Of an even and an odd number
+    /// the smaller is made one larger ([`Config::camera_cells`]), so that the cells lie evenly around the axis.
+    pub camera_resolution: [u32; 2],
     /// How a cell's fragments are kept. Changes no hit.
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
@@ -30,6 +31,9 @@ pub struct Config {
     pub march: March,
     /// Most samples a face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
+    /// Where steps are longer than a cell, samples look at a place in them that is the ray's own, in place of the
+    /// middle; only for [`March::Samples`].
+    pub jitter: bool,
     /// When a fragment counts.
     pub accept: Accept,
     /// Metres; only for [`Accept::Thickness`]. Where absent half the width of a step of the march at the farthest
@@ -66,7 +70,7 @@ impl Config {
         Self {
             resolution,
             views: Views::Cube,
-            camera_resolution: resolution,
+            camera_resolution: [resolution; 2],
             storage: Storage::Dllb,
             inline: false,
             page: 4,
@@ -74,6 +78,7 @@ impl Config {
             single_layer: false,
             march: March::Exact,
             samples: 100,
+            jitter: false,
             accept: Accept::Plane,
             thickness: None,
             payload: Payload::Index,
@@ -89,11 +94,13 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: 100 samples a face, fragments as voxels of one thickness, quantised
-    /// attributes, the rasterizer's own coverage.
+    /// The paper's approximations: 100 samples a face with a jitter a ray, fragments as voxels of one thickness, quantised
+    /// attributes, the rasterizer's own coverage. The paper has a view of its camera as well: [`Views::CubeCamera`] with
+    /// the columns and rows of the image, where builds are told of a camera.
     pub fn published(resolution: u32) -> Self {
         Self {
             march: March::Samples,
+            jitter: true,
             accept: Accept::Thickness,
             payload: Payload::Attributes,
             coverage: Coverage::Hardware,
@@ -114,7 +121,9 @@ impl Config {
             }
         };
         range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
-        range("camera-resolution", self.camera_resolution, 1, 8192, "1 to 8192 cells a side")?;
+        for side in self.camera_resolution {
+            range("camera-resolution", side, 1, 8192, "1 to 8192 columns and rows")?;
+        }
         range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
         range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
@@ -180,6 +189,18 @@ impl Config {
     /// visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
+    }
+
+    /// Columns and rows of the camera's view, both even or both odd; border not counted.
+    pub fn camera_cells(&self) -> [u32; 2] {
+        let [columns, rows] = self.camera_resolution;
+        if columns % 2 == rows % 2 {
+            [columns, rows]
+        } else if columns < rows {
+            [columns + 1, rows]
+        } else {
+            [columns, rows + 1]
+        }
     }
 
     /// Whether cells keep triangles beside their centres.
@@ -250,6 +271,7 @@ impl Config {
             (20, self.views.number()),
             (21, u32::from(self.single_layer)),
             (22, u32::from(self.ids)),
+            (23, u32::from(self.jitter)),
         ]
     }
 
@@ -273,7 +295,8 @@ impl Config {
             options.push(("ids", switch(self.ids)));
         }
         if self.views.has_camera() {
-            options.push(("camera-resolution", self.camera_resolution.to_string()));
+            let [columns, rows] = self.camera_cells();
+            options.push(("camera-resolution", format!("{columns}x{rows}")));
         }
         if self.has_buckets() {
             options.push(("buckets", self.buckets.to_string()));
@@ -283,6 +306,7 @@ impl Config {
         }
         if self.march == March::Samples {
             options.push(("samples", self.samples.to_string()));
+            options.push(("jitter", switch(self.jitter)));
         }
         if self.accept == Accept::Thickness {
             let thickness = self.thickness.map_or_else(|| "auto".to_owned(), |metres| metres.to_string());

@@ -40,9 +40,10 @@ pub struct Header {
     pub fragments: u32,
     /// Upper corner of the geometry relative to the eye, metres.
     pub upper: [f32; 3],
-    /// Cells a side of the camera's view, border not counted.
-    pub camera_resolution: u32,
-    /// First row of the matrix that turns what the camera sees into `|x| <= z`, `|y| <= z`; zeros without a camera.
+    /// Columns of the camera's view, border not counted, and from bit 16 on its rows.
+    pub camera_cells: u32,
+    /// First row of the matrix that turns what the camera sees into the middle of `|x| <= z`, `|y| <= z`; zeros without
+    /// a camera.
     pub camera_x: [f32; 3],
     /// Second row.
     pub camera_y: [f32; 3],

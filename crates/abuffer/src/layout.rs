@@ -14,7 +14,8 @@ pub(crate) const POOLS: [&str; 8] =
 pub fn cell_count(config: &Config) -> u64 {
     let cells = |resolution: u32| (u64::from(resolution) + 2).pow(2);
     let cube = if config.views.has_cube() { 6 * cells(config.resolution) } else { 0 };
-    cube + if config.views.has_camera() { cells(config.camera_resolution) } else { 0 }
+    let [columns, rows] = config.camera_cells().map(|side| u64::from(side) + 2);
+    cube + if config.views.has_camera() { columns * rows } else { 0 }
 }
 
 /// Draws of all views: the faces of the cube, and the camera.
@@ -24,7 +25,8 @@ pub(crate) fn draws(config: &Config) -> Vec<ViewDraw> {
         draws.push(ViewDraw { side: config.resolution + 2, views: 6, first: 0 });
     }
     if config.views.has_camera() {
-        draws.push(ViewDraw { side: config.camera_resolution + 2, views: 1, first: ABUFFER_CAMERA });
+        let [columns, rows] = config.camera_cells();
+        draws.push(ViewDraw { side: columns.max(rows) + 2, views: 1, first: ABUFFER_CAMERA });
     }
     draws
 }
@@ -225,11 +227,12 @@ impl FormulaBytes {
 /// The page's formula. It follows the paper's table and does not look at [`plan`], so that the two
 /// check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
-    let (side, camera_side) = (u64::from(config.resolution + 2), u64::from(config.camera_resolution + 2));
+    let side = u64::from(config.resolution + 2);
+    let [columns, rows] = config.camera_cells().map(|side| u64::from(side) + 2);
     let cells = match config.views {
         Views::Cube => 6 * side * side,
-        Views::CubeCamera => 6 * side * side + camera_side * camera_side,
-        Views::Camera => camera_side * camera_side,
+        Views::CubeCamera => 6 * side * side + columns * rows,
+        Views::Camera => columns * rows,
     };
     let buckets = if config.single_layer { 1 } else { u64::from(config.buckets) };
     let unbounded = matches!(config.storage, Storage::Sb | Storage::Ll | Storage::Dll);
@@ -257,7 +260,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         blocks
     };
     let cube_blocks = if config.views == Views::Camera { 0 } else { blocks(6, side) };
-    let camera_blocks = if config.views == Views::Cube { 0 } else { blocks(1, camera_side) };
+    let camera_blocks = if config.views == Views::Cube { 0 } else { blocks(1, columns.max(rows)) };
     let bounded = if unbounded && !config.single_layer { cells } else { 0 };
     let single = if unbounded && config.single_layer { 8 * cells } else { 0 };
     let scale = if config.single_layer { 0 } else { scale };
@@ -328,7 +331,7 @@ mod tests {
                     views,
                     coverage,
                     builder,
-                    camera_resolution: 24,
+                    camera_resolution: [24, 15],
                     ..Config::robust(64)
                 };
                 let bytes = plan(&config, DEMAND).expect("options are in range").bytes();

@@ -108,12 +108,18 @@ impl ABuffer {
         let faces = if config.views.has_cube() { config.resolution } else { 0 };
         let (camera_rows, camera_stretch, camera_cells, camera_width) =
             camera.map_or_else(Default::default, |camera| {
-                let resolution = config.camera_resolution as f32;
-                let half = camera.half_width.max(camera.half_height);
+                let cells = config.camera_cells();
+                let side = cells[0].max(cells[1]) as f32;
+                let halves = [camera.half_width, camera.half_height];
+                let mut rows = camera.rows();
+                for axis in 0..2 {
+                    rows[axis] = rows[axis].map(|x| x * (cells[axis] as f32 / side));
+                }
+                let width = |axis: usize| 2.0 * halves[axis] / cells[axis] as f32;
                 // A point's place in the camera's view is also turned and stretched: twice the rounding, and
                 // narrow views more.
                 let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
-                (camera.rows(), stretch, stretch * resolution, 2.0 * half / resolution)
+                (rows, stretch, stretch * side, width(0).max(width(1)))
             });
         let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
         let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
@@ -137,6 +143,7 @@ impl ABuffer {
             4.8e-7 * cells * farthest
         };
         let [camera_x, camera_y, camera_z] = camera_rows;
+        let [columns, rows] = config.camera_cells();
         Ok(Header {
             capacity: self.pools.sizes().elements("nodes") as u32,
             near_capacity: self.pools.sizes().elements("near") as u32,
@@ -148,7 +155,7 @@ impl ABuffer {
             eye,
             lower: lower.map(|x| x - margin),
             upper: upper.map(|x| x + margin),
-            camera_resolution: if camera.is_some() { config.camera_resolution } else { 0 },
+            camera_cells: if camera.is_some() { columns | rows << 16 } else { 0 },
             camera_x,
             camera_y,
             camera_z,

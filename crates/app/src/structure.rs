@@ -49,10 +49,11 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8192))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<u32>,
-    /// With a camera among --views: cells along each side of its view; as --resolution if not given, 1 to 8192
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8192))]
+    /// With a camera among --views: columns and rows of its view, 1 to 8192 each, or one number for both; as
+    /// --resolution if not given
+    #[arg(long, value_name = "WxH", value_parser = crate::arguments::values::cells)]
     #[serde(rename = "camera-resolution", skip_serializing_if = "Option::is_none")]
-    pub camera_resolution: Option<u32>,
+    pub camera_resolution: Option<String>,
     /// Pixels along each side of a tile: lists are kept per tile, 1 to 64
     #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -138,6 +139,10 @@ pub struct StructureOptions {
     #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 65535))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
+    /// With --march samples: where steps are longer than a cell, each ray looks at a place of its own in them
+    #[arg(long, value_enum)]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jitter: Option<Switch>,
     /// When what a ray meets is a hit
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]

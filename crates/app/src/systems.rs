@@ -2,15 +2,19 @@
 //! options, and how options given once reach several systems.
 
 use crate::error::AppError;
-use crate::structure::{Payload, Preset, StructureOptions, SystemName};
+use crate::structure::{Payload, Preset, StructureOptions, SystemName, Views};
 use clap::ValueEnum;
 use rasray_scene::needs::{Integrator, Workload};
+use rasray_scene::{Camera, Projection};
 use rasray_systems::{SYSTEMS, Spec, System};
 use serde_json::Value;
 
 mod assigned;
 
 use assigned::Assigned;
+
+/// Most columns and rows of a camera's view.
+const CAMERA_LIMIT: u32 = 8192;
 
 /// A system with what was asked of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +45,25 @@ impl SystemConfig {
             let word = self.entry().occlusion_payload;
             self.options.payload =
                 word.map(|word| Payload::from_str(word, false).expect("a test looks it up"));
+        }
+        self
+    }
+
+    /// The same where a camera looks at the scene: published structures whose paper draws the camera's view draw it, a cell
+    /// a pixel of the image, unless views were given. A parallel projection has no such view.
+    #[must_use]
+    pub fn seen_by(mut self, camera: &Camera, width: u32, height: u32) -> Self {
+        let perspective = matches!(camera.projection, Projection::Perspective { .. });
+        if let Some(views) = self.entry().camera_views
+            && perspective
+            && self.preset == Preset::Published
+            && self.options.views.is_none()
+        {
+            self.options.views = Some(Views::from_str(views, false).expect("a test looks it up"));
+            if self.options.camera_resolution.is_none() {
+                let [columns, rows] = [width, height].map(|side| side.min(CAMERA_LIMIT));
+                self.options.camera_resolution = Some(format!("{columns}x{rows}"));
+            }
         }
         self
     }
@@ -283,6 +306,30 @@ mod tests {
         assert_eq!(plane.shortcoming(occlusion), None);
         let attributes = single(SystemName::Mmrt, Preset::Published, &given).expect("valid");
         assert_eq!(attributes.shortcoming(path), None);
+    }
+
+    #[test]
+    fn published_views_are_those_of_the_paper() {
+        let eye = glam::DVec3::new(0.0, 0.0, 4.0);
+        let camera = rasray_scene::default_view::camera_looking_at("", eye, glam::DVec3::ZERO, 1.0);
+        let plain = StructureOptions::default();
+        for name in SystemName::value_variants() {
+            for preset in [Preset::Robust, Preset::Published] {
+                let Ok(config) = single(*name, preset, &plain) else { continue };
+                let seen = config.clone().seen_by(&camera, 720, 480);
+                let views = entry(*name).camera_views.filter(|_| preset == Preset::Published);
+                assert_eq!(seen.options.views.as_ref().map(word).as_deref(), views);
+                assert_eq!(seen.options.camera_resolution.as_deref(), views.map(|_| "720x480"));
+                seen.spec().expect("the options go together");
+            }
+        }
+        assert_eq!(entry(SystemName::Mmrt).camera_views, Some("cube+camera"));
+        let published = single(SystemName::Mmrt, Preset::Published, &plain).expect("valid");
+        let parallel = Camera { projection: Projection::Orthographic { half_height: 1.0 }, ..camera.clone() };
+        assert_eq!(published.clone().seen_by(&parallel, 720, 480), published);
+        let given = StructureOptions { views: Some(Views::Cube), ..plain };
+        let given = single(SystemName::Mmrt, Preset::Published, &given).expect("valid");
+        assert_eq!(given.clone().seen_by(&camera, 720, 480), given);
     }
 
     #[test]

@@ -11,6 +11,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "brute-force",
     presets: &[Preset::Robust],
     occlusion_payload: None,
+    camera_views: None,
     options: &[],
     requirements: |_| Ok(Requirements::floor()),
     create: |spec, device, geometry, scene| {

@@ -11,6 +11,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "bvh",
     presets: &[Preset::Robust],
     occlusion_payload: None,
+    camera_views: None,
     options: &["builder", "leaf", "addressing"],
     requirements: |spec| Ok(Bvh::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| Ok(Box::new(Bvh::new(device, config(spec)?, geometry, scene)?)),

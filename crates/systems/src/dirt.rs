@@ -13,6 +13,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "ads-primitive",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
+    camera_views: None,
     options: &OPTIONS,
     requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
     create: |spec, device, geometry, scene| {

@@ -15,6 +15,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |spec| if keeps_triangles(spec) { "ads-primitive" } else { "voxel" },
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
+    camera_views: None,
     options: &voxel::OPTIONS,
     requirements: |spec| {
         Ok(if keeps_triangles(spec) {

@@ -11,6 +11,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "ldc",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
+    camera_views: None,
     options: &OPTIONS,
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {

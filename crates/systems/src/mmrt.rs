@@ -11,6 +11,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "abuffer",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: Some("normal"),
+    camera_views: Some("cube+camera"),
     options: &OPTIONS,
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
@@ -19,7 +20,7 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// Options by their names on the command line.
-const OPTIONS: [&str; 20] = [
+const OPTIONS: [&str; 21] = [
     "resolution",
     "buckets",
     "single-layer",
@@ -30,6 +31,7 @@ const OPTIONS: [&str; 20] = [
     "ids",
     "march",
     "samples",
+    "jitter",
     "accept",
     "thickness",
     "coverage",
@@ -60,6 +62,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "samples" => config.samples = given.number()?,
             "capacity" => config.fragments = Some(given.number()?.into()),
             "thickness" => config.thickness = Some(given.length()?),
+            "jitter" => config.jitter = given.switch()?,
             "single-layer" => config.single_layer = given.switch()?,
             "sort" => config.sort = given.switch()?,
             "skip" => config.skip = given.switch()?,
@@ -72,7 +75,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
             "inline" => config.inline = given.switch()?,
             "page" => config.page = given.number()?,
             "views" => config.views = given.choice(&Views::ALL.map(|views| (views.name(), views)))?,
-            "camera-resolution" => config.camera_resolution = given.number()?,
+            "camera-resolution" => config.camera_resolution = given.cells()?,
             "ids" => config.ids = given.switch()?,
             "payload" => {
                 config.payload = given.choice(&Payload::ALL.map(|payload| (payload.name(), payload)))?;
@@ -101,7 +104,7 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
         }
     }
     if !spec.options().contains_key("camera-resolution") {
-        config.camera_resolution = config.resolution;
+        config.camera_resolution = [config.resolution; 2];
     }
     config.validate()?;
     Ok(config)

@@ -30,6 +30,13 @@ impl<'a> Given<'a> {
         self.value.parse().map_err(|_| self.refused("a whole number is expected"))
     }
 
+    /// Columns and rows, or one number for both.
+    pub(crate) fn cells(&self) -> Result<[u32; 2], SystemsError> {
+        let (columns, rows) = self.value.split_once('x').unwrap_or((self.value, self.value));
+        let side = |text: &str| text.parse().map_err(|_| self.refused("write columns x rows, such as 720x480"));
+        Ok([side(columns)?, side(rows)?])
+    }
+
     /// A length in metres.
     pub(crate) fn length(&self) -> Result<f32, SystemsError> {
         self.value.parse().map_err(|_| self.refused("a length in metres is expected"))

@@ -13,6 +13,7 @@ pub(crate) const SYSTEM: System = System {
     structure: |_| "voxel",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
+    camera_views: None,
     options: &voxel::OPTIONS,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {

@@ -38,6 +38,9 @@ pub struct System {
     /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
     /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,
+    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has a cell a pixel
+    /// (`camera-resolution`); absent where the paper draws none.
+    pub camera_views: Option<&'static str>,
     /// The structure that a spec traces, as crates and shaders name it.
     pub(crate) structure: fn(&Spec) -> &'static str,
     /// What a device must and may offer for a spec; also where a spec's values are checked.

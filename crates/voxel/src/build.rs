@@ -6,7 +6,7 @@ use rasray_ads::{
     AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
+use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
@@ -19,7 +19,7 @@ struct Lengths {
     scan: Scan,
 }
 
-/// What sorts contiguous lists.
+/// What sorts lists.
 #[derive(Debug)]
 struct Sort {
     all: ComputePipeline,
@@ -71,7 +71,7 @@ impl Build {
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
             store: visits.visit("build_raster", "build_5_store", variant)?,
             sort: config.sorts().then(sort).transpose()?,
-            longest: (!config.sorts()).then(|| pipelines.compute("build_6_longest")).transpose()?,
+            longest: (!config.bisects()).then(|| pipelines.compute("build_6_longest")).transpose()?,
             status: pipelines.compute("build_8_status")?,
         })
     }
@@ -116,7 +116,8 @@ impl Build {
             axes(recorder);
         }
         if let Some(sort) = &self.sort {
-            let (label, groups) = ("voxel/build_6_sort", lists.div_ceil(group));
+            let a_thread = if config.storage == Storage::Linked { u64::from(NODE_SORT_LISTS) } else { 1 };
+            let (label, groups) = ("voxel/build_6_sort", lists.div_ceil(group * a_thread));
             target.compute_pass(recorder, label, &sort.all, groups, 0, Access::COMPUTE);
             let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
             let (label, rounds) = ("voxel/build_7_sort_long", LONG_LIST_ROUNDS);

@@ -57,7 +57,7 @@ pub enum Coverage {
 /// How the lists of cells are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Fragments one behind the other: counted, then stored. Such lists can be sorted.
+    /// Fragments one behind the other: counted, then stored. Once sorted such lists can be bisected.
     Contiguous,
     /// Each fragment linked to the one before it in its list; stored at once.
     Linked,
@@ -129,7 +129,7 @@ pub struct Config {
     pub storage: Storage,
     /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Sort lists, so that a search can begin and end within; only for [`Storage::Contiguous`]. Changes no hit.
+    /// Sort lists, so that a search can begin and end within; not for [`Storage::Paged`]. Changes no hit.
     pub sort: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
@@ -166,7 +166,7 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, linked in one pass, what is shaded in each fragment, three steps
+    /// Hu et al.: everything in all views, linked in one pass and sorted, what is shaded in each fragment, three steps
     /// in a voxel, and parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
@@ -202,8 +202,13 @@ impl Config {
         self.voxels.unwrap_or(if one_pass { Marking::Fragments } else { Marking::Triangles })
     }
 
-    /// Whether lists are sorted: only those that lie one behind the other.
+    /// Whether lists are sorted: not those in pages.
     pub fn sorts(&self) -> bool {
+        self.sort && self.storage != Storage::Paged
+    }
+
+    /// Whether a search of a list is a few halvings, however long it is; else it may have to read all of it.
+    pub(crate) fn bisects(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
     }
 

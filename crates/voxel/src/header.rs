@@ -26,7 +26,7 @@ pub struct Header {
     pub resolution: u32,
     /// Voxels a side.
     pub grid: u32,
-    /// Fragments of the longest list where lists are not sorted; all bits set where that is not known.
+    /// Fragments of the longest list where lists are not bisected; all bits set where that is not known.
     pub longest: u32,
     /// Steps in a voxel.
     pub samples: u32,

@@ -76,7 +76,7 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
 /// and once those have been visited for two of each long list.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
     let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
-    let long = if config.storage == Storage::Contiguous { 2 * demand.long_lists } else { 0 };
+    let long = if config.sorts() { 2 * demand.long_lists } else { 0 };
     scan_words(config) + pairs.max(long)
 }
 
@@ -91,7 +91,7 @@ fn scan_words(config: &Config) -> u64 {
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
     let behind = sizes.elements("scratch").saturating_sub(scan_words(config));
-    if config.storage == Storage::Contiguous { behind / 2 } else { 0 }
+    if config.sorts() { behind / 2 } else { 0 }
 }
 
 /// Triangles with many cells that such pools have room for.
@@ -166,7 +166,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         Storage::Linked => (per_fragment + 4, 0),
         Storage::Paged => (4 + u64::from(config.page) * per_fragment, 0),
     };
-    let long = if config.storage == Storage::Contiguous { 8 * demand.long_lists } else { 0 };
+    let long = if config.sort && config.storage != Storage::Paged { 8 * demand.long_lists } else { 0 };
     let pairs = if config.builder == Builder::Binning { 4 * demand.pairs } else { 0 };
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },

@@ -234,7 +234,7 @@ impl Structure for Voxels {
 
     fn rounds(&self) -> u32 {
         // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
-        // not sorted at most so many as are as long as the longest: there each point of a parity reads one,
+        // not bisected at most so many as are as long as the longest: there each point of a parity reads one,
         // where a voxel is entered, the steps in it, halvings, and for the nearest.
         let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
         let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
@@ -243,10 +243,10 @@ impl Structure for Voxels {
             (Accept::Parity, March::Samples) => 1 + u64::from(self.config.samples),
             (Accept::Parity, March::Exact) => 2,
         };
-        let parity = self.config.accept == Accept::Parity && !self.config.sorts();
+        let parity = self.config.accept == Accept::Parity && !self.config.bisects();
         let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
         let triangles = self.geometry.triangle_count();
-        let longest = match self.config.sorts() {
+        let longest = match self.config.bisects() {
             true => triangles,
             // Before the first build the header may hold anything.
             false => self

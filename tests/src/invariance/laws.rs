@@ -80,6 +80,7 @@ pub const LAWS: &[Law] = &[
     may_change("ids", &["on", "off"]),
     may_change("march", &["samples", "dda", "exact", "pyramid", "jump"]),
     same_for_primitives("payload", &["index", "plane"]),
+    may_change("jitter", &["on", "off"]),
     may_change("samples", &["5"]),
     may_change("single-layer", &["on", "off"]),
     may_change("stop", &["best", "bucket"]),

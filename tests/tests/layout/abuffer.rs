@@ -35,7 +35,7 @@ fn records_of_the_abuffer() {
     ];
     check_layout!(modules, Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
-        thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_resolution,
+        thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_cells,
         camera_x, camera_y, camera_z, lost, triangles, fringe_demand, fringe_capacity, reach, rounding,
         pairs, pair_capacity, groups,
         bounds_address, lists_address, nodes_address, data_address, near_address, scratch_address,

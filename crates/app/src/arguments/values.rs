@@ -29,6 +29,19 @@ pub fn size(text: &str) -> Result<Size, String> {
     Ok(Size { width: side(width)?, height: side(height)? })
 }
 
+/// Reads `720x480`, or one number for both, and writes it as the first.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn cells(text: &str) -> Result<String, String> {
+    let (columns, rows) = text.split_once(['x', 'X']).unwrap_or((text, text));
+    let side = whole(1, 8192);
+    match (side(columns), side(rows)) {
+        (Ok(columns), Ok(rows)) => Ok(format!("{columns}x{rows}")),
+        _ => Err("write columns x rows from 1 to 8192 each, such as 720x480, or one number for both".to_owned()),
+    }
+}
+
 /// A parser of whole numbers from `least` to `most`.
 ///
 /// # Errors
@@ -106,6 +119,11 @@ mod tests {
     #[test]
     fn sizes() {
         assert_eq!(size("640x360"), Ok(Size { width: 640, height: 360 }));
+        assert_eq!(cells("720x480").as_deref(), Ok("720x480"));
+        assert_eq!(cells("64").as_deref(), Ok("64x64"));
+        for wrong in ["", "0", "x", "720x", "8193", "720x480x2", "-1x4"] {
+            assert!(cells(wrong).is_err(), "{wrong}");
+        }
         for bad in ["", "640", "640x", "x360", "0x10", "10x0", "-1x5", "99999x1", "1x2x3", "1.5x2"] {
             assert!(size(bad).is_err(), "{bad}");
         }

@@ -39,6 +39,7 @@ pub(crate) fn render(
     keep_inputs("--report", report_target.as_ref(), &given.scene)?;
 
     let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
+    let system = system.seen_by(&chosen.camera, frame.width, frame.height);
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let mut backend = open_device(open, &given.device)?;

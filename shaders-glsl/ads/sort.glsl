@@ -1,7 +1,7 @@
 // What: what a share of the sorting of a list says of it, and what a step.
 // Reads, writes: nothing.
-#ifndef ABUFFER_SORT_GLSL
-#define ABUFFER_SORT_GLSL
+#ifndef ADS_SORT_GLSL
+#define ADS_SORT_GLSL
 
 #define SORT_DONE 0u
 #define SORT_MORE 1u
