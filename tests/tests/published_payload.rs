@@ -129,8 +129,9 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
     (0..3).fold(0.0, |largest, i| (left[i] - right[i]).abs().max(largest))
 }
 
-/// What the paper stores for ambient occlusion is enough for it: hits and normals are those of all
-/// attributes, bit for bit, but for one ray in a thousand where fragments meet at one t.
+/// What the paper stores for ambient occlusion is enough for it: hits are those of all attributes, bit for bit, and so are
+/// normals but for one ray in a hundred where fragments meet at one t: a ray that enters a cell behind several of them
+/// within their thickness meets all of these where it enters.
 #[test]
 fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();
@@ -175,8 +176,10 @@ fn normals_alone_serve_ambient_occlusion() {
                 // Fragments at one t are told apart by their words, which are others.
                 Some((expected, mean_of_all)) => {
                     assert!((mean - mean_of_all).abs() < 1.0e-3, "{name}: {mean}, {mean_of_all} with all");
-                    let other = expected.iter().zip(&answers).filter(|(all, one)| all != one).count();
-                    assert!(other <= rays.len() / 1000, "{name}, {storage}: {other} other answers");
+                    let pairs = || expected.iter().zip(&answers);
+                    assert!(pairs().all(|(all, one)| (all.0, all.1) == (one.0, one.1)), "{name}, {storage}");
+                    let other = pairs().filter(|(all, one)| all != one).count();
+                    assert!(other <= rays.len() / 100, "{name}, {storage}: {other} other answers");
                 }
             }
             println!("{name}, {payload}, {storage}: {met} fragments, mean {mean}");
@@ -366,8 +369,10 @@ fn ids_name_triangles_and_change_nothing_else() {
             }
         }
         println!("{name}: {} of {} name the wall, {diagnostic} bytes", compared.1, compared.0);
-        // Where walls meet, a fragment may be a neighbour's.
-        assert!(compared.0 > 500 && compared.1 * 20 >= compared.0 * 19, "{name}: {compared:?}");
+        // Where walls meet, a fragment may be a neighbour's; more often where fragments are as thick as cells are wide.
+        let thick = *system == "mmrt" && !options.contains(&("accept", "plane"));
+        let least = if thick { 0.9 } else { 0.95 };
+        assert!(compared.0 > 500 && compared.1 as f64 >= least * compared.0 as f64, "{name}: {compared:?}");
     }
 }
 
