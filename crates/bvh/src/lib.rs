@@ -1,4 +1,4 @@
-//! Bounding volume hierarchies: the yardstick that structures in image space are held against, behind the
+//! Bounding volume hierarchies: the baseline that structures in image space are compared with, behind the
 //! same contract and with the same triangle test, so that hits are identical and only speed differs.
 //!
 //! Two builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected

@@ -1,4 +1,4 @@
-//! Every triangle for every ray: the judge, always present.
+//! Every triangle for every ray: what hits are checked against, always present.
 
 use rasray_ads::BruteForce;
 use rasray_gpu::Requirements;

@@ -1,4 +1,4 @@
-//! Bounding volume hierarchies: the yardstick.
+//! Bounding volume hierarchies: the baseline.
 
 use rasray_bvh::{Builder, Bvh, Config};
 

@@ -1,4 +1,4 @@
-//! Rows of the yardstick and of the judge.
+//! Rows of the baseline and of brute force.
 
 use super::row::{Cases, Row, Tier};
 
