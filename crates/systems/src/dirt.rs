@@ -52,7 +52,7 @@ const RESOLUTION: u32 = 256;
 const PUBLISHED_RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for, for a geometry of that many triangles.
-fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
+pub(crate) fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
     let lists = Given::all(spec).any(|given| given.name == "storage" && given.is_not("bricks"));
     let mut config = match spec.preset() {
         Preset::Robust if lists => Config::robust(RESOLUTION),

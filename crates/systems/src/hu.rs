@@ -39,7 +39,7 @@ fn keeps_triangles(spec: &Spec) -> bool {
 }
 
 /// The configuration that a spec stands for.
-fn config(spec: &Spec) -> Result<Config, SystemsError> {
+pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
         Preset::Robust => Config::robust(voxel::RESOLUTION),
         Preset::Published => voxel::of_the_paper(spec, Config::published_hu(PUBLISHED_RESOLUTION)),
@@ -68,21 +68,4 @@ fn bricks(spec: &Spec) -> Result<BricksConfig, SystemsError> {
     }
     config.validate()?;
     Ok(config)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn published_has_the_papers_sizes() {
-        let of = |options: &[(&str, &str)]| {
-            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-            let spec = Spec::new("hu", "published", options).expect("the options are valid");
-            let config = config(&spec).expect("the options are valid");
-            (config.resolution, config.grid())
-        };
-        assert_eq!(of(&[]), (1280, 64));
-        assert_eq!(of(&[("resolution", "512")]), (512, 39));
-    }
 }

@@ -48,7 +48,7 @@ const RESOLUTION: u32 = 512;
 const PUBLISHED_RESOLUTION: u32 = 1024;
 
 /// The configuration that a spec stands for.
-fn config(spec: &Spec) -> Result<Config, SystemsError> {
+pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
         Preset::Published => Config::published(PUBLISHED_RESOLUTION),
@@ -101,21 +101,4 @@ fn config(spec: &Spec) -> Result<Config, SystemsError> {
     }
     config.validate()?;
     Ok(config)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn published_has_the_papers_sizes() {
-        let of = |options: &[(&str, &str)]| {
-            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-            let spec = Spec::new("ldc", "published", options).expect("the options are valid");
-            let config = config(&spec).expect("the options are valid");
-            config.resolution
-        };
-        assert_eq!(of(&[]), 1024);
-        assert_eq!(of(&[("resolution", "512")]), 512);
-    }
 }

@@ -48,7 +48,7 @@ const OPTIONS: [&str; 21] = [
 const RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for.
-fn config(spec: &Spec) -> Result<Config, SystemsError> {
+pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
         Preset::Robust => Config::robust(RESOLUTION),
         Preset::Published => Config::published(RESOLUTION),

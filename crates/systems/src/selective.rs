@@ -22,27 +22,10 @@ pub(crate) const SYSTEM: System = System {
 };
 
 /// The configuration that a spec stands for.
-fn config(spec: &Spec) -> Result<Config, SystemsError> {
+pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let preset = match spec.preset() {
         Preset::Robust => Config { storage: Storage::Paged, ..Config::robust(voxel::RESOLUTION) },
         Preset::Published => voxel::of_the_paper(spec, Config::published_selective(PUBLISHED_RESOLUTION)),
     };
     voxel::config(spec, preset, Payload::Mirror)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn published_has_the_papers_sizes() {
-        let of = |options: &[(&str, &str)]| {
-            let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-            let spec = Spec::new("selective", "published", options).expect("the options are valid");
-            let config = config(&spec).expect("the options are valid");
-            (config.resolution, config.grid())
-        };
-        assert_eq!(of(&[]), (1024, 64));
-        assert_eq!(of(&[("resolution", "512")]), (512, 39));
-    }
 }

@@ -214,6 +214,36 @@ mod tests {
     }
 
     #[test]
+    fn published_has_the_papers_sizes() {
+        // Cells a side of a view, and voxels a side where the structure has them.
+        let sizes = |spec: &Spec| match spec.system().name {
+            "mmrt" => mmrt::config(spec).map(|config| (config.resolution, None)),
+            "dirt" => dirt::config(spec, 0).map(|config| (config.resolution, None)),
+            "hu" => hu::config(spec).map(|config| (config.resolution, Some(config.grid()))),
+            "selective" => selective::config(spec).map(|config| (config.resolution, Some(config.grid()))),
+            "ldc" => ldc::config(spec).map(|config| (config.resolution, None)),
+            other => panic!("{other}: a published preset whose sizes are not in this table"),
+        };
+        // Voxels follow a resolution that is not the paper's.
+        let papers = [
+            ("mmrt", (512, None), None),
+            ("dirt", (512, None), None),
+            ("hu", (1280, Some(64)), Some(39)),
+            ("selective", (1024, Some(64)), Some(39)),
+            ("ldc", (1024, None), None),
+        ];
+        let mut seen = Vec::new();
+        for system in SYSTEMS.iter().filter(|system| system.presets.contains(&Preset::Published)) {
+            let of = |options: &[(&str, &str)]| {
+                let spec = spec(system.name, "published", options).expect("the options are valid");
+                sizes(&spec).expect("the options are valid")
+            };
+            seen.push((system.name, of(&[]), of(&[("resolution", "512")])));
+        }
+        assert_eq!(seen, papers.map(|(name, paper, grid)| (name, paper, (512, grid))));
+    }
+
+    #[test]
     fn what_rays_record_and_spend_stays_with_more_options() {
         let given = spec("mmrt", "robust", &[("resolution", "24")]).expect("it is valid");
         let given = given.with_counters(Counters::PerRay).with_work_budget(40);
