@@ -7,16 +7,16 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 
-use crate::binding::SetLayouts;
 use crate::choose::{Candidate, DeviceSummary, candidates, choose};
 use crate::device_core::{Commands, Core, Identity};
 use crate::error::{During, GpuError, Result};
-use crate::features::{Feature, FeatureStructs, Requirements};
+use crate::features::{Feature, FeatureStructs, Missing, Requirements};
 use crate::instance::Instance;
 use crate::limits::Limits;
 use crate::memory::{Ledger, PooledMemory};
 use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
+use crate::set_layout::SetLayouts;
 
 /// How a device is chosen and made.
 #[derive(Debug, Clone)]
@@ -213,19 +213,12 @@ impl Device {
 
     /// Whether everything required is enabled and within its limits, asked before anything is made.
     pub fn supports(&self, requirements: &Requirements) -> bool {
-        self.lacks(requirements).is_empty()
+        self.missing(requirements).next().is_none()
     }
 
     /// What it lacks of what is required, each as words of an error message; nothing where all is there.
     pub fn lacks(&self, requirements: &Requirements) -> Vec<String> {
-        let features = requirements.required.iter().filter(|feature| !self.has(**feature));
-        let mut lacks: Vec<_> = features.map(|feature| feature.name().to_owned()).collect();
-        let limit = self.limits().max_storage_buffers_per_stage;
-        if requirements.storage_buffers > limit {
-            let needed = requirements.storage_buffers;
-            lacks.push(format!("{needed} storage buffers per shader stage (it has {limit})"));
-        }
-        lacks
+        self.missing(requirements).map(Missing::words).collect()
     }
 
     /// That everything `what` requires is enabled and within the device's limits.
@@ -234,20 +227,15 @@ impl Device {
     /// [`GpuError::FeatureNotEnabled`] for the first required feature that is not, [`GpuError::LimitExceeded`] for
     /// too many storage buffers.
     pub fn require(&self, what: &str, requirements: &Requirements) -> Result<(), GpuError> {
-        if let Some(&feature) = requirements.required.iter().find(|feature| !self.has(**feature)) {
-            return Err(GpuError::FeatureNotEnabled { feature, what: what.to_owned() });
-        }
+        self.missing(requirements).next().map_or(Ok(()), |missing| Err(missing.error(what)))
+    }
+
+    /// Features that are not enabled, then limits that are too small.
+    fn missing<'a>(&'a self, requirements: &'a Requirements) -> impl Iterator<Item = Missing> + 'a {
+        let lacking = |feature: &Feature| !self.has(*feature);
+        let features = requirements.required.iter().copied().filter(lacking).map(Missing::Feature);
         let (asked, limit) = (requirements.storage_buffers, self.limits().max_storage_buffers_per_stage);
-        if asked > limit {
-            let what_of = "the number of storage buffers that a shader stage uses";
-            return Err(GpuError::LimitExceeded {
-                name: what.to_owned(),
-                what: what_of,
-                asked: asked.into(),
-                limit: limit.into(),
-            });
-        }
-        Ok(())
+        features.chain((asked > limit).then_some(Missing::StorageBuffers { asked, limit }))
     }
 
     /// All enabled features.

@@ -7,7 +7,6 @@ use std::sync::{Arc, Mutex};
 
 use ash::vk;
 
-use crate::binding::SetLayouts;
 use crate::error::{GpuError, Result};
 use crate::features::Feature;
 use crate::instance::Instance;
@@ -15,6 +14,7 @@ use crate::limits::Limits;
 use crate::memory::{Allocation, Ledger, Memory};
 use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
+use crate::set_layout::SetLayouts;
 
 /// Commands that are core in Vulkan 1.3 and an extension before.
 pub(crate) struct Commands {

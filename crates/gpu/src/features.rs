@@ -5,6 +5,8 @@ use std::fmt;
 
 use ash::vk;
 
+use crate::error::GpuError;
+
 /// A capability of a device that must be asked for before it is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
@@ -184,6 +186,39 @@ impl Requirements {
         self.optional.retain(|(feature, _)| !required.contains(feature));
         self.storage_buffers = self.storage_buffers.max(other.storage_buffers);
         self
+    }
+}
+
+/// Something of [`Requirements`] that a device lacks.
+pub(crate) enum Missing {
+    /// A feature that is not enabled.
+    Feature(Feature),
+    /// More storage buffers than a shader stage can reach.
+    StorageBuffers { asked: u32, limit: u32 },
+}
+
+impl Missing {
+    /// What is lacking, as words of a message.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Self::Feature(feature) => feature.name().to_owned(),
+            Self::StorageBuffers { asked, limit } => {
+                format!("{asked} storage buffers per shader stage (it has {limit})")
+            }
+        }
+    }
+
+    /// The error of `what`, which cannot do without it.
+    pub(crate) fn error(self, what: &str) -> GpuError {
+        match self {
+            Self::Feature(feature) => GpuError::FeatureNotEnabled { feature, what: what.to_owned() },
+            Self::StorageBuffers { asked, limit } => GpuError::LimitExceeded {
+                name: what.to_owned(),
+                what: "the number of storage buffers that a shader stage uses",
+                asked: asked.into(),
+                limit: limit.into(),
+            },
+        }
     }
 }
 

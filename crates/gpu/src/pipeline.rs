@@ -4,57 +4,15 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::binding::{Mask, SetLayout};
 use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
+use crate::pipeline_desc::{ComputePipelineDesc, RasterOptions, RasterPipelineDesc};
 use crate::pipeline_store::{Made, Recipe};
+use crate::set_layout::{Mask, SetLayout};
 use crate::shader_stage::{Module, Specialisation};
 use crate::spirv::used_bindings;
-
-/// A compute pipeline to be made. The entry point is `main`.
-#[derive(Debug, Clone, Copy)]
-pub struct ComputePipelineDesc<'a> {
-    /// Name for errors and tools: the path of the shader.
-    pub name: &'a str,
-    /// The module, in words.
-    pub spirv: &'a [u32],
-    /// Layouts of sets 0 and up.
-    pub sets: &'a [&'a SetLayout],
-    /// Bytes of push constants, a multiple of 4.
-    pub push_constant_bytes: u32,
-    /// Specialisation constants: id, and bits of a 32-bit value (a boolean is 0 or 1).
-    pub constants: &'a [(u32, u32)],
-}
-
-/// A raster pipeline to be made. It draws triangle lists without attachments, vertex input or culling; what
-/// it produces is what its shaders store. Depth is 0 to 1, y is not flipped, viewport and scissor are dynamic.
-#[derive(Debug, Clone, Copy)]
-pub struct RasterPipelineDesc<'a> {
-    /// Name for errors and tools: the path of the shaders.
-    pub name: &'a str,
-    /// The vertex module, in words.
-    pub vertex_spirv: &'a [u32],
-    /// The fragment module, in words.
-    pub fragment_spirv: &'a [u32],
-    /// Layouts of sets 0 and up.
-    pub sets: &'a [&'a SetLayout],
-    /// Bytes of push constants, a multiple of 4; both stages see them.
-    pub push_constant_bytes: u32,
-    /// Specialisation constants of both stages, as in [`ComputePipelineDesc::constants`].
-    pub constants: &'a [(u32, u32)],
-}
-
-/// What a raster pipeline can do beyond the common case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub struct RasterOptions {
-    /// Cover every pixel a triangle touches; needs [`Feature::ConservativeRasterization`].
-    pub conservative: bool,
-    /// Views drawn at once, one bit each; 0 is off. Needs [`Feature::Multiview`] and
-    /// [`crate::RenderArea::view_mask`] of the same value.
-    pub view_mask: u32,
-}
 
 /// A compute pipeline. Clones are handles to the same pipeline.
 #[derive(Clone, Debug)]

@@ -8,9 +8,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
-use crate::binding::Mask;
 use crate::device_core::Core;
-use crate::pipeline::RasterOptions;
+use crate::pipeline_desc::RasterOptions;
+use crate::set_layout::Mask;
 
 /// Everything that a pipeline is made of but its name.
 #[derive(Debug, PartialEq, Eq, Hash)]
