@@ -34,8 +34,8 @@ pub(super) fn read(
                 Limits::check(path, "the number of vertices", element.count, limit, "vertices")?;
                 read_vertices(path, &mut body, element, &mut mesh)?;
             }
-            "face" => faces.read(path, &mut body, element, limits, &mut mesh)?,
-            "tristrips" => faces.read_strips(path, &mut body, element, limits, &mut mesh)?,
+            "face" => faces.read(path, &mut body, element, Shape::Face, limits, &mut mesh)?,
+            "tristrips" => faces.read(path, &mut body, element, Shape::Strip, limits, &mut mesh)?,
             _ => {
                 for _ in 0..element.count {
                     skip(&mut body, &element.properties)?;
@@ -182,10 +182,23 @@ fn index_list(path: &Path, element: &Element) -> Result<usize, SceneError> {
     Ok(list)
 }
 
-/// What was found in faces.
+/// Stands for an index below zero, which ends a strip.
+const END: u32 = u32::MAX;
+
+/// What a list of indices makes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    /// A polygon: a fan from its first corner.
+    Face,
+    /// Triangle strips: each corner closes a triangle with the two before it. An index below zero ends a strip, and
+    /// the next begins.
+    Strip,
+}
+
+/// What was found in faces and strips.
 #[derive(Default)]
 struct Faces {
-    /// Faces with fewer than three corners.
+    /// Those with fewer than three corners.
     short: usize,
 }
 
@@ -195,109 +208,66 @@ impl Faces {
         path: &Path,
         body: &mut Body<'_>,
         element: &Element,
-        limits: &Limits,
-        mesh: &mut Mesh,
-    ) -> Result<(), SceneError> {
-        let list = index_list(path, element)?;
-        let mut corners = Vec::new();
-        for _ in 0..element.count {
-            skip(body, &element.properties[..list])?;
-            let Property { scalar, length, .. } = &element.properties[list];
-            let count = body.length(length.unwrap_or(Scalar::U8))?;
-            corners.clear();
-            for _ in 0..count {
-                let index = body.number(*scalar)?;
-                // Faces may stand before the vertices: the finished mesh is checked for the upper end.
-                if !(0.0..f64::from(u32::MAX)).contains(&index) {
-                    return Err(body.error(&format!("a face cannot have the vertex index {index}")));
-                }
-                corners.push(index as u32);
-            }
-            skip(body, &element.properties[list + 1..])?;
-            self.add(path, &corners, limits, mesh)?;
-        }
-        Ok(())
-    }
-
-    /// Reads triangle strips: each corner closes a triangle with the two before it, every second one
-    /// turned over so that all face one way. A negative index ends a strip, and the next begins.
-    fn read_strips(
-        &mut self,
-        path: &Path,
-        body: &mut Body<'_>,
-        element: &Element,
+        shape: Shape,
         limits: &Limits,
         mesh: &mut Mesh,
     ) -> Result<(), SceneError> {
         let list = index_list(path, element)?;
         let Property { scalar, length, .. } = element.properties[list];
+        let mut corners = Vec::new();
         for _ in 0..element.count {
             skip(body, &element.properties[..list])?;
             let count = body.length(length.unwrap_or(Scalar::U8))?;
-            let mut strip = Strip::default();
+            corners.clear();
             for _ in 0..count {
-                let index = body.number(scalar)?;
-                if index < 0.0 {
-                    self.short += usize::from(std::mem::take(&mut strip).is_short());
-                    continue;
-                }
-                // Strips may stand before the vertices: the finished mesh is checked for the upper end.
-                if index >= f64::from(u32::MAX) {
-                    return Err(body.error(&format!("a strip cannot have the vertex index {index}")));
-                }
-                if let Some(corners) = strip.next(index as u32) {
-                    self.add(path, &corners, limits, mesh)?;
+                corners.push(corner(body, scalar, shape)?);
+            }
+            skip(body, &element.properties[list + 1..])?;
+            match shape {
+                Shape::Face => self.add_face(&corners, mesh),
+                Shape::Strip => {
+                    corners.split(|corner| *corner == END).for_each(|strip| self.add_strip(strip, mesh))
                 }
             }
-            self.short += usize::from(strip.is_short());
-            skip(body, &element.properties[list + 1..])?;
+            let triangles = mesh.indices.len() as u64 / 3;
+            Limits::check(path, "the number of triangles", triangles, limits.triangles, "triangles")?;
         }
         Ok(())
     }
 
-    /// Splits a polygon into a fan from its first corner.
-    fn add(
-        &mut self,
-        path: &Path,
-        corners: &[u32],
-        limits: &Limits,
-        mesh: &mut Mesh,
-    ) -> Result<(), SceneError> {
+    fn add_face(&mut self, corners: &[u32], mesh: &mut Mesh) {
         if corners.len() < 3 {
             self.short += 1;
-            return Ok(());
+            return;
         }
         for pair in corners[1..].windows(2) {
             mesh.indices.extend([corners[0], pair[0], pair[1]]);
         }
-        let triangles = mesh.indices.len() as u64 / 3;
-        Limits::check(path, "the number of triangles", triangles, limits.triangles, "triangles")
+    }
+
+    /// Every second triangle is turned over, so that all face one way. A corner that repeats one of the last two is how
+    /// strips are joined, and shows nothing.
+    fn add_strip(&mut self, corners: &[u32], mesh: &mut Mesh) {
+        self.short += usize::from((1..3).contains(&corners.len()));
+        for (index, corners) in corners.windows(3).enumerate() {
+            let &[a, b, c] = corners else { continue };
+            if a != b && b != c && a != c {
+                mesh.indices.extend(if index % 2 == 1 { [b, a, c] } else { [a, b, c] });
+            }
+        }
     }
 }
 
-/// A triangle strip that is being read.
-#[derive(Default)]
-struct Strip {
-    /// The last two corners.
-    last: [u32; 2],
-    /// Corners so far.
-    corners: usize,
-}
-
-impl Strip {
-    /// Takes the next corner; the triangle it closes, if it closes one that has an area. A corner
-    /// that repeats one of the last two is how strips are joined, and shows nothing.
-    fn next(&mut self, corner: u32) -> Option<[u32; 3]> {
-        let [a, b] = self.last;
-        let turned = self.corners % 2 == 1;
-        self.last = [b, corner];
-        self.corners += 1;
-        let joins = a == b || b == corner || a == corner;
-        (self.corners >= 3 && !joins).then_some(if turned { [b, a, corner] } else { [a, b, corner] })
+/// The next index of a list. It may be beyond the vertices, which may stand behind: the finished mesh is checked.
+fn corner(body: &mut Body<'_>, scalar: Scalar, shape: Shape) -> Result<u32, SceneError> {
+    let index = body.number(scalar)?;
+    if (0.0..f64::from(END)).contains(&index) {
+        return Ok(index as u32);
     }
-
-    /// Whether it began and has too few corners for a triangle.
-    fn is_short(&self) -> bool {
-        (1..3).contains(&self.corners)
-    }
+    let what = match shape {
+        Shape::Strip if index < 0.0 => return Ok(END),
+        Shape::Strip => "strip",
+        Shape::Face => "face",
+    };
+    Err(body.error(&format!("a {what} cannot have the vertex index {index}")))
 }
