@@ -1,5 +1,6 @@
 //! Everything that ends the command early, with its exit code.
 
+use crate::terminal::one_line;
 use rasray_scene::SceneError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -158,11 +159,6 @@ fn scene_help(error: &SceneError) -> &'static str {
         }
         _ => "",
     }
-}
-
-/// Joins the words of a text with single spaces; what a terminal would obey becomes visible.
-pub(crate) fn one_line(text: &str) -> String {
-    rasray_scene::printable(text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]

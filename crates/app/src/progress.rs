@@ -31,7 +31,7 @@ impl ProgressLine {
 
     /// Shows how far the work is.
     pub fn show(&mut self, progress: Progress<'_>) {
-        let task = terminal::shown(&format!("{} ({})", progress.task, progress.unit)).replace('\n', " ");
+        let task = terminal::one_line(&format!("{} ({})", progress.task, progress.unit));
         if let Some(signs) = &self.signs {
             signs.set(&task, progress);
         }

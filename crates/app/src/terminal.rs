@@ -1,7 +1,7 @@
 //! Text for people: results on stdout, everything else on stderr. Whatever is shown passes through [`shown`], so
-//! that no name in a file can steer a terminal.
+//! that no name in a file can steer a terminal: nothing before this layer escapes them.
 
-use crate::error::{AppError, one_line};
+use crate::error::AppError;
 use rasray_scene::Scene;
 use std::borrow::Cow;
 use std::ffi::OsStr;
@@ -34,16 +34,26 @@ pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
 }
 
-/// Text with every character that a terminal obeys written out, such as `\u{1b}`: controls but line breaks and
-/// tabs, and those that turn the direction of what follows.
+/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`: controls but
+/// line breaks and tabs, and those that turn the direction of what follows.
 pub(crate) fn shown(text: &str) -> Cow<'_, str> {
-    if !text.contains(is_obeyed) {
+    written_out(text, &['\n', '\t'])
+}
+
+/// The same for a name within a line, whose line breaks and tabs are written out as well.
+pub(crate) fn in_line(text: &str) -> Cow<'_, str> {
+    written_out(text, &[])
+}
+
+fn written_out<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
+    let is_written_out = |character: char| is_obeyed(character) && !kept.contains(&character);
+    if !text.contains(is_written_out) {
         return Cow::Borrowed(text);
     }
     let mut escaped = String::with_capacity(text.len() + 8);
     for character in text.chars() {
-        if is_obeyed(character) {
-            escaped.extend(character.escape_unicode());
+        if is_written_out(character) {
+            escaped.extend(character.escape_default());
         } else {
             escaped.push(character);
         }
@@ -53,15 +63,16 @@ pub(crate) fn shown(text: &str) -> Cow<'_, str> {
 
 fn is_obeyed(character: char) -> bool {
     let turns = matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || (character.is_control() && !matches!(character, '\n' | '\t'))
+    let separates = matches!(character, '\u{2028}' | '\u{2029}');
+    character.is_control() || turns || separates
 }
 
 /// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`shown`]; in
-/// valid JSON they stand in strings only.
+/// valid JSON they stand in strings only, but for the line breaks between them.
 pub(crate) fn json_shown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
-        if is_obeyed(character) {
+        if is_obeyed(character) && character != '\n' {
             // None of them is beyond the sixteen bits that one escape holds.
             escaped += &format!("\\u{:04x}", u32::from(character));
         } else {
@@ -69,6 +80,11 @@ pub(crate) fn json_shown(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// The words of a text, with single spaces between them.
+pub(crate) fn one_line(text: &str) -> String {
+    in_line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }
 
 /// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no error.
@@ -158,20 +174,20 @@ pub(crate) fn start_logging() {
     let colors = colors(io::stderr().is_terminal(), std::env::var_os("NO_COLOR").as_deref());
     let logging = tracing_subscriber::fmt().with_env_filter(filter).with_ansi(colors).without_time();
     // A second start in one process keeps the first one's settings.
-    _ = if colors {
-        // The colours are controls too; the formatter escapes those of the values itself.
-        logging.with_writer(io::stderr).try_init()
-    } else {
-        logging.with_writer(|| Shown).try_init()
-    };
+    _ = logging.with_writer(move || Log { colors }).try_init();
 }
 
 /// Stderr for log lines, each of which comes in one piece.
-struct Shown;
+struct Log {
+    colors: bool,
+}
 
-impl Write for Shown {
+impl Write for Log {
     fn write(&mut self, line: &[u8]) -> io::Result<usize> {
-        complain(&String::from_utf8_lossy(line));
+        let text = String::from_utf8_lossy(line);
+        // Colours begin with an escape character; the formatter writes out those of the values itself.
+        let kept: &[char] = if self.colors { &['\n', '\t', '\u{1b}'] } else { &['\n', '\t'] };
+        _ = io::stderr().lock().write_all(written_out(&text, kept).as_bytes());
         Ok(line.len())
     }
 
@@ -187,10 +203,12 @@ mod tests {
     #[test]
     fn nothing_that_a_terminal_obeys_is_shown_as_it_is() {
         assert_eq!(shown("wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\0"), {
-            "wall\\u{1b}[2J\\u{d}\\u{7}\\u{9b}31m\\u{202e}x\\u{0}"
+            "wall\\u{1b}[2J\\r\\u{7}\\u{9b}31m\\u{202e}x\\u{0}"
         });
         let plain = "Wände, 壁\n\tand 🧱";
         assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+        assert_eq!(in_line("a\nb\tc\u{2028}d"), r"a\nb\tc\u{2028}d");
+        assert_eq!(one_line(" a\n  b\u{7} "), r"a b\u{7}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::text::{printable, reason, sentence, shown};
+use crate::text::{reason, sentence, shown};
 
 /// Why a scene could not be loaded. Every message names the scene file and the place at fault, and no
 /// message holds control characters, whatever the names in the file.
@@ -10,7 +10,7 @@ use crate::text::{printable, reason, sentence, shown};
 #[non_exhaustive]
 pub enum SceneError {
     /// The scene file could not be read.
-    #[error("cannot read {}: {}", printable(path.display()), reason(source))]
+    #[error("cannot read {}: {}", path.display(), reason(source))]
     Read {
         /// The scene file.
         path: PathBuf,
@@ -18,7 +18,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// A file that the scene refers to, and cannot be shown without, could not be read.
-    #[error("{}: {} needs {}, which cannot be read: {}", printable(path.display()), shown(place), printable(file.display()), reason(source))]
+    #[error("{}: {} needs {}, which cannot be read: {}", path.display(), shown(place), file.display(), reason(source))]
     Missing {
         /// The scene file.
         path: PathBuf,
@@ -30,7 +30,7 @@ pub enum SceneError {
         source: std::io::Error,
     },
     /// A limit of [`crate::Limits`] was exceeded. More may be allowed by the field `option`.
-    #[error("{}: {} is {found}, which is more than the limit of {limit} ({option})", printable(path.display()), shown(what))]
+    #[error("{}: {} is {found}, which is more than the limit of {limit} ({option})", path.display(), shown(what))]
     TooLarge {
         /// The scene file.
         path: PathBuf,
@@ -44,13 +44,13 @@ pub enum SceneError {
         option: &'static str,
     },
     /// The extension of the file name tells no known format.
-    #[error("{}: unknown scene format; use .gltf, .glb, .obj or .ply", printable(path.display()))]
+    #[error("{}: unknown scene format; use .gltf, .glb, .obj or .ply", path.display())]
     UnknownFormat {
         /// The scene file.
         path: PathBuf,
     },
     /// The file, or one that it needs, is something else than its name says, or of a version that is not read.
-    #[error("{}: {}; {fix}", printable(path.display()), sentence(found))]
+    #[error("{}: {}; {fix}", path.display(), sentence(found))]
     NotThisFormat {
         /// The scene file.
         path: PathBuf,
@@ -60,7 +60,7 @@ pub enum SceneError {
         fix: &'static str,
     },
     /// The bytes do not follow the grammar of the format.
-    #[error("{}: {}", printable(path.display()), sentence(reason))]
+    #[error("{}: {}", path.display(), sentence(reason))]
     Syntax {
         /// The scene file.
         path: PathBuf,
@@ -68,7 +68,7 @@ pub enum SceneError {
         reason: String,
     },
     /// The file can be parsed, but contradicts itself or its format.
-    #[error("{}: {}: {}", printable(path.display()), shown(place), sentence(reason))]
+    #[error("{}: {}: {}", path.display(), shown(place), sentence(reason))]
     Invalid {
         /// The scene file.
         path: PathBuf,
@@ -78,7 +78,7 @@ pub enum SceneError {
         reason: String,
     },
     /// A triangle refers to a vertex that does not exist.
-    #[error("{}: {}: vertex index {index}, but there are only {vertices} vertices", printable(path.display()), shown(mesh))]
+    #[error("{}: {}: vertex index {index}, but there are only {vertices} vertices", path.display(), shown(mesh))]
     IndexOutOfRange {
         /// The scene file.
         path: PathBuf,
@@ -90,7 +90,7 @@ pub enum SceneError {
         vertices: u64,
     },
     /// The file has triangles, but none of them can be shown.
-    #[error("{}: none of its triangles can be shown: {}", printable(path.display()), sentence(reason))]
+    #[error("{}: none of its triangles can be shown: {}", path.display(), sentence(reason))]
     NoTriangles {
         /// The scene file.
         path: PathBuf,
@@ -98,7 +98,7 @@ pub enum SceneError {
         reason: String,
     },
     /// The file cannot be shown without something that is not supported.
-    #[error("{}: requires {}, which is not supported; {fix}", printable(path.display()), shown(extension))]
+    #[error("{}: requires {}, which is not supported; {fix}", path.display(), shown(extension))]
     UnsupportedExtension {
         /// The scene file.
         path: PathBuf,
@@ -108,7 +108,7 @@ pub enum SceneError {
         fix: &'static str,
     },
     /// A reference to another file leaves the folder of the scene, or is not a file.
-    #[error("{}: {}: the reference `{}` {reason}; only data: URIs and files below the scene's folder are read", printable(path.display()), shown(place), shown(uri))]
+    #[error("{}: {}: the reference `{}` {reason}; only data: URIs and files below the scene's folder are read", path.display(), shown(place), shown(uri))]
     UnsafeReference {
         /// The scene file.
         path: PathBuf,
@@ -120,7 +120,7 @@ pub enum SceneError {
         reason: &'static str,
     },
     /// An image could not be decoded.
-    #[error("{}: image {}: {}", printable(path.display()), shown(image), sentence(reason))]
+    #[error("{}: image {}: {}", path.display(), shown(image), sentence(reason))]
     Image {
         /// The scene file.
         path: PathBuf,
@@ -130,7 +130,7 @@ pub enum SceneError {
         reason: String,
     },
     /// The file has no such scene.
-    #[error("{}: there is no scene {}; the file has: {}", printable(path.display()), shown(wanted), sentence(available))]
+    #[error("{}: there is no scene {}; the file has: {}", path.display(), shown(wanted), sentence(available))]
     NoSuchScene {
         /// The scene file.
         path: PathBuf,
@@ -149,7 +149,7 @@ pub enum SceneError {
     },
     /// A library that reads the format panicked; the panic was caught. This is a defect, please
     /// report it with the file.
-    #[error("{}: the reader failed on this file: {}; please report it", printable(path.display()), sentence(reason))]
+    #[error("{}: the reader failed on this file: {}; please report it", path.display(), sentence(reason))]
     Internal {
         /// The scene file.
         path: PathBuf,

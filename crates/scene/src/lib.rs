@@ -27,4 +27,3 @@ pub use error::SceneError;
 pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;
 pub use model::*;
-pub use text::printable;

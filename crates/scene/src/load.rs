@@ -5,7 +5,6 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::remarks::Remarks;
-use crate::text::printable;
 use crate::{LoadOptions, Scene, SceneError};
 
 /// Loads a scene from a file; the extension of its name decides the format: `.gltf`, `.glb`,
@@ -15,6 +14,9 @@ use crate::{LoadOptions, Scene, SceneError};
 /// cannot be rendered are dropped, images that cannot be read are left out, and both are said in
 /// [`Scene::warnings`]. A scene may be empty, with a warning that says why; a file with triangles of
 /// which none is left is an error.
+///
+/// Names, warnings and errors hold the characters of the file, control characters included: escape
+/// them before they are written to a terminal.
 ///
 /// # Errors
 /// [`SceneError`]: the file or one that it cannot be shown without cannot be read, exceeds a limit,
@@ -29,7 +31,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
         _ => Err(SceneError::UnknownFormat { path: path.to_owned() }),
     }?;
     for warning in &scene.warnings {
-        tracing::warn!(kind = warning.kind, file = %printable(path.display()), "{}", warning.message);
+        tracing::warn!(kind = warning.kind, file = %path.display(), "{}", warning.message);
     }
     Ok(scene)
 }
@@ -42,8 +44,8 @@ pub(crate) enum Empty {
     Dropped(String),
 }
 
-/// The last step of every format: what holds for the scene as a whole is checked, names are made
-/// printable, and what was remarked becomes warnings. `empty` says why, should there be no triangle.
+/// The last step of every format: what holds for the scene as a whole is checked, and what was remarked
+/// becomes warnings. `empty` says why, should there be no triangle.
 ///
 /// # Errors
 /// [`SceneError::NoTriangles`] if all triangles were dropped.
@@ -66,27 +68,8 @@ pub(crate) fn finish(
         }
     }
     crate::check::textured(&scene, &mut remarks);
-    make_printable(&mut scene);
     scene.warnings.extend(remarks.into_warnings());
     Ok(scene)
-}
-
-/// Names come from the file, and are shown on terminals and pages.
-fn make_printable(scene: &mut Scene) {
-    let rig = &mut scene.animation.rig;
-    let names = std::iter::once(&mut scene.name)
-        .chain(scene.meshes.iter_mut().map(|mesh| &mut mesh.name))
-        .chain(scene.instances.iter_mut().map(|instance| &mut instance.name))
-        .chain(scene.materials.iter_mut().map(|material| &mut material.name))
-        .chain(scene.images.iter_mut().map(|image| &mut image.name))
-        .chain(scene.cameras.iter_mut().map(|camera| &mut camera.name))
-        .chain(&mut scene.animation.clips)
-        .chain(rig.nodes.iter_mut().map(|node| &mut node.name))
-        .chain(rig.clips.iter_mut().map(|clip| &mut clip.name))
-        .chain(rig.skins.iter_mut().map(|skin| &mut skin.name));
-    for name in names {
-        *name = printable(&name);
-    }
 }
 
 /// The name of a scene that was read from `path`: the file's stem.

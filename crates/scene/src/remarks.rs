@@ -149,11 +149,4 @@ mod tests {
         assert!(messages[TEXTS - 1].ends_with("(984 more remarks of this kind are not listed)"));
         assert!(messages.iter().all(|message| message.len() < 1000));
     }
-
-    #[test]
-    fn names_cannot_command_the_terminal() {
-        let mut remarks = Remarks::default();
-        remarks.note("a", "mesh \u{1b}[2J", "is called\na\u{9b}b");
-        assert_eq!(messages(remarks), [r"mesh \u{1b}[2J: is called\na\u{9b}b"]);
-    }
 }

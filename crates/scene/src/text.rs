@@ -1,4 +1,4 @@
-//! Text from files, made fit to be shown.
+//! Text from files, cut to the length that a message has room for. Whoever writes it to a terminal escapes it.
 
 use std::fmt::Display;
 
@@ -7,36 +7,14 @@ const LONGEST: usize = 160;
 /// Longest sentence, characters.
 const LONGEST_SENTENCE: usize = 800;
 
-/// `text` without anything that a terminal would obey: control characters, and those that turn the
-/// direction of writing or end a line, become escapes such as `\u{1b}`.
-///
-/// Names from files and names of files may hold any of them. All names in a loaded [`crate::Scene`],
-/// all warnings and all errors of this crate have passed through here.
-pub fn printable(text: impl Display) -> String {
-    let mut shown = String::new();
-    for character in text.to_string().chars() {
-        if commands(character) {
-            shown.extend(character.escape_default());
-        } else {
-            shown.push(character);
-        }
-    }
-    shown
-}
-
-fn commands(character: char) -> bool {
-    let turns = matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    character.is_control() || turns || matches!(character, '\u{2028}' | '\u{2029}')
-}
-
-/// [`printable`], and cut where a name or value is long.
+/// A name or value of a file, cut where it is long.
 pub(crate) fn shown(text: impl Display) -> String {
-    cut(printable(text), LONGEST)
+    cut(text.to_string(), LONGEST)
 }
 
-/// [`printable`], and cut where a sentence is long.
+/// A sentence, cut where it is long.
 pub(crate) fn sentence(text: impl Display) -> String {
-    cut(printable(text), LONGEST_SENTENCE)
+    cut(text.to_string(), LONGEST_SENTENCE)
 }
 
 /// What the operating system said, without the number it says it by.
@@ -58,13 +36,6 @@ fn cut(whole: String, longest: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn nothing_commands_the_terminal() {
-        assert_eq!(printable("Würfel 立方体"), "Würfel 立方体");
-        assert_eq!(printable("a\u{1b}[31mb\r\n\u{9b}c\u{7f}"), r"a\u{1b}[31mb\r\n\u{9b}c\u{7f}");
-        assert_eq!(printable("a\u{202e}b\u{2066}c\u{2028}d"), r"a\u{202e}b\u{2066}c\u{2028}d");
-    }
 
     #[test]
     fn reasons_have_no_numbers() {

@@ -17,7 +17,8 @@ pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
 };
 
-use crate::error::{AppError, one_line};
+use crate::error::AppError;
+use crate::terminal::one_line;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
 use std::ffi::OsString;
@@ -61,7 +62,7 @@ pub struct CommandLine {
 pub enum Command {
     /// Render a scene to an image
     Render(Box<RenderArguments>),
-    /// Trace the same rays through several systems and judge speed and error
+    /// Trace the same rays through several systems and compare speed and error
     Compare(Box<CompareArguments>),
     /// Show the device, or what a scene holds and needs
     Info(InfoArguments),

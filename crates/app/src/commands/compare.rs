@@ -166,7 +166,7 @@ impl Targets {
         interrupt: &Interrupt,
     ) -> Result<(), AppError> {
         if let Some(place) = &self.report {
-            place.write(report.to_json().as_bytes(), interrupt)?;
+            place.write(terminal::json_shown(&report.to_json()).as_bytes(), interrupt)?;
         }
         if let Some(place) = &self.markdown {
             place.write(markdown(report).as_bytes(), interrupt)?;

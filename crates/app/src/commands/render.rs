@@ -71,7 +71,7 @@ pub(crate) fn render(
     let report =
         Report::new(origin(line), backend.device(), loaded.record(), vec![run]).seen_from(chosen.record());
     if let Some(place) = &report_target {
-        place.write(report.to_json().as_bytes(), interrupt)?;
+        place.write(terminal::json_shown(&report.to_json()).as_bytes(), interrupt)?;
     }
     whole?;
     output::check_complete(&output, aovs)?;

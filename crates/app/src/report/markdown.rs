@@ -1,6 +1,7 @@
 //! The runs of a report side by side as one Markdown table, for pages that publish them.
 
 use super::words::grouped;
+use crate::terminal::in_line;
 use rasray_report::{Accuracy, Report, Run};
 
 /// The system whose rate others are put in relation to, where a report has it.
@@ -54,9 +55,10 @@ fn title(report: &Report) -> String {
         }
         _ => String::new(),
     };
-    let command = report.command.as_ref().map(|line| format!("\n```\n{line}\n```\n")).unwrap_or_default();
+    let command =
+        report.command.as_ref().map(|line| format!("\n```\n{}\n```\n", in_line(line))).unwrap_or_default();
     let triangles = grouped(scene.triangles);
-    let (scene, device) = (&scene.name, &device.name);
+    let (scene, device) = (in_line(&scene.name), in_line(&device.name));
     format!("**{scene}**, {triangles} triangles. {rays}Device: {device}{software}.\n{command}\n")
 }
 

@@ -3,6 +3,7 @@
 use super::run_text::{heading, run_text, verdict};
 use super::words::{bytes, columns, grouped};
 use crate::camera::described;
+use crate::terminal::in_line;
 use rasray_report::{HardRecord, Report, Run, Statistics};
 use std::fmt::Write;
 
@@ -84,9 +85,14 @@ pub fn table(report: &Report, full: bool) -> String {
     let device = &report.device;
     let note = if device.software { "; times of software devices are for ratios on that device" } else { "" };
     let mut text = format!("device {} ({}){note}\n", device.name, device.driver);
-    _ = writeln!(text, "scene  {}, {} triangles", report.scene.name, grouped(report.scene.triangles));
+    _ = writeln!(
+        text,
+        "scene  {}, {} triangles",
+        in_line(&report.scene.name),
+        grouped(report.scene.triangles)
+    );
     if let Some(camera) = &report.camera {
-        _ = writeln!(text, "camera {}", described(camera));
+        _ = writeln!(text, "camera {}", in_line(&described(camera)));
     }
     match report.runs.as_slice() {
         [run] if !full && run.accuracy.is_none() && run.hard.is_none() => text += &in_short(run),

@@ -1,16 +1,18 @@
 //! Numbers and columns as people read them.
 
+use crate::terminal::in_line;
 use std::fmt::Write;
 
 /// Aligned columns: the first `left` to the left, the others to the right.
 pub(crate) fn columns(rows: &[Vec<String>], left: usize) -> String {
+    let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|cell| in_line(cell)).collect()).collect();
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let mut widths = vec![0; count];
     for (column, cell) in rows.iter().flat_map(|row| row.iter().enumerate()) {
         widths[column] = widths[column].max(cell.chars().count());
     }
     let mut text = String::new();
-    for row in rows {
+    for row in &rows {
         let mut line = String::new();
         for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
             _ = if column < left {

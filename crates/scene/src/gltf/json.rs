@@ -69,7 +69,7 @@ fn malformed(path: &Path, text: &[u8], error: &::gltf::json::Error) -> SceneErro
         let start = text.split(|&byte| byte == b'\n').take(line.saturating_sub(1)).map(|line| line.len() + 1);
         let at = (start.sum::<usize>() + column.saturating_sub(1)).min(text.len());
         let around = &text[at.saturating_sub(AROUND)..(at + AROUND).min(text.len())];
-        let near = shown(String::from_utf8_lossy(around).trim());
+        let near = shown(String::from_utf8_lossy(around).split_whitespace().collect::<Vec<_>>().join(" "));
         format!("line {line}, column {column} is no JSON, or a number out of range, near `{near}`")
     };
     SceneError::syntax(path, format!("malformed glTF JSON: {reason}"))

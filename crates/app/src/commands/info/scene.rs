@@ -6,6 +6,7 @@ use crate::camera::{Chosen, described};
 use crate::commands::integrator_name;
 use crate::report::{CameraRecord, bytes, columns, grouped};
 use crate::scene_source::LoadedScene;
+use crate::terminal::in_line;
 use glam::DVec3;
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
@@ -104,7 +105,7 @@ impl SceneInfo {
             rows.push(pair("sha256", sha256));
         }
         rows.push(pair("default view", described(&self.view)));
-        let mut text = format!("scene {}\n{}", self.name, columns(&rows, 2));
+        let mut text = format!("scene {}\n{}", in_line(&self.name), columns(&rows, 2));
         if !self.cameras.is_empty() {
             text += "cameras\n";
             text += &columns(&self.cameras.iter().map(camera_row).collect::<Vec<_>>(), 4);
