@@ -23,9 +23,9 @@ pub enum SystemName {
     Selective,
     /// Layers of fragments along three axes, each triangle along the one it faces most
     Ldc,
-    /// A bounding volume hierarchy with two children a node: the yardstick
+    /// A bounding volume hierarchy with two children per node: the baseline
     Bvh,
-    /// Every triangle tested against every ray: the judge, slow on purpose
+    /// Every triangle tested against every ray: what hits are checked against, slow on purpose
     BruteForce,
 }
 
@@ -86,7 +86,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(rename = "single-layer", skip_serializing_if = "Option::is_none")]
     pub single_layer: Option<Switch>,
-    /// For diagnostics: keep triangles beside payloads without them, so that hits name them
+    /// For diagnostics: keep triangles next to payloads without them, so that hits name them
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ids: Option<Switch>,
@@ -106,11 +106,11 @@ pub struct StructureOptions {
     #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inline: Option<Switch>,
-    /// Keep what a fragment carries beside its list, the same as --inline=off
+    /// Keep what a fragment carries outside its list, the same as --inline=off
     #[arg(long, conflicts_with = "inline")]
     #[serde(skip)]
     pub decoupled: bool,
-    /// With --storage paged: fragments of a page, 1 to 8; of mmrt 1, 2, 4 or 8
+    /// With --storage paged: fragments per page, 1 to 8; of mmrt 1, 2, 4 or 8
     #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub page: Option<u32>,
@@ -135,7 +135,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub march: Option<March>,
-    /// With --march samples: most samples on a face, or steps in a voxel, 1 to 65535
+    /// With --march samples: maximum samples per face, or steps per voxel, 1 to 65535
     #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 65535))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples: Option<u32>,
@@ -143,7 +143,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jitter: Option<Switch>,
-    /// When what a ray meets is a hit
+    /// What counts as a hit
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accept: Option<Accept>,
@@ -151,7 +151,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stop: Option<Stop>,
-    /// Lists of triangles: leap over blocks of tiles by their depth bounds
+    /// Lists of triangles: skip blocks of tiles by their depth bounds
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pyramid: Option<Switch>,
@@ -203,7 +203,7 @@ pub struct StructureOptions {
     #[arg(long, value_enum)]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub addressing: Option<Addressing>,
-    /// Fragments or list entries there is room for at first; they grow when that is too few
+    /// Capacity at first, fragments or list entries; it grows when it is too small
     #[arg(long, value_name = "N")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capacity: Option<u32>,

@@ -10,7 +10,7 @@ pub struct RayFileArguments {
     /// Rays to trace: a .rays file, or a .npy array of N x 6, 7 or 8 numbers (origin, direction, t_min, t_max)
     #[arg(long, value_name = "FILE")]
     pub rays_file: Option<PathBuf>,
-    /// Hits that another tracer found for the only set of rays; judged like a system's
+    /// Hits that another tracer found for the only set of rays; compared like a system's
     #[arg(long, value_name = "NAME=FILE.npy", value_parser = named_file)]
     pub hits_file: Vec<NamedFile>,
     /// Existing folder for the rays of each set (.rays, .npy) and the triangles (.npy)

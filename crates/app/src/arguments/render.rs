@@ -48,7 +48,7 @@ pub struct RenderArguments {
     /// How the image is stored [default: as the name of --output ends]
     #[arg(long, value_enum, requires = "output")]
     pub format: Option<ImageFormat>,
-    /// Images beside the colours, kept in the .exr
+    /// Images in addition to the colours, kept in the .exr
     #[arg(long, value_enum, value_delimiter = ',', requires = "output")]
     pub aov: Vec<Aov>,
     /// Stops of exposure for .png
@@ -77,7 +77,7 @@ pub struct RenderArguments {
     pub device: DeviceArguments,
 }
 
-/// Images beside the colours.
+/// Images in addition to the colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Aov {
     /// Z: metres from the eye along the ray
@@ -116,7 +116,7 @@ impl RenderArguments {
         systems::single(name, self.preset, &self.structure)
     }
 
-    /// The images wanted beside the colours.
+    /// The images wanted in addition to the colours.
     pub fn aovs(&self) -> AovSelection {
         AovSelection {
             depth: self.aov.contains(&Aov::Depth),

@@ -34,7 +34,7 @@ impl IntegratorName {
 /// before it is seen on what stands behind, eight times where two such glasses stand in a row.
 const DEFAULT_BOUNCES: u32 = 8;
 
-/// How much is said beside results and errors.
+/// How much is said in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub struct TalkArguments {
     /// Say nothing but errors and what was asked for
