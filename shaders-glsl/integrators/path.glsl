@@ -38,9 +38,8 @@ void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked)
     LightSample light = light_sample(s, random);
     if (light.flags == 0u) return;
     BsdfValue towards = bsdf_towards(bsdf_terms(s, o), s, light.direction);
-    vec3 value = towards.value * abs(dot(s.normal, light.direction));
     float weight = (light.flags & SAMPLE_DELTA) != 0u ? 1.0 : path_power_heuristic(light.pdf, towards.pdf);
-    vec3 pending = state.throughput * value * light.radiance * (weight / light.pdf);
+    vec3 pending = state.throughput * towards.value * light.radiance * (weight / light.pdf);
     if (!(largest_component(pending) > 0.0)) return;
     asked.pending = pending;
     asked.shadow_ray = light_shadow_ray(s, light);

@@ -7,7 +7,7 @@
 #include "scene/bsdf_terms.glsl"
 
 struct BsdfValue {
-    vec3 value;          // 1/sr, cosine not included
+    vec3 value;          // 1/sr, cosine included: families lie around different normals where one was bent
     float pdf;           // 1/sr with which bsdf_sample answers this direction
 };
 
@@ -24,11 +24,11 @@ vec3 bsdf_refraction_half(BsdfTerms terms, vec3 i) {
     return h.z < 0.0 ? -h : h;
 }
 
-// 1 if i is reflected, -1 if transmitted, 0 if shading and geometric normal disagree or i grazes.
-int bsdf_side(Surface s, vec3 world_i, vec3 i) {
+// 1 if i is reflected, -1 if transmitted, 0 if the normal that `cosine` is of and the geometric one disagree or i grazes.
+int bsdf_side(Surface s, vec3 world_i, float cosine) {
     float geometric = dot(s.geometric_normal, world_i);
-    if (i.z > 0.0 && geometric > 0.0) return 1;
-    if (i.z < 0.0 && geometric < 0.0) return -1;
+    if (cosine > 0.0 && geometric > 0.0) return 1;
+    if (cosine < 0.0 && geometric < 0.0) return -1;
     return 0;
 }
 
@@ -65,23 +65,31 @@ void bsdf_facets(BsdfTerms terms, vec3 i, int side, out float facet_cosine, out 
 BsdfValue bsdf_towards(BsdfTerms terms, Surface s, vec3 i) {
     BsdfValue result = BsdfValue(vec3(0.0), 0.0);
     vec3 local = i * terms.frame;
-    int side = bsdf_side(s, i, local);
-    if (side == 0 || terms.o.z <= 0.0) return result;
+    if (terms.o.z <= 0.0) return result;
     float family, through;
     bsdf_cosine_probability(terms, family, through);
-    result.value = bsdf_cosine_family(terms, abs(local.z), side);
-    result.pdf = family * (side > 0 ? 1.0 - through : through) * abs(local.z) / MICROFACET_PI;
-    if (terms.mirror) return result;
+    float base = dot(terms.base, local);
+    int side = bsdf_side(s, i, base);
+    if (side != 0) {
+        result.value = bsdf_cosine_family(terms, abs(base), side) * abs(base);
+        result.pdf = family * (side > 0 ? 1.0 - through : through) * abs(base) / MICROFACET_PI;
+    }
+    side = bsdf_side(s, i, local.z);
+    if (side == 0 || terms.mirror) return result;
     float cosine, facets, pdf;
     bsdf_facets(terms, local, side, cosine, facets, pdf);
     float reflect_share = bsdf_reflect_probability(terms, cosine);
+    facets *= abs(local.z);
     result.value += facets * (side > 0 ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine));
     result.pdf += (1.0 - family) * pdf * (side > 0 ? reflect_share : 1.0 - reflect_share);
     return result;
 }
 
-// 1/sr, cosine not included.
-vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).value; }
+// 1/sr, cosine at the shading normal not included.
+vec3 bsdf_evaluate(Surface s, vec3 o, vec3 i) {
+    float cosine = abs(dot(s.normal, i));
+    return cosine > 0.0 ? bsdf_towards(bsdf_terms(s, o), s, i).value / cosine : vec3(0.0);
+}
 
 // 1/sr with which bsdf_sample answers i.
 float bsdf_pdf(Surface s, vec3 o, vec3 i) { return bsdf_towards(bsdf_terms(s, o), s, i).pdf; }
@@ -112,9 +120,9 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
     uint flags = SAMPLE_VALID;
     int expected = 1;
     if (random.x < family) {
-        local = cosine_hemisphere(random.zw);
+        local = basis_around(terms.base) * cosine_hemisphere(random.zw);
         if (random.y < through) {
-            local.z = -local.z;
+            local -= 2.0 * dot(local, terms.base) * terms.base;
             flags |= SAMPLE_TRANSMITTED;
             expected = -1;
         }
@@ -134,16 +142,17 @@ BsdfSample bsdf_sample(Surface s, vec3 o, vec4 random) {
             float probability = (1.0 - family) * (reflects ? reflect_share : 1.0 - reflect_share);
             vec3 share = reflects ? bsdf_reflected(terms, cosine) : bsdf_transmitted(terms, cosine);
             vec3 world = normalize(terms.frame * local);
-            if (bsdf_side(s, world, local) != expected || !(probability > 0.0)) return chosen;
+            if (bsdf_side(s, world, local.z) != expected || !(probability > 0.0)) return chosen;
             return BsdfSample(world, probability, share / probability, flags | SAMPLE_DELTA);
         }
     }
     vec3 world = normalize(terms.frame * local);
     // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
-    if (bsdf_side(s, world, local) != expected) return chosen;
+    float cosine = random.x < family ? dot(local, terms.base) : local.z;
+    if (bsdf_side(s, world, cosine) != expected) return chosen;
     BsdfValue towards = bsdf_towards(terms, s, world);
     if (!(towards.pdf > 0.0) || towards.pdf > 1.0e30) return chosen;
-    vec3 weight = towards.value * (abs(dot(world, s.normal)) / towards.pdf);
+    vec3 weight = towards.value / towards.pdf;
     if (!(largest_component(weight) > 0.0)) return chosen;
     return BsdfSample(world, towards.pdf, weight, flags);
 }

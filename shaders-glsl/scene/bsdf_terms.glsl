@@ -19,6 +19,12 @@
 #define BSDF_COSINE_LEAST 0.05
 #define BSDF_COSINE_FACTOR 4.0
 #define BSDF_COSINE_MOST 0.95
+// Cosine to which the facets' normal is bent where the shading normal faces away from o.
+#define BSDF_NORMAL_COSINE 0.01
+// Height of a mirrored direction over the geometric surface: at least this, or this share of that of o where o itself
+// grazes. Below 1, so that a normal that agrees with the surface keeps its bits.
+#define BSDF_MIRRORED_HEIGHT 0.01
+#define BSDF_MIRRORED_SHARE 0.9
 
 struct BsdfTerms {
     vec3 f0;             // dielectric, normal incidence
@@ -29,7 +35,8 @@ struct BsdfTerms {
     float alpha;         // 0 for perfect mirrors
     float eta;           // index on the side of o over the index on the other side; 1: straight on
     bool mirror;
-    mat3 frame;          // world from local
+    mat3 frame;          // world from local; z is the normal of the facets
+    vec3 base;           // shading normal, local: the cosine family lies around it
     vec3 o;              // local
     float loss_o;        // share of the light that one scattering at the facets loses
     float loss_mean;     // its mean over the hemisphere
@@ -92,6 +99,24 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     terms.entering_mean = bsdf_entering_mean(terms);
 }
 
+// The normal that facets lie around: the shading normal, bent until it faces o, and then just so far that o mirrored at
+// it leaves the geometric surface: the mirrored direction is lifted to the least height, and what lies halfway between
+// it and o mirrors one to the other.
+vec3 bsdf_facet_normal(Surface s, vec3 o) {
+    vec3 normal = s.normal;
+    float cosine = dot(normal, o);
+    if (cosine < BSDF_NORMAL_COSINE) normal = normalize(normal + (BSDF_NORMAL_COSINE - cosine) * o);
+    vec3 mirrored = 2.0 * dot(normal, o) * normal - o;
+    float height = dot(mirrored, s.geometric_normal);
+    float least = min(BSDF_MIRRORED_HEIGHT, BSDF_MIRRORED_SHARE * dot(o, s.geometric_normal));
+    if (height >= least) return normal;
+    vec3 along = mirrored - height * s.geometric_normal;
+    float squared = dot(along, along);
+    if (!(squared > 0.0)) return s.geometric_normal;
+    vec3 lifted = s.geometric_normal * least + along * (sqrt(1.0 - least * least) * inversesqrt(squared));
+    return normalize(o + lifted);
+}
+
 BsdfTerms bsdf_terms(Surface s, vec3 o) {
     BsdfTerms terms;
     // glTF: an index of 0 stands for full reflection; such a surface does not bend light.
@@ -106,7 +131,8 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.alpha = terms.mirror ? 0.0 : s.roughness * s.roughness;
     bool straight = s.thickness <= 0.0 || terms.transmission <= 0.0 || abs(ior - 1.0) < BSDF_STRAIGHT_INDEX;
     terms.eta = straight ? 1.0 : (s.side == 1u ? 1.0 / ior : ior);
-    terms.frame = basis_around(s.normal);
+    terms.frame = basis_around(bsdf_facet_normal(s, o));
+    terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
     bsdf_set_energy(terms);
     return terms;

@@ -35,7 +35,7 @@ Surface stored_source(uint primitive, vec2 barycentrics) {
     vec3 normal = triangle_normal(b - a, c - a, twice_area);
     bool mirrored = (scene_draw_shading(scene_draw_of(primitive)).flags & DRAW_MIRRORED) != 0u;
     Ray ray = Ray(a, 0.0, mirrored ? normal : -normal, uintBitsToFloat(0x7F800000u), PRIMITIVE_NONE, 0u, 0.0, 0.0);
-    return scene_surface_as_described(ray, 1.0, primitive, barycentrics);
+    return scene_surface(ray, 1.0, primitive, barycentrics);
 }
 
 // The least opacity that is stored of what does not emit.

@@ -8,13 +8,6 @@
 #include "scene/attributes.glsl"
 #include "scene/texture.glsl"
 
-// Cosine to which a shading normal is bent that faces away from the ray.
-#define SHADING_NORMAL_COSINE 0.01
-// Height of a mirrored direction over the geometric surface: at least this, or this share of that of the ray where
-// the ray itself grazes. Below 1, so that a normal that agrees with the surface keeps its bits.
-#define SHADING_MIRRORED_HEIGHT 0.01
-#define SHADING_MIRRORED_SHARE 0.9
-
 Surface surface_miss(Ray ray) {
     Surface s;
     s.position = vec3(0.0);
@@ -84,35 +77,17 @@ vec3 surface_mapped_normal(vec3 normal, vec4 tangent, vec3 texel, float scale) {
     return mapped_squared > 0.0 ? mapped * inversesqrt(mapped_squared) : normal;
 }
 
-// The shading normal on the side of the geometric normal, facing the ray. `o` is the unit direction to
-// where the ray came from.
-vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal, vec3 o) {
+// The shading normal on the side of the geometric normal. It may face away from the ray: bsdf_facet_normal does not.
+vec3 surface_shading_normal(vec3 interpolated, vec3 geometric_normal) {
     float squared = dot(interpolated, interpolated);
     if (!(squared > 0.0)) return geometric_normal;
     vec3 normal = interpolated * inversesqrt(squared);
     if (dot(normal, geometric_normal) < 0.0) normal -= 2.0 * dot(normal, geometric_normal) * geometric_normal;
-    float cosine = dot(normal, o);
-    if (cosine < SHADING_NORMAL_COSINE) normal = normalize(normal + (SHADING_NORMAL_COSINE - cosine) * o);
     return normal;
 }
 
-// The shading normal, bent just so far that `o` mirrored at it leaves the geometric surface: the mirrored direction
-// is lifted to the least height, and what lies halfway between it and `o` mirrors one to the other.
-vec3 surface_mirroring_normal(vec3 normal, vec3 geometric_normal, vec3 o) {
-    vec3 mirrored = 2.0 * dot(normal, o) * normal - o;
-    float height = dot(mirrored, geometric_normal);
-    float least = min(SHADING_MIRRORED_HEIGHT, SHADING_MIRRORED_SHARE * dot(o, geometric_normal));
-    if (height >= least) return normal;
-    vec3 along = mirrored - height * geometric_normal;
-    float squared = dot(along, along);
-    if (!(squared > 0.0)) return geometric_normal;
-    vec3 lifted = geometric_normal * least + along * (sqrt(1.0 - least * least) * inversesqrt(squared));
-    return normalize(o + lifted);
-}
-
-// As scene_surface, with a shading normal that does not depend on where mirrored light goes: for what is stored and
-// seen later from elsewhere.
-Surface scene_surface_as_described(Ray ray, float t, uint primitive, vec2 barycentrics) {
+// `barycentrics` are the weights of vertices 1 and 2. Fills every field.
+Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
     Surface s = surface_miss(ray);
     DrawShading draw = scene_draw_shading(scene_draw_of(primitive));
     Material material = scene_material(draw.material);
@@ -147,7 +122,7 @@ Surface scene_surface_as_described(Ray ray, float t, uint primitive, vec2 baryce
         vec4 texel = surface_texel(material.normal_texture, draw, triangle, weights, twice_area, footprint);
         interpolated = surface_mapped_normal(front, tangent, texel.xyz, material.normal_scale);
     }
-    s.normal = surface_shading_normal(interpolated * facing, s.geometric_normal, o);
+    s.normal = surface_shading_normal(interpolated * facing, s.geometric_normal);
 
     vec4 texel = surface_texel(material.base_color_texture, draw, triangle, weights, twice_area, footprint);
     vec4 base_color = attribute_base_color(draw, material, triangle, weights, texel);
@@ -176,13 +151,6 @@ Surface scene_surface_as_described(Ray ray, float t, uint primitive, vec2 baryce
     s.attenuation_color = material.attenuation_color;
     s.attenuation_distance = material.attenuation_distance;
     s.specular = material.specular;
-    return s;
-}
-
-// `barycentrics` are the weights of vertices 1 and 2. Fills every field.
-Surface scene_surface(Ray ray, float t, uint primitive, vec2 barycentrics) {
-    Surface s = scene_surface_as_described(ray, t, primitive, barycentrics);
-    s.normal = surface_mirroring_normal(s.normal, s.geometric_normal, -normalize(ray.direction));
     return s;
 }
 

@@ -153,8 +153,13 @@ fn through_centres_a_single_layer_is_enough() {
         (0..2000).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
     let mut expected: Option<Vec<[u32; 4]>> = None;
     for (storage, march) in Storage::ALL.into_iter().zip([March::Exact, March::Pyramid].into_iter().cycle()) {
-        let all =
-            Config { storage, march, views: Views::Camera, camera_resolution: [SIDE; 2], ..Config::robust(SIDE) };
+        let all = Config {
+            storage,
+            march,
+            views: Views::Camera,
+            camera_resolution: [SIDE; 2],
+            ..Config::robust(SIDE)
+        };
         let [of_all, of_single] = [false, true]
             .map(|single_layer| built(&bench, Config { single_layer, ..all }, &geometry, None, EYE).0);
         let hits = |structure: &ABuffer, rays: &[Ray]| bench.trace(structure, rays).hits;

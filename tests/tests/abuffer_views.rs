@@ -131,7 +131,11 @@ fn a_turned_camera_keeps_the_law_of_fragments() {
         hits.iter().zip(&truths).filter(|(hit, (_, t))| !hit.is_hit() || off(hit, *t)).count()
     };
     let share = |resolution: u32| {
-        let config = Config { views: Views::Camera, camera_resolution: [resolution, resolution / 2], ..Config::robust(8) };
+        let config = Config {
+            views: Views::Camera,
+            camera_resolution: [resolution, resolution / 2],
+            ..Config::robust(8)
+        };
         wrong(config) as f64 / rays.len() as f64
     };
     let [coarse, fine] = [16, 128].map(share);

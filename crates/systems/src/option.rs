@@ -33,7 +33,8 @@ impl<'a> Given<'a> {
     /// Columns and rows, or one number for both.
     pub(crate) fn cells(&self) -> Result<[u32; 2], SystemsError> {
         let (columns, rows) = self.value.split_once('x').unwrap_or((self.value, self.value));
-        let side = |text: &str| text.parse().map_err(|_| self.refused("write columns x rows, such as 720x480"));
+        let side =
+            |text: &str| text.parse().map_err(|_| self.refused("write columns x rows, such as 720x480"));
         Ok([side(columns)?, side(rows)?])
     }
 

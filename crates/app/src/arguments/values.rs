@@ -38,7 +38,10 @@ pub fn cells(text: &str) -> Result<String, String> {
     let side = whole(1, 8192);
     match (side(columns), side(rows)) {
         (Ok(columns), Ok(rows)) => Ok(format!("{columns}x{rows}")),
-        _ => Err("write columns x rows from 1 to 8192 each, such as 720x480, or one number for both".to_owned()),
+        _ => {
+            Err("write columns x rows from 1 to 8192 each, such as 720x480, or one number for both"
+                .to_owned())
+        }
     }
 }
 

@@ -51,10 +51,8 @@ pub(crate) fn compare(
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
     let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
-    let systems: Vec<_> = systems
-        .into_iter()
-        .map(|system| system.seen_by(&chosen.camera, frame.width, frame.height))
-        .collect();
+    let systems: Vec<_> =
+        systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
     shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
 

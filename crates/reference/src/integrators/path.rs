@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::Tracer;
 use crate::shading::{
-    LightSample, Ray, Surface, View, bsdf_evaluate, bsdf_pdf, bsdf_sample, camera_ray, pixel_position,
+    LightSample, Ray, Surface, View, bsdf_pdf, bsdf_sample, bsdf_times_cosine, camera_ray, pixel_position,
     random::{
         Numbers, RANDOM_BSDF_LOBE, RANDOM_LIGHT_KIND, RANDOM_OPACITY_FIRST, RANDOM_ROULETTE, random_dimension,
     },
@@ -118,7 +118,7 @@ impl Tracer<'_> {
 
 /// What the surface sends along `o` of an unoccluded light sample, weighted.
 fn reflected(surface: &Surface, o: Vec3, light: &LightSample) -> Vec3 {
-    let value = bsdf_evaluate(surface, o, light.direction) * surface.normal.dot(light.direction).abs();
+    let value = bsdf_times_cosine(surface, o, light.direction);
     let weight =
         if light.delta { 1.0 } else { power_heuristic(light.pdf, bsdf_pdf(surface, o, light.direction)) };
     value * light.radiance * (weight / light.pdf)

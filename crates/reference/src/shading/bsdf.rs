@@ -21,6 +21,11 @@ const STRAIGHT_INDEX: f32 = 1.0e-3;
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
 /// How often its share of the light that probability may be at its lower bound.
 const COSINE_FACTOR: f32 = 4.0;
+/// Cosine to which the facets' normal is bent where the shading normal faces away from the viewer.
+const NORMAL_COSINE: f32 = 0.01;
+/// Least height of a mirrored direction over the geometric surface, or this share of that of the viewer where it grazes.
+const MIRRORED_HEIGHT: f32 = 0.01;
+const MIRRORED_SHARE: f32 = 0.9;
 
 /// A direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,8 +59,10 @@ struct Terms {
     /// Index on the side of o over the index on the other side; 1: straight on.
     eta: f32,
     mirror: bool,
-    /// World from local.
+    /// World from local; z is the normal of the facets.
     frame: Mat3,
+    /// The shading normal, local: the cosine family lies around it.
+    base: Vec3,
     /// Local.
     o: Vec3,
     energy: Energy,
@@ -98,7 +105,7 @@ impl Terms {
         let root = (surface.ior.max(0.0) - 1.0) / (surface.ior.max(0.0) + 1.0);
         let straight =
             surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
-        let frame = basis_around(surface.normal);
+        let frame = basis_around(facet_normal(surface.normal, surface.geometric_normal, o));
         let mirror = surface.roughness < SMOOTH_ROUGHNESS;
         let mut terms = Self {
             f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
@@ -114,6 +121,7 @@ impl Terms {
             },
             mirror,
             frame,
+            base: frame.transpose() * surface.normal,
             o: frame.transpose() * o,
             energy: Energy::default(),
         };
@@ -266,51 +274,80 @@ impl Terms {
     }
 }
 
-/// `None` if shading and geometric normal disagree or the direction grazes.
-fn side_of(surface: &Surface, world_i: Vec3, i: Vec3) -> Option<Side> {
+/// The normal that facets lie around: the shading normal, bent until it faces `o`, and then just so far that `o` mirrored
+/// at it leaves the geometric surface.
+pub(super) fn facet_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
+    let cosine = normal.dot(o);
+    let facing =
+        if cosine < NORMAL_COSINE { (normal + (NORMAL_COSINE - cosine) * o).normalize() } else { normal };
+    let mirrored = 2.0 * facing.dot(o) * facing - o;
+    let height = mirrored.dot(geometric_normal);
+    let least = MIRRORED_HEIGHT.min(MIRRORED_SHARE * o.dot(geometric_normal));
+    if height >= least {
+        return facing;
+    }
+    let along = mirrored - height * geometric_normal;
+    let squared = along.length_squared();
+    if !(squared > 0.0) {
+        return geometric_normal;
+    }
+    let lifted = geometric_normal * least + along * ((1.0 - least * least).sqrt() / squared.sqrt());
+    (o + lifted).normalize()
+}
+
+/// Where the direction leads, `cosine` being its cosine at a normal; `None` if that normal and the geometric one disagree or
+/// the direction grazes.
+fn side_of(surface: &Surface, world_i: Vec3, cosine: f32) -> Option<Side> {
     let geometric = surface.geometric_normal.dot(world_i);
-    if i.z > 0.0 && geometric > 0.0 {
+    if cosine > 0.0 && geometric > 0.0 {
         Some(Side::Reflected)
-    } else if i.z < 0.0 && geometric < 0.0 {
+    } else if cosine < 0.0 && geometric < 0.0 {
         Some(Side::Transmitted)
     } else {
         None
     }
 }
 
-/// 1/sr, cosine not included; delta lobes are left out. `o` and `i` are unit and point away.
-pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
-    let terms = Terms::new(surface, o);
-    let local = terms.frame.transpose() * i;
-    let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return Vec3::ZERO };
-    let value = terms.cosine_family(local.z.abs(), side);
-    if terms.mirror {
-        return value;
+/// What leaves towards a direction, cosine included, in 1/sr: families lie around different normals where one was bent.
+/// And the density with which [`bsdf_sample`] answers it. Delta lobes are left out.
+fn towards(terms: &Terms, surface: &Surface, i: Vec3) -> (Vec3, f32) {
+    let (mut value, mut pdf) = (Vec3::ZERO, 0.0);
+    if terms.o.z <= 0.0 {
+        return (value, pdf);
     }
+    let local = terms.frame.transpose() * i;
+    let CosineProbability { family, through } = terms.cosine_probability();
+    let base = terms.base.dot(local);
+    if let Some(side) = side_of(surface, i, base) {
+        let share = if side == Side::Reflected { 1.0 - through } else { through };
+        value = terms.cosine_family(base.abs(), side) * base.abs();
+        pdf = family * share * base.abs() / PI;
+    }
+    let Some(side) = side_of(surface, i, local.z).filter(|_| !terms.mirror) else { return (value, pdf) };
     let facets = terms.facets(local, side);
-    value
-        + facets.value
-            * match side {
-                Side::Reflected => terms.reflected(facets.cosine),
-                Side::Transmitted => terms.transmitted(facets.cosine),
-            }
+    let reflect_share = terms.reflect_probability(facets.cosine);
+    let (colour, share) = match side {
+        Side::Reflected => (terms.reflected(facets.cosine), reflect_share),
+        Side::Transmitted => (terms.transmitted(facets.cosine), 1.0 - reflect_share),
+    };
+    (value + facets.value * local.z.abs() * colour, pdf + (1.0 - family) * facets.pdf * share)
+}
+
+/// What leaves towards `i` of the light from `o`, times the cosine of `i` at the normal of its lobe; 1/sr. Delta lobes are
+/// left out. `o` and `i` are unit and point away.
+pub fn bsdf_times_cosine(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
+    towards(&Terms::new(surface, o), surface, i).0
+}
+
+/// The same, cosine at the shading normal not included.
+pub fn bsdf_evaluate(surface: &Surface, o: Vec3, i: Vec3) -> Vec3 {
+    let cosine = surface.normal.dot(i).abs();
+    if cosine > 0.0 { bsdf_times_cosine(surface, o, i) / cosine } else { Vec3::ZERO }
 }
 
 /// 1/sr with which [`bsdf_sample`] answers `i`; delta lobes are left out.
 pub fn bsdf_pdf(surface: &Surface, o: Vec3, i: Vec3) -> f32 {
-    let terms = Terms::new(surface, o);
-    let local = terms.frame.transpose() * i;
-    let Some(side) = side_of(surface, i, local).filter(|_| terms.o.z > 0.0) else { return 0.0 };
-    let CosineProbability { family, through } = terms.cosine_probability();
-    let share = if side == Side::Reflected { 1.0 - through } else { through };
-    let density = family * share * local.z.abs() / PI;
-    if terms.mirror {
-        return density;
-    }
-    let facets = terms.facets(local, side);
-    let reflect_share = terms.reflect_probability(facets.cosine);
-    let share = if side == Side::Reflected { reflect_share } else { 1.0 - reflect_share };
-    density + (1.0 - family) * facets.pdf * share
+    towards(&Terms::new(surface, o), surface, i).1
 }
 
 /// Random numbers: lobe, side, and two for the direction. `None`: absorbed.
@@ -322,10 +359,10 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
     let CosineProbability { family, through } = terms.cosine_probability();
     let mut expected = Side::Reflected;
     let local = if lobe < family {
-        let up = cosine_hemisphere(Vec2::new(u, v));
+        let up = basis_around(terms.base) * cosine_hemisphere(Vec2::new(u, v));
         if side < through {
             expected = Side::Transmitted;
-            up.with_z(-up.z)
+            up - 2.0 * up.dot(terms.base) * terms.base
         } else {
             up
         }
@@ -345,7 +382,7 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
             let probability = (1.0 - family) * if reflects { reflect_share } else { 1.0 - reflect_share };
             let share = if reflects { terms.reflected(cosine) } else { terms.transmitted(cosine) };
             let world = (terms.frame * local).normalize();
-            if side_of(surface, world, local) != Some(expected) || !(probability > 0.0) {
+            if side_of(surface, world, local.z) != Some(expected) || !(probability > 0.0) {
                 return None;
             }
             return Some(BsdfSample {
@@ -360,14 +397,15 @@ pub fn bsdf_sample(surface: &Surface, o: Vec3, [lobe, side, u, v]: [f32; 4]) -> 
     };
     let world = (terms.frame * local).normalize();
     // A facet can send light through the surface as a whole; the cosine family makes up for what is lost so.
-    if side_of(surface, world, local) != Some(expected) {
+    let cosine = if lobe < family { local.dot(terms.base) } else { local.z };
+    if side_of(surface, world, cosine) != Some(expected) {
         return None;
     }
-    let pdf = bsdf_pdf(surface, o, world);
+    let (value, pdf) = towards(&terms, surface, world);
     if !(pdf > 0.0) || pdf > 1.0e30 {
         return None;
     }
-    let weight = bsdf_evaluate(surface, o, world) * (world.dot(surface.normal).abs() / pdf);
+    let weight = value / pdf;
     (weight.max_element() > 0.0).then_some(BsdfSample {
         direction: world,
         pdf,

@@ -10,13 +10,6 @@ use super::{
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
 
-/// Cosine to which a shading normal is bent that faces away from the ray.
-const SHADING_NORMAL_COSINE: f32 = 0.01;
-/// Least height of a mirrored direction over the geometric surface.
-const MIRRORED_HEIGHT: f32 = 0.01;
-/// The same as a share of the height of the ray, where that is less.
-const MIRRORED_SHARE: f32 = 0.9;
-
 /// What is shaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
@@ -145,39 +138,16 @@ fn mapped_normal(normal: Vec3, tangent: Vec4, texel: Vec3, scale: f32) -> Vec3 {
     if mapped.length_squared() > 0.0 { mapped / mapped.length() } else { normal }
 }
 
-/// The shading normal on the side of the geometric normal, facing `o`.
-fn shading_normal(interpolated: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
+/// The shading normal on the side of the geometric normal. It may face away from the ray; facets lie around one that does
+/// not.
+fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
     let squared = interpolated.length_squared();
     if !(squared > 0.0) {
         return geometric_normal;
     }
-    let mut normal = interpolated / squared.sqrt();
+    let normal = interpolated / squared.sqrt();
     let aside = normal.dot(geometric_normal);
-    if aside < 0.0 {
-        normal -= 2.0 * aside * geometric_normal;
-    }
-    let cosine = normal.dot(o);
-    if cosine < SHADING_NORMAL_COSINE {
-        normal = (normal + (SHADING_NORMAL_COSINE - cosine) * o).normalize();
-    }
-    normal
-}
-
-/// The shading normal, bent just so far that `o` mirrored at it leaves the geometric surface: halfway
-/// between `o` and the mirrored direction, lifted to the least height.
-pub(super) fn mirroring_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
-    let mirrored = 2.0 * normal.dot(o) * normal - o;
-    let height = mirrored.dot(geometric_normal);
-    let least = MIRRORED_HEIGHT.min(MIRRORED_SHARE * o.dot(geometric_normal));
-    if height >= least {
-        return normal;
-    }
-    let along = mirrored - height * geometric_normal;
-    if !(along.length_squared() > 0.0) {
-        return geometric_normal;
-    }
-    let lifted = geometric_normal * least + along * ((1.0 - least * least).sqrt() / along.length());
-    (o + lifted).normalize()
+    if aside < 0.0 { normal - 2.0 * aside * geometric_normal } else { normal }
 }
 
 impl PosedScene<'_> {
@@ -218,13 +188,12 @@ impl PosedScene<'_> {
         let base_color =
             Vec4::from(material.base_color) * texel * attributes::color(self.mesh(draw), triangle, weights);
         let blends = material.alpha_mode == AlphaMode::Blend;
-        let facing_normal = shading_normal(interpolated * facing, geometric_normal, o);
         let mut surface = Surface {
             position,
             position_error,
             geometric_normal,
             primitive: Some(primitive),
-            normal: mirroring_normal(facing_normal, geometric_normal, o),
+            normal: shading_normal(interpolated * facing, geometric_normal),
             base_color: Vec3::ZERO,
             opacity: if blends { base_color.w.clamp(0.0, 1.0) } else { 1.0 },
             front,

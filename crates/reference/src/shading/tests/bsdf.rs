@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use crate::shading::{
     Surface, albedo,
     bsdf::SMOOTH_ROUGHNESS,
-    bsdf_evaluate, bsdf_pdf, bsdf_sample,
+    bsdf_evaluate, bsdf_pdf, bsdf_sample, bsdf_times_cosine,
     microfacet::{fresnel_power, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
     random::RandomStream,
 };
@@ -333,6 +333,24 @@ fn tilted_shading_normals_do_not_leak() {
             let through = sample.direction.z < 0.0;
             assert_eq!(through, sample.transmitted, "{name}");
             assert!(!through || surface.transmission > 0.0, "{name}");
+        }
+    }
+}
+
+/// A dull surface whose normals lean away sends on what of its lobe is not below it, wherever it is seen from: the normal
+/// is bent for facets alone.
+#[test]
+fn a_dull_surface_keeps_its_normal_from_every_view() {
+    for degrees in [0.0_f32, 30.0, 50.0, 80.0] {
+        let lean = degrees.to_radians();
+        let normal = Vec3::new(-lean.sin(), 0.0, lean.cos());
+        let dull =
+            Surface { normal, base_color: Vec3::ONE, specular: 0.0, roughness: 1.0, ..Surface::default() };
+        for view in [0.0_f32, 45.0, 70.0] {
+            let o = Vec3::new(view.to_radians().sin(), 0.0, view.to_radians().cos());
+            let sent = over_sphere(o, |i| [f64::from(bsdf_times_cosine(&dull, o, i).x)])[0];
+            let expected = 0.5 * (1.0 + f64::from(lean.cos()));
+            assert!((sent - expected).abs() < 5.0e-3, "{degrees} from {view}: {sent}, {expected}");
         }
     }
 }
