@@ -7,9 +7,11 @@
 layout(constant_id = 90) const bool NEEDS_TEXTURES = true;
 layout(constant_id = 91) const bool NEEDS_TRANSMISSION = true;
 layout(constant_id = 92) const bool NEEDS_BLEND = true;
+layout(constant_id = 94) const bool NEEDS_TEXEL_RUNS = true;
 
 #define SHADING_TEXTURES NEEDS_TEXTURES
 #define SHADING_TRANSMISSION NEEDS_TRANSMISSION
 #define SHADING_BLEND NEEDS_BLEND
+#define SHADING_TEXEL_RUNS NEEDS_TEXEL_RUNS
 
 #endif

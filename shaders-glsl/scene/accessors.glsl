@@ -1,10 +1,11 @@
 // What: the scene tables: the only storage buffers of shading, and the functions that read them.
-// Reads: set SCENE_SET, bindings 0 to 11. Writes: nothing. Source: docs/shading.md, "Tables".
+// Reads: set SCENE_SET, bindings 0 to 14. Writes: nothing. Source: docs/shading.md, "Tables".
 // Indices come from tables that were validated when they were packed; ids that come from a
 // structure are checked here, so that a corrupt hit cannot read out of bounds.
 #ifndef SCENE_ACCESSORS_GLSL
 #define SCENE_ACCESSORS_GLSL
 
+#include "scene/features.glsl"
 #include "scene/types.glsl"
 
 #ifndef SCENE_SET
@@ -18,11 +19,14 @@ layout(set = SCENE_SET, binding = 3, scalar) readonly buffer ScenePosedAttribute
 layout(set = SCENE_SET, binding = 4, scalar) readonly buffer SceneVertexAttributes { float scene_vertex_table[]; };
 layout(set = SCENE_SET, binding = 5, scalar) readonly buffer SceneMaterials { Material scene_material_table[]; };
 layout(set = SCENE_SET, binding = 6, scalar) readonly buffer SceneTextures { Texture scene_texture_table[]; };
-layout(set = SCENE_SET, binding = 7, scalar) readonly buffer SceneTexels { uint scene_texel_table[]; };
+layout(set = SCENE_SET, binding = 7, scalar) readonly buffer SceneTexels { uint scene_texel_run_0[]; };
 layout(set = SCENE_SET, binding = 8, scalar) readonly buffer SceneLights { Light scene_light_table[]; };
 layout(set = SCENE_SET, binding = 9, scalar) readonly buffer SceneEmissiveTriangles { EmissiveTriangle scene_emissive_table[]; };
 layout(set = SCENE_SET, binding = 10, scalar) readonly buffer SceneEnvironmentRadiance { float scene_environment_table[]; };
 layout(set = SCENE_SET, binding = 11, scalar) readonly buffer SceneEnvironmentCdf { float scene_environment_cdf_table[]; };
+layout(set = SCENE_SET, binding = 12, scalar) readonly buffer SceneTexels1 { uint scene_texel_run_1[]; };
+layout(set = SCENE_SET, binding = 13, scalar) readonly buffer SceneTexels2 { uint scene_texel_run_2[]; };
+layout(set = SCENE_SET, binding = 14, scalar) readonly buffer SceneTexels3 { uint scene_texel_run_3[]; };
 
 Frame scene_frame() { return scene_frame_table; }
 uint random_seed() { return scene_frame_table.seed; }
@@ -49,9 +53,21 @@ vec3 scene_material_specular_color(uint material) {
 }
 
 Texture scene_texture(uint texture_index) { return scene_texture_table[texture_index]; }
+// Texels are numbered over all runs: where one buffer would exceed what a binding holds, runs of equal length lie in
+// a buffer each.
+uint scene_texel_bits(uint texel) {
+    if (!SHADING_TEXEL_RUNS) return scene_texel_run_0[texel];
+    uint shift = scene_frame_table.texel_shift;
+    uint run = texel >> shift;
+    uint place = texel - (run << shift);
+    if (run == 0u) return scene_texel_run_0[place];
+    if (run == 1u) return scene_texel_run_1[place];
+    if (run == 2u) return scene_texel_run_2[place];
+    return scene_texel_run_3[place];
+}
 // RGBA in [0, 1] as stored: no decoding.
 vec4 scene_texel(uint texel) {
-    uint bits = scene_texel_table[texel];
+    uint bits = scene_texel_bits(texel);
     return vec4(bits & 255u, (bits >> 8) & 255u, (bits >> 16) & 255u, bits >> 24) * (1.0 / 255.0);
 }
 

@@ -17,6 +17,12 @@
 #define SCENE_BINDING_EMISSIVE_TRIANGLES 9u
 #define SCENE_BINDING_ENVIRONMENT_RADIANCE 10u
 #define SCENE_BINDING_ENVIRONMENT_CDF 11u
+// Texels beyond the first run.
+#define SCENE_BINDING_TEXELS_1 12u
+#define SCENE_BINDING_TEXELS_2 13u
+#define SCENE_BINDING_TEXELS_3 14u
+// Buffers that texels are spread over.
+#define SCENE_TEXEL_RUNS 4u
 
 // "This draw has no such attribute."
 #define ATTRIBUTE_NONE 0xFFFFFFFFu

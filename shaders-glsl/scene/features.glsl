@@ -8,6 +8,10 @@
 #ifndef SHADING_TEXTURES
 #define SHADING_TEXTURES true
 #endif
+// Texels lie in several buffers.
+#ifndef SHADING_TEXEL_RUNS
+#define SHADING_TEXEL_RUNS true
+#endif
 // Any material transmits.
 #ifndef SHADING_TRANSMISSION
 #define SHADING_TRANSMISSION true

@@ -1,4 +1,4 @@
-// What: textures sampled from one buffer of texels: wrapping, nearest, bilinear and trilinear filtering.
+// What: textures sampled from buffers of texels: wrapping, nearest, bilinear and trilinear filtering.
 // Reads: textures, texels. Writes: nothing. Source: docs/shading.md, "Textures".
 #ifndef SCENE_TEXTURE_GLSL
 #define SCENE_TEXTURE_GLSL
@@ -37,7 +37,7 @@ vec4 texture_fetch(Texture source, uint first_texel, ivec2 size, ivec2 texel) {
     uint wrap_v = (source.sampling >> TEXTURE_WRAP_V_SHIFT) & 3u;
     int x = texture_wrap(texel.x, size.x, wrap_u);
     int y = texture_wrap(texel.y, size.y, wrap_v);
-    vec4 value = scene_texel(first_texel + uint(y * size.x + x));
+    vec4 value = scene_texel(first_texel + uint(y) * uint(size.x) + uint(x));
     if ((source.sampling & TEXTURE_SRGB) != 0u) {
         value.rgb = vec3(srgb_decode(value.r), srgb_decode(value.g), srgb_decode(value.b));
     }

@@ -8,7 +8,7 @@
 #include "scene/constants.glsl"
 
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
-// 140 bytes.
+// 144 bytes.
 struct Frame {
     vec3 camera_position;
     uint projection;            // PROJECTION_*
@@ -33,6 +33,7 @@ struct Frame {
     uint sampling;              // SAMPLER_*
     float footprint_scale;      // of a camera ray's cone: 1 / sqrt(samples per pixel)
     vec3 kind_shares;           // probability of the kinds of light: punctual, emissive triangles, environment
+    uint texel_shift;           // a run of texels has 2^texel_shift of them; at most 30
 };
 
 // How a draw is shaded; one per draw of the geometry, same order. 44 bytes.
@@ -86,7 +87,7 @@ struct Material {
 // Levels are stored one after the other, level 0 first, each tight and rows top first.
 // Level l has max(1, width >> l) by max(1, height >> l) texels. 20 bytes.
 struct Texture {
-    uint first_texel;           // index of level 0's first texel in texels
+    uint first_texel;           // number of level 0's first texel, over all runs
     uint width;                 // of level 0
     uint height;
     uint level_count;           // 1 if smaller levels are not used

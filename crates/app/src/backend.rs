@@ -335,11 +335,23 @@ pub struct DeviceDescription {
     pub paths: Vec<ChosenPath>,
 }
 
+/// How many texels a device holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TexelRoom {
+    /// At most, of all levels of all textures.
+    pub texels: u64,
+    /// Name of the device.
+    pub device: String,
+}
+
 /// What renders. Every method reports failure of the device as [`AppError::Device`], and lost data
 /// as [`AppError::Refused`].
 pub trait Backend {
     /// The device in use, for reports.
     fn device(&self) -> Device;
+
+    /// How many texels the device in use holds.
+    fn texel_room(&self) -> TexelRoom;
 
     /// Renders an image. When `progress` breaks, the samples done so far are the result.
     fn render(

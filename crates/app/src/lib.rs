@@ -18,6 +18,7 @@ pub mod structure;
 mod structure_values;
 pub mod systems;
 mod terminal;
+mod texels;
 
 pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE};
 pub use interrupt::Interrupt;

@@ -3,7 +3,7 @@
 use crate::arguments::SceneArguments;
 use crate::environment;
 use crate::error::AppError;
-use crate::report::SceneRecord;
+use crate::report::{SceneRecord, SmallerImageRecord};
 use crate::structure::Switch;
 use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
@@ -21,12 +21,19 @@ pub struct LoadedScene {
     pub triangles: u64,
     /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
+    /// Images that were made smaller for the device.
+    pub smaller_images: Vec<SmallerImageRecord>,
 }
 
 impl LoadedScene {
     /// What reports say of it.
     pub fn record(&self) -> SceneRecord {
-        SceneRecord { name: self.scene.name.clone(), triangles: self.triangles, sha256: self.sha256.clone() }
+        SceneRecord {
+            name: self.scene.name.clone(),
+            triangles: self.triangles,
+            sha256: self.sha256.clone(),
+            smaller_images: self.smaller_images.clone(),
+        }
     }
 }
 
@@ -50,11 +57,11 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
                 "leave the file in place while it is read",
             )
         })?;
-        return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: Some(sha256) });
+        return Ok(loaded(scene, Some(sha256)));
     }
     if let Some(made) = name.to_str().and_then(builtin::builtin) {
         let scene = made?;
-        return Ok(LoadedScene { triangles: triangles(&scene), scene, sha256: None });
+        return Ok(loaded(scene, None));
     }
     let kinds = format!(
         "scenes are .gltf, .glb, .obj and .ply files, or built-in: {} (parameters follow a colon: spheres:10k)",
@@ -64,6 +71,10 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
         return Err(AppError::input(path, "is not a scene file by its name", kinds));
     }
     Err(AppError::input(path, "there is neither such a file nor such a built-in scene", kinds))
+}
+
+fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
+    LoadedScene { triangles: triangles(&scene), scene, sha256, smaller_images: Vec::new() }
 }
 
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light. An

@@ -190,6 +190,36 @@ fn a_scene_without_triangles_is_a_warning() {
 }
 
 #[test]
+fn images_that_the_device_does_not_hold_are_smaller_and_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lines = [
+        "render atrium --size 4x3 --report r.json",
+        "compare atrium --systems mmrt --ray-set eye --report r.json",
+    ];
+    for line in lines {
+        let output = rasray(folder.path(), &format!("{line} --device small"));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let said = stderr(&output);
+        let warning = said.lines().find(|line| line.contains("(smaller-images)")).unwrap_or_default();
+        assert_eq!(said.matches("smaller-images").count(), 1, "{said}");
+        assert!(
+            warning.starts_with("warning: atrium: ") && warning.contains("scripted holds 7.81 KiB"),
+            "{said}"
+        );
+        let smaller = report(&folder.path().join("r.json")).scene.smaller_images;
+        assert!(
+            !smaller.is_empty() && smaller.iter().all(|image| image.to[0] < image.from[0]),
+            "{smaller:?}"
+        );
+        assert!(smaller.iter().any(|image| warning.contains(&image.name)), "{warning}");
+        // A device that holds them all says nothing.
+        let output = rasray(folder.path(), line);
+        assert!(!stderr(&output).contains("smaller-images"), "{}", stderr(&output));
+        assert!(report(&folder.path().join("r.json")).scene.smaller_images.is_empty());
+    }
+}
+
+#[test]
 fn info_describes_the_device_in_use() {
     let folder = tempfile::tempdir().expect("a folder");
     let output = rasray(folder.path(), "info");

@@ -14,9 +14,9 @@ pub enum GpuSceneError {
         /// Largest number that works.
         limit: u64,
     },
-    /// The texels of all images with their smaller levels exceed what 32-bit offsets reach.
+    /// The texels of all images with their smaller levels exceed what the device holds, or what 32 bits number.
     #[error(
-        "the textures need {count} texels with all levels, more than the {limit} that 32-bit offsets reach; use smaller images"
+        "the textures need {count} texels with all levels, more than the {limit} that can be held; use smaller or fewer images"
     )]
     TooManyTexels {
         /// Demand.

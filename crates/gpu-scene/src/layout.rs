@@ -59,6 +59,8 @@ pub struct Frame {
     pub footprint_scale: f32,
     /// Probability of the kinds of light: punctual, emissive triangles, environment.
     pub kind_shares: [f32; 3],
+    /// A run of texels has 2^`texel_shift` of them; at most 30.
+    pub texel_shift: u32,
 }
 
 impl Frame {
@@ -169,7 +171,7 @@ pub struct Material {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Texture {
-    /// Index of the first texel of level 0.
+    /// Number of the first texel of level 0, over all runs.
     pub first_texel: u32,
     /// Of level 0.
     pub width: u32,

@@ -7,6 +7,9 @@
 //! [`GpuScene`] uploads the tables and binds them: a `rasray_ads::Geometry` for structures, a set for
 //! everything that shades.
 //!
+//! Texels are spread over several buffers ([`TexelRuns`]), and may exceed what one binding of a device holds. What
+//! exceeds these too is known before ([`TexelDemand`]): the scene's largest images can be made smaller.
+//!
 //! Static geometry is posed once, in f64, when the tables are made: `world_from_mesh * position`,
 //! minus the frame origin, rounded to f32. What structures build from and what an oracle should
 //! read is [`Posed::positions`].
@@ -24,7 +27,9 @@ pub mod mips;
 mod origin;
 mod parts;
 mod pose;
+mod smaller_images;
 mod tables;
+mod texel_runs;
 mod textures;
 mod upload;
 mod view;
@@ -34,6 +39,8 @@ pub use error::GpuSceneError;
 pub use origin::{frame_origin_spacing, snap_frame_origin};
 pub use parts::{Parts, TextureKind};
 pub use pose::{LARGEST_COORDINATE, Posed};
+pub use smaller_images::{SmallerImage, TexelDemand};
 pub use tables::SceneTables;
+pub use texel_runs::{TEXEL_BYTES, TexelRuns};
 pub use upload::{GpuScene, ShadingFeatures};
 pub use view::{Sampler, Sampling, View};

@@ -18,12 +18,24 @@ use crate::{
 /// # Errors
 /// See [`TexturePacker`].
 pub fn pack_materials(scene: &Scene, parts: &Parts) -> Result<(Vec<Material>, Textures), GpuSceneError> {
+    let (materials, textures) = collect_materials(scene, parts)?;
+    Ok((materials, textures.finish()?))
+}
+
+/// Packs all materials and notes the textures they use.
+///
+/// # Errors
+/// `Malformed` where one does not exist.
+pub fn collect_materials<'a>(
+    scene: &'a Scene,
+    parts: &Parts,
+) -> Result<(Vec<Material>, TexturePacker<'a>), GpuSceneError> {
     let mut textures = TexturePacker::new(scene);
     let mut materials = Vec::with_capacity(scene.materials.len());
     for material in &scene.materials {
         materials.push(pack(material, parts, &mut textures)?);
     }
-    Ok((materials, textures.finish()?))
+    Ok((materials, textures))
 }
 
 fn pack(

@@ -49,24 +49,49 @@ pub fn texel_count(width: u32, height: u32, mipmapped: bool) -> u64 {
 ///
 /// `rgba8` must hold `width * height` texels of four bytes.
 pub fn levels(width: u32, height: u32, rgba8: &[u8], encoding: Encoding, mipmapped: bool) -> Vec<Level> {
-    let texels = rgba8.chunks_exact(4).map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]])).collect();
-    let mut levels = vec![Level { width, height, texels }];
+    let mut levels = vec![first_level(width, height, rgba8)];
     if !mipmapped {
         return levels;
     }
-    let linear = std::array::from_fn(|byte| byte as f32 / 255.0);
-    let color = match encoding {
-        Encoding::Linear => linear,
-        Encoding::Srgb => linear.map(linear_from_srgb),
-    };
+    let values = Values::of(encoding);
     for _ in 1..level_count(width, height) {
-        let smaller = halve(&levels[levels.len() - 1], &color, &linear, encoding);
+        let smaller = halve(&levels[levels.len() - 1], &values);
         levels.push(smaller);
     }
     levels
 }
 
-fn halve(level: &Level, color: &[f32; 256], linear: &[f32; 256], encoding: Encoding) -> Level {
+/// One of the levels that [`levels`] gives: that of this number, 0 the first. Beyond the last it stays that.
+pub fn level(width: u32, height: u32, rgba8: &[u8], encoding: Encoding, number: u32) -> Level {
+    let values = Values::of(encoding);
+    let smaller = 0..number.min(level_count(width, height) - 1);
+    smaller.fold(first_level(width, height, rgba8), |level, _| halve(&level, &values))
+}
+
+fn first_level(width: u32, height: u32, rgba8: &[u8]) -> Level {
+    let texels = rgba8.chunks_exact(4).map(|t| u32::from_le_bytes([t[0], t[1], t[2], t[3]])).collect();
+    Level { width, height, texels }
+}
+
+/// What every byte of a texel stands for.
+struct Values {
+    color: [f32; 256],
+    alpha: [f32; 256],
+    encoding: Encoding,
+}
+
+impl Values {
+    fn of(encoding: Encoding) -> Self {
+        let alpha = std::array::from_fn(|byte| byte as f32 / 255.0);
+        let color = match encoding {
+            Encoding::Linear => alpha,
+            Encoding::Srgb => alpha.map(linear_from_srgb),
+        };
+        Self { color, alpha, encoding }
+    }
+}
+
+fn halve(level: &Level, values: &Values) -> Level {
     let (width, height) = ((level.width / 2).max(1), (level.height / 2).max(1));
     let mut texels = Vec::with_capacity(width as usize * height as usize);
     for y in 0..height {
@@ -77,11 +102,11 @@ fn halve(level: &Level, color: &[f32; 256], linear: &[f32; 256], encoding: Encod
                 let row = (2 * y + b).min(level.height - 1) as usize;
                 let texel = level.texels[row * level.width as usize + column].to_le_bytes();
                 for channel in 0..3 {
-                    sum[channel] += color[texel[channel] as usize];
+                    sum[channel] += values.color[texel[channel] as usize];
                 }
-                sum[3] += linear[texel[3] as usize];
+                sum[3] += values.alpha[texel[3] as usize];
             }
-            texels.push(pack(sum.map(|s| s * 0.25), encoding));
+            texels.push(pack(sum.map(|s| s * 0.25), values.encoding));
         }
     }
     Level { width, height, texels }
@@ -115,6 +140,10 @@ mod tests {
         assert_eq!(texel_count(5, 3, false), 15);
         assert_eq!(levels(5, 3, &image, Encoding::Linear, false).len(), 1);
         assert_eq!(levels(1, 1, &image[..4], Encoding::Srgb, true).len(), 1);
+        for number in 0..5 {
+            let one = level(5, 3, &image, Encoding::Linear, number);
+            assert_eq!(one, all[(number as usize).min(2)], "{number}");
+        }
     }
 
     #[test]

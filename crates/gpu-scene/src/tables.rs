@@ -5,7 +5,7 @@ use rasray_scene::{AlphaMode, Scene};
 use rasray_shaders_glsl::constants::contract::{DRAW_ALPHA_MASKED, DRAW_STATIC};
 
 use crate::{
-    GpuSceneError, Parts, Posed, Sampling, View,
+    GpuSceneError, Parts, Posed, Sampling, TexelRuns, View,
     attributes::pack_attributes,
     emissive::pack_emissive,
     environment::{EnvironmentTables, pack_environment},
@@ -114,6 +114,7 @@ impl SceneTables {
             environment_sampled: u32::from(self.environment.emits),
             environment_radiance: self.environment.constant,
             kind_shares: self.kind_shares,
+            texel_shift: TexelRuns::LONGEST.shift(),
             ..Frame::default()
         };
         view.write(&mut frame, self.frame_origin);

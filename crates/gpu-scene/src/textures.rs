@@ -1,7 +1,7 @@
 //! Textures and texels: one entry for each pair of scene texture and use, one run of texels for
 //! each image in each encoding.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use rasray_scene::{Filter, Scene, TextureRef, Wrap};
 use rasray_shaders_glsl::constants::scene::{
@@ -76,25 +76,30 @@ impl<'a> TexturePacker<'a> {
         Ok(TextureUse { texture: entry, uv_set: reference.uv_set.min(1), row_u, row_v })
     }
 
+    /// The images that are stored: once for each encoding, with all levels if any of their textures wants them.
+    pub fn stored(&self) -> BTreeMap<(usize, Encoding), bool> {
+        let mut mipmapped = BTreeMap::new();
+        for &(texture, encoding) in &self.entries {
+            let texture = &self.scene.textures[texture];
+            *mipmapped.entry((texture.image, encoding)).or_default() |= texture.mipmapped;
+        }
+        mipmapped
+    }
+
     /// Makes the texels of everything that was used.
     ///
     /// # Errors
     /// `TooManyTexels` where 32-bit offsets do not reach the last texel.
     pub fn finish(self) -> Result<Textures, GpuSceneError> {
         let scene = self.scene;
-        // An image is stored once for each encoding, with its levels if any of its textures wants them.
-        let mut mipmapped: HashMap<(usize, Encoding), bool> = HashMap::new();
-        for &(texture, encoding) in &self.entries {
-            let texture = &scene.textures[texture];
-            *mipmapped.entry((texture.image, encoding)).or_default() |= texture.mipmapped;
-        }
+        let mipmapped = self.stored();
         let count: u64 = mipmapped
             .iter()
             .map(|(&(image, _), &all)| {
                 mips::texel_count(scene.images[image].width, scene.images[image].height, all)
             })
             .sum();
-        if count >= u64::from(u32::MAX) {
+        if count > u64::from(u32::MAX) {
             return Err(GpuSceneError::TooManyTexels { count, limit: u64::from(u32::MAX) });
         }
         let mut packed = Textures {

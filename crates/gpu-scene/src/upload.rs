@@ -5,13 +5,13 @@ use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation};
 use rasray_shaders_glsl::constants::{
     contract::DRAW_ALPHA_MASKED,
-    scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_ENVIRONMENT_CDF},
+    scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS},
 };
 
-use crate::{GpuSceneError, Sampling, SceneTables, View, layout::Frame};
+use crate::{GpuSceneError, Sampling, SceneTables, TexelRuns, View, layout::Frame};
 
 /// Number of buffers in the scene's set.
-const BINDINGS: u32 = SCENE_BINDING_ENVIRONMENT_CDF + 1;
+const BINDINGS: u32 = SCENE_BINDING_TEXELS_3 + 1;
 
 /// Which code the shading of a scene can reach at all. Kernels leave the rest out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +22,13 @@ pub struct ShadingFeatures {
     pub transmission: bool,
     /// Any material blends.
     pub blend: bool,
+    /// Texels lie in several buffers.
+    pub texel_runs: bool,
 }
 
 impl ShadingFeatures {
     /// Everything: proves that leaving code out does not change a picture.
-    pub const ALL: Self = Self { textures: true, transmission: true, blend: true };
+    pub const ALL: Self = Self { textures: true, transmission: true, blend: true, texel_runs: true };
 }
 
 /// A scene on the device: the geometry that structures build from, and the set that shading reads.
@@ -44,12 +46,26 @@ pub struct GpuScene {
 }
 
 impl GpuScene {
-    /// Uploads the tables and waits until they have arrived.
+    /// Uploads the tables and waits until they have arrived. Texels may exceed one binding: they lie in the longest
+    /// runs that the device can bind.
     ///
     /// # Errors
-    /// Out of memory, a table larger than one binding can hold (the error names it), or a lost
-    /// device.
+    /// Out of memory, a table larger than one binding can hold (the error names it), more texels than
+    /// [`TexelRuns::most_texels`], or a lost device.
     pub fn upload(device: &Device, tables: &SceneTables, view: &View) -> Result<Self, GpuSceneError> {
+        Self::upload_in_runs(device, tables, view, TexelRuns::of(device.limits()))
+    }
+
+    /// As [`GpuScene::upload`], with texels in runs of a given length: what is read does not depend on it.
+    ///
+    /// # Errors
+    /// As [`GpuScene::upload`].
+    pub fn upload_in_runs(
+        device: &Device,
+        tables: &SceneTables,
+        view: &View,
+        runs: TexelRuns,
+    ) -> Result<Self, GpuSceneError> {
         let mut upload = Upload { device, bytes_by_part: Vec::new() };
         let posed = &tables.posed;
         let geometry = Geometry::new(
@@ -65,7 +81,8 @@ impl GpuScene {
                 frame_origin: tables.frame_origin.to_array(),
             },
         )?;
-        let frame = tables.frame(view);
+        let mut frame = tables.frame(view);
+        frame.texel_shift = runs.shift();
         // The host writes the frame in place whenever the view changes.
         let frame_buffer = device.create_buffer(&BufferDesc {
             name: "frame",
@@ -74,6 +91,8 @@ impl GpuScene {
             location: MemoryLocation::Upload,
         })?;
         frame_buffer.write(0, bytemuck::bytes_of(&frame))?;
+        let texels = upload.texels(&tables.texels, runs)?;
+        let [first_texels, more_texels @ ..] = &texels;
         let buffers = [
             frame_buffer.clone(),
             upload.table("draw shadings", &tables.draw_shadings)?,
@@ -82,14 +101,15 @@ impl GpuScene {
             upload.table("vertex attributes", &tables.vertex_attributes)?,
             upload.table("materials", &tables.materials)?,
             upload.table("textures", &tables.textures)?,
-            upload.table("texels", &tables.texels)?,
+            first_texels.clone(),
             upload.table("lights", &tables.lights)?,
             upload.table("emissive triangles", &tables.emissive_triangles)?,
             upload.table("environment radiance", &tables.environment.radiance)?,
             upload.table("environment distribution", &tables.environment.distribution)?,
         ];
         let layout = device.create_set_layout("scene", BINDINGS)?;
-        let set = device.create_binding_set(&layout, "scene", &buffers.each_ref())?;
+        let bound: Vec<&Buffer> = buffers.iter().chain(more_texels).collect();
+        let set = device.create_binding_set(&layout, "scene", &bound)?;
         let alpha_masked = tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0);
         let mut bytes_by_part = upload.bytes_by_part;
         bytes_by_part.push(("frame", frame_buffer.size()));
@@ -99,7 +119,7 @@ impl GpuScene {
             frame_buffer,
             frame,
             frame_origin: tables.frame_origin,
-            features: features(tables),
+            features: features(tables, runs),
             bytes_by_part,
         })
     }
@@ -179,11 +199,12 @@ impl GpuScene {
     }
 }
 
-fn features(tables: &SceneTables) -> ShadingFeatures {
+fn features(tables: &SceneTables, runs: TexelRuns) -> ShadingFeatures {
     ShadingFeatures {
         textures: !tables.textures.is_empty(),
         transmission: tables.materials.iter().any(|material| material.transmission > 0.0),
         blend: tables.materials.iter().any(|material| material.flags & MATERIAL_ALPHA_BLEND != 0),
+        texel_runs: tables.texels.len() as u64 > runs.length(),
     }
 }
 
@@ -199,11 +220,43 @@ impl Upload<'_> {
         name: &'static str,
         records: &[T],
     ) -> Result<Buffer, GpuSceneError> {
+        let buffer = self.buffer(name, records)?;
+        self.bytes_by_part.push((name, buffer.size()));
+        Ok(buffer)
+    }
+
+    /// Texels in runs, one part of the bytes. Where there are fewer runs than bindings, the first stands in for the
+    /// others, of which nothing is read.
+    fn texels(
+        &mut self,
+        texels: &[u32],
+        runs: TexelRuns,
+    ) -> Result<[Buffer; SCENE_TEXEL_RUNS as usize], GpuSceneError> {
+        let (count, limit) = (texels.len() as u64, runs.most_texels());
+        if count > limit {
+            return Err(GpuSceneError::TooManyTexels { count, limit });
+        }
+        let mut rest = texels.chunks(runs.length() as usize);
+        let first = self.buffer("texels", rest.next().unwrap_or_default())?;
+        let mut bytes = first.size();
+        let mut buffers = std::array::from_fn(|_| first.clone());
+        for (buffer, run) in buffers[1..].iter_mut().zip(rest) {
+            *buffer = self.buffer("texels", run)?;
+            bytes += buffer.size();
+        }
+        self.bytes_by_part.push(("texels", bytes));
+        Ok(buffers)
+    }
+
+    /// Records on the device; one zero record where there are none.
+    fn buffer<T: NoUninit + bytemuck::Zeroable>(
+        &self,
+        name: &'static str,
+        records: &[T],
+    ) -> Result<Buffer, GpuSceneError> {
         let zero = [T::zeroed()];
         let records = if records.is_empty() { &zero } else { records };
         let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
-        let buffer = self.device.create_buffer_with(name, usage, records)?;
-        self.bytes_by_part.push((name, buffer.size()));
-        Ok(buffer)
+        Ok(self.device.create_buffer_with(name, usage, records)?)
     }
 }

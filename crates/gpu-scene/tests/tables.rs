@@ -299,7 +299,7 @@ fn a_small_model_keeps_the_bits_of_its_file() {
 #[test]
 fn records_have_the_sizes_that_the_shaders_declare() {
     assert_eq!(size_of::<layout::Draw>(), 16);
-    assert_eq!(size_of::<layout::Frame>(), 140);
+    assert_eq!(size_of::<layout::Frame>(), 144);
     assert_eq!(size_of::<layout::DrawShading>(), 44);
     assert_eq!(size_of::<layout::TextureUse>(), 32);
     assert_eq!(size_of::<layout::Material>(), 256);

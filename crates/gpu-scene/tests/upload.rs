@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 use rasray_gpu::{Device, DeviceDesc, GpuError};
-use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, SceneTables, View};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, SceneTables, TexelRuns, View};
 use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
 
 fn device() -> Device {
@@ -108,5 +108,30 @@ fn too_little_memory_is_an_error_that_names_the_table() {
         other => panic!("expected to run out of memory, got {other:?}"),
     }
     assert_eq!(device.allocated_bytes(), 0);
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
+
+#[test]
+fn texels_lie_in_runs_that_count_as_one_part() {
+    let device = device();
+    let mut tables = SceneTables::new(&scene(1), DVec3::ZERO, &Parts::ALL).expect("the scene is well formed");
+    tables.texels = (0..1000).collect();
+    for (length, is_split) in [(1024, false), (999, true), (512, true), (256, true)] {
+        let runs = TexelRuns::at_most(length);
+        let uploaded = GpuScene::upload_in_runs(&device, &tables, &view(), runs).expect("the scene fits");
+        let parts = uploaded.bytes_by_part().iter().filter(|part| part.0 == "texels");
+        assert_eq!(parts.map(|part| part.1).collect::<Vec<_>>(), [4000], "runs of {length}");
+        assert_eq!(uploaded.frame().texel_shift, runs.shift());
+        assert_eq!(uploaded.features().texel_runs, is_split, "runs of {length}");
+    }
+    match GpuScene::upload_in_runs(&device, &tables, &view(), TexelRuns::at_most(128)) {
+        Err(GpuSceneError::TooManyTexels { count: 1000, limit: 512 }) => {}
+        other => panic!("four runs of 128 hold 512 texels, got {other:?}"),
+    }
+    // What is bound by itself are the longest runs that the device can bind.
+    let uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
+    let bytes = 4u64 << uploaded.frame().texel_shift;
+    let limit = device.limits().max_storage_buffer_range.min(device.limits().max_memory_allocation);
+    assert!(bytes <= limit && (2 * bytes > limit || bytes == 4 << 30), "{bytes} of {limit}");
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }

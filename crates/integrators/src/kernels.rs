@@ -19,13 +19,15 @@ const CONSTANT_TEXTURES: u32 = 90;
 const CONSTANT_TRANSMISSION: u32 = 91;
 const CONSTANT_BLEND: u32 = 92;
 const CONSTANT_PIXEL_CENTRES: u32 = 93;
+const CONSTANT_TEXEL_RUNS: u32 = 94;
 
 /// Constants that switch off shading code which `features` says is never reached.
-pub(crate) fn shading_constants(features: ShadingFeatures) -> [(u32, u32); 3] {
+pub(crate) fn shading_constants(features: ShadingFeatures) -> [(u32, u32); 4] {
     [
         (CONSTANT_TEXTURES, u32::from(features.textures)),
         (CONSTANT_TRANSMISSION, u32::from(features.transmission)),
         (CONSTANT_BLEND, u32::from(features.blend)),
+        (CONSTANT_TEXEL_RUNS, u32::from(features.texel_runs)),
     ]
 }
 

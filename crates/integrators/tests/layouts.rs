@@ -49,7 +49,7 @@ fn scene_records() {
             camera_position, projection, camera_right, half_width, camera_up, half_height, camera_forward,
             cone_spread, cone_width, width, height, seed, triangle_count, light_count, emissive_count,
             environment_kind, environment_width, environment_height, environment_sampled,
-            environment_radiance, sampling, footprint_scale, kind_shares,
+            environment_radiance, sampling, footprint_scale, kind_shares, texel_shift,
         });
     }
     check_layout!(shade, scene::Material as "Material" {

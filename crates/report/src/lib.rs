@@ -7,8 +7,8 @@ mod tests;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use schema::{
-    CameraRecord, Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, Spread, Statistics,
-    Timer, Times,
+    CameraRecord, Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
+    Spread, Statistics, Timer, Times,
 };
 
 use rasray_metrics::confidence_of_each;

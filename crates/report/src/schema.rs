@@ -68,7 +68,7 @@ pub struct Device {
 }
 
 /// A scene.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneRecord {
     /// File stem, or built-in name with its parameters.
@@ -78,6 +78,21 @@ pub struct SceneRecord {
     /// Of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
+    /// Images that were made smaller, because the device does not hold the texels of all; absent where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub smaller_images: Vec<SmallerImageRecord>,
+}
+
+/// An image that was made smaller.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SmallerImageRecord {
+    /// Name or file.
+    pub name: String,
+    /// Texels a row and rows in the scene.
+    pub from: [u32; 2],
+    /// Texels a row and rows as it was used.
+    pub to: [u32; 2],
 }
 
 /// From where a scene was seen.

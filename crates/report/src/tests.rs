@@ -26,7 +26,7 @@ fn run(counts: &[(&str, u64, u64)]) -> Run {
 }
 
 fn report(runs: Vec<Run>) -> Report {
-    let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
+    let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None, ..SceneRecord::default() };
     let command = Some("rasray compare box".to_owned());
     Report::new(Origin { command, ..Origin::default() }, Device::default(), scene, runs)
 }

@@ -11,9 +11,9 @@ mod scene;
 
 pub use child::in_child;
 pub use error::Failure;
-pub use picture::picture;
+pub use picture::{picture, picture_of};
 pub use random::scrambled;
-pub use scene::{hits, rays, spec, specs, stage};
+pub use scene::{hits, rays, spec, specs, stage, stage_of, textured_room};
 
 use rasray_gpu::{Device, DeviceDesc, Feature, GpuError, Requirements};
 

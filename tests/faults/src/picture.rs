@@ -1,6 +1,7 @@
 //! A picture of 16 x 16 pixels: everything that a render does, once.
 
 use rasray_gpu::Device;
+use rasray_gpu_scene::GpuScene;
 use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, waves};
 use rasray_systems::Spec;
 use rasray_tracer::build_until_complete;
@@ -13,13 +14,20 @@ use crate::{Failure, stage};
 /// # Errors
 /// The device or the structure fails.
 pub fn picture(device: &Device, spec: &Spec) -> Result<Vec<[u32; 3]>, Failure> {
+    picture_of(device, spec, &stage(device)?)
+}
+
+/// The same of a scene that is on the device.
+///
+/// # Errors
+/// The device or the structure fails.
+pub fn picture_of(device: &Device, spec: &Spec, scene: &GpuScene) -> Result<Vec<[u32; 3]>, Failure> {
     let timing = device.best_timing();
-    let scene = stage(device)?;
     let mut structure = spec.create(device, scene.geometry(), Some(scene.binding()))?;
     build_until_complete(device, structure.as_mut(), scene.eye(), timing)?;
     let [width, height] = scene.image_size();
     let film = Film::new(device, width, height)?;
-    let integrator = Path::new(&IntegratorDesc::new(device, &scene, &film), 1)?;
+    let integrator = Path::new(&IntegratorDesc::new(device, scene, &film), 1)?;
     device.submit(|recorder| integrator.record_reset(recorder))?;
     for wave in waves(film.pixel_count(), 1, integrator.wave_capacity()) {
         let submitted = device

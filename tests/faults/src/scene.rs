@@ -8,6 +8,7 @@ use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_scene::default_view::default_camera;
 use rasray_scene::needs::Needs;
+use rasray_scene::{Filter, Image, Scene, Texture, TextureRef, Wrap};
 use rasray_systems::{SYSTEMS, Spec};
 use rasray_tracer::{BatchTracer, build_until_complete};
 
@@ -42,12 +43,48 @@ pub fn specs() -> Result<Vec<Spec>, Failure> {
 /// # Errors
 /// The device fails.
 pub fn stage(device: &Device) -> Result<GpuScene, Failure> {
-    let scene = rasray_scene::builtin::builtin("cornell")
-        .expect("`cornell` is built in")
-        .expect("it needs no parameters");
-    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(&scene));
-    let origin = SceneTables::default_frame_origin(&scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(&scene, origin, &Parts::from(&Needs::all()))?;
+    stage_of(device, &cornell())
+}
+
+/// The built-in `cornell`.
+fn cornell() -> Scene {
+    let scene = rasray_scene::builtin::builtin("cornell");
+    scene.expect("`cornell` is built in").expect("it needs no parameters")
+}
+
+/// The room of `cornell` with a texture on everything: an image of `size` x `size` texels, no two neighbours alike.
+pub fn textured_room(size: u32) -> Scene {
+    let mut scene = cornell();
+    let byte = |index: u32| (index.wrapping_mul(2_654_435_761) >> 25) as u8 + 128;
+    let rgba8 = (0..size * size * 4).map(byte).collect();
+    scene.images = vec![Image { name: "noise".to_owned(), width: size, height: size, rgba8 }];
+    scene.textures = vec![Texture {
+        image: 0,
+        wrap_u: Wrap::Repeat,
+        wrap_v: Wrap::Repeat,
+        filter: Filter::Linear,
+        mipmapped: true,
+    }];
+    for material in &mut scene.materials {
+        let uv_transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        material.base_color_texture = Some(TextureRef { texture: 0, uv_set: 0, uv_transform });
+    }
+    for mesh in &mut scene.meshes {
+        // Other places along every axis.
+        let place = |&[x, y, z]: &[f32; 3]| [0.7 * x + 0.3 * y, 0.6 * z - 0.4 * y];
+        mesh.uvs[0] = Some(mesh.positions.iter().map(place).collect());
+    }
+    scene
+}
+
+/// A scene on the device, seen by its camera in an image of 16 x 16 pixels.
+///
+/// # Errors
+/// The device fails.
+pub fn stage_of(device: &Device, scene: &Scene) -> Result<GpuScene, Failure> {
+    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene));
+    let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
+    let tables = SceneTables::new(scene, origin, &Parts::from(&Needs::all()))?;
     Ok(GpuScene::upload(device, &tables, &View { camera, width: 16, height: 16, seed: 1 })?)
 }
 

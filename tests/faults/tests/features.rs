@@ -1,8 +1,13 @@
 //! Devices that lack a feature or have small limits: the same hits, or an error that names what is missing.
 
-use rasray_faults::{Failure, device, device_with, finish, hits, requirements, spec, specs};
+use rasray_faults::{
+    Failure, device, device_with, finish, hits, picture_of, requirements, spec, specs, stage_of,
+    textured_room,
+};
 use rasray_gpu::faults::{with_limits, without};
 use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
+use rasray_gpu_scene::{GpuSceneError, Parts, TexelDemand, TexelRuns};
+use rasray_scene::Scene;
 use rasray_systems::Spec;
 use rasray_tests::tier::is_full;
 
@@ -143,6 +148,47 @@ fn a_small_binding_is_refused_by_name_or_reached_by_address() {
         assert_eq!(finish(small), Vec::<String>::new());
     }
     assert!(fitting > 0 && refused > 0, "{fitting} fit, {refused} were refused");
+    assert_eq!(finish(whole), Vec::<String>::new());
+}
+
+/// Texels beyond one binding lie in several buffers: the same picture. Where all of these are too few, a scene is
+/// refused by number, and fits with a smaller image.
+#[test]
+fn texels_beyond_one_binding_lie_in_several_or_are_fewer() {
+    let spec = spec("brute-force", "robust").expect("registered");
+    let picture = |device: &Device, scene: &Scene| {
+        let stage = stage_of(device, scene)?;
+        Ok::<_, Failure>((stage.features().texel_runs, picture_of(device, &spec, &stage)?))
+    };
+    let mut scene = textured_room(700);
+    let demand = TexelDemand::of(&scene, &Parts::ALL).expect("the scene is whole");
+    let whole = device().expect("a device");
+    let (is_split, expected) = picture(&whole, &scene).expect("a picture");
+    assert!(!is_split && demand.bytes() > 2 << 20);
+    let small = |exponent: u32| {
+        let device = with_limits(move |limits| limits.max_storage_buffer_range = 1 << exponent, device);
+        device.expect("a device")
+    };
+    let halves = small(20);
+    let found = picture(&halves, &scene).expect("a picture");
+    assert_eq!(found, (true, expected.clone()));
+    assert_eq!(finish(halves), Vec::<String>::new());
+
+    let too_small = small(19);
+    let room = TexelRuns::of(too_small.limits()).most_texels();
+    match picture(&too_small, &scene) {
+        Err(Failure::Scene(GpuSceneError::TooManyTexels { count, limit })) => {
+            assert_eq!((count, limit), (demand.texels(), room));
+        }
+        other => panic!("{} texels do not fit, got {:?}", demand.texels(), other.map(|_| ())),
+    }
+    let smaller = demand.smaller_images(room).expect("half as many rows fit");
+    assert_eq!(smaller.iter().map(|image| image.to).collect::<Vec<_>>(), [[350, 350]]);
+    smaller[0].apply(&mut scene);
+    let (is_split, found) = picture(&too_small, &scene).expect("a picture");
+    let (_, of_whole) = picture(&whole, &scene).expect("a picture");
+    assert!(is_split && found == of_whole && found != expected);
+    assert_eq!(finish(too_small), Vec::<String>::new());
     assert_eq!(finish(whole), Vec::<String>::new());
 }
 

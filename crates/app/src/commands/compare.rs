@@ -8,11 +8,13 @@ use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
+use crate::progress::during;
 use crate::ray_files::{self, SaveTargets};
 use crate::report::figures::Figures;
 use crate::report::{Report, html, markdown, origin, table};
 use crate::systems;
 use crate::terminal::{self, Talk};
+use crate::texels;
 use std::ffi::OsStr;
 
 /// Rays per set unless told.
@@ -50,7 +52,7 @@ pub(crate) fn compare(
     let hits_files = given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-    let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
     let systems: Vec<_> =
         systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
@@ -58,6 +60,8 @@ pub(crate) fn compare(
 
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
+    let needs = given.reading.needs(&loaded.scene, frame.workload());
+    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {
@@ -74,7 +78,7 @@ pub(crate) fn compare(
         hits_files,
         keep: targets.save.any(),
         replay: given.replay,
-        needs: given.reading.needs(&loaded.scene, frame.workload()),
+        needs,
     };
     let Comparison { runs, figures, kept, replay } =
         with_progress(interrupt, |progress| progress.done > 0, |progress| backend.compare(&job, progress))?;

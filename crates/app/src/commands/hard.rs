@@ -84,7 +84,7 @@ pub(super) fn compare(
     if given.replay.is_some() {
         return Ok(());
     }
-    let scene = SceneRecord { name: format!("hard:{id}"), triangles, sha256: None };
+    let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
     let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
     terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;

@@ -9,9 +9,11 @@ use crate::backend::{AovSelection, Frame, OpenBackend, Progress, RenderJob, Rend
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
+use crate::progress::during;
 use crate::report::{Report, Run, origin, table};
 use crate::systems::{SystemConfig, word};
 use crate::terminal::{self, Talk};
+use crate::texels;
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -38,13 +40,14 @@ pub(crate) fn render(
     keep_inputs("--output", image.as_ref().map(|(place, _)| place), &given.scene)?;
     keep_inputs("--report", report_target.as_ref(), &given.scene)?;
 
-    let (loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
     let system = system.seen_by(&chosen.camera, frame.width, frame.height);
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
+    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
     let job = RenderJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),

@@ -1,6 +1,7 @@
 //! What `rasray info` says of the device.
 
 use rasray_gpu::Device;
+use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
 use rasray_systems::{SYSTEMS, Spec};
 
 use super::requirements;
@@ -48,6 +49,10 @@ pub(super) fn describe(device: &Device) -> Result<DeviceDescription, AppError> {
         features,
         limits: vec![
             ("largest pool per binding".to_owned(), format!("{} bytes", limits.max_storage_buffer_range)),
+            (
+                "texels of a scene".to_owned(),
+                format!("{} bytes", TEXEL_BYTES * TexelRuns::of(limits).most_texels()),
+            ),
             ("storage buffers per shader stage".to_owned(), limits.max_storage_buffers_per_stage.to_string()),
         ],
         paths,

@@ -16,11 +16,12 @@ mod traced_set;
 mod work_maps;
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
+use rasray_gpu_scene::TexelRuns;
 use rasray_systems::Spec;
 
 use crate::backend::{
     Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, HardJob, OnProgress, RenderJob,
-    RenderOutput,
+    RenderOutput, TexelRoom,
 };
 use crate::error::AppError;
 use crate::report::Device;
@@ -86,6 +87,11 @@ impl Backend for Renderer {
             driver: self.device.driver().to_owned(),
             software: self.device.is_software(),
         }
+    }
+
+    fn texel_room(&self) -> TexelRoom {
+        let texels = TexelRuns::of(self.device.limits()).most_texels();
+        TexelRoom { texels, device: self.device.name().to_owned() }
     }
 
     fn render(

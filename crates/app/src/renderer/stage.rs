@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 use rasray_ads::{AdsError, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
-use rasray_gpu_scene::{GpuScene, Parts, Sampling, SceneTables, View};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_systems::{Spec, SystemsError};
@@ -21,6 +21,25 @@ use crate::report::{Counters, Memory, Spread, Times};
 /// What a device error is about.
 pub(super) fn device_error(error: impl std::fmt::Display) -> AppError {
     AppError::device(error, "try a smaller --resolution or --size, or another --device")
+}
+
+/// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
+fn scene_error(error: GpuSceneError) -> AppError {
+    let message = match &error {
+        GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
+        | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
+            format!("the scene's {name} have {size} bytes, and this device binds {limit} at most")
+        }
+        GpuSceneError::TooManyVertices { .. }
+        | GpuSceneError::TooManyTexels { .. }
+        | GpuSceneError::Gpu(GpuError::OutOfDeviceMemory { .. })
+        | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => error.to_string(),
+        _ => return device_error(error),
+    };
+    AppError::device(
+        message,
+        "try a scene with fewer triangles and images, a smaller map for --environment, or another --device",
+    )
 }
 
 /// A failed build or trace: lost rays are refused, everything else is the device's.
@@ -67,9 +86,9 @@ impl Stage {
         seed: u32,
         needs: &Needs,
     ) -> Result<Self, AppError> {
-        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(device_error)?;
+        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
         let view = View { camera: camera.clone(), width, height, seed };
-        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(device_error)?;
+        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
         let dropped_triangles = tables.posed.dropped_triangles;
         if dropped_triangles > 0 {
             tracing::warn!(

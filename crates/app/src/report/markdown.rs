@@ -137,7 +137,8 @@ mod tests {
     }
 
     fn report(runs: Vec<Run>) -> Report {
-        let scene = SceneRecord { name: "box".to_owned(), triangles: 16, sha256: None };
+        let scene =
+            SceneRecord { name: "box".to_owned(), triangles: 16, sha256: None, ..SceneRecord::default() };
         Report::new(crate::report::origin("rasray compare box"), Device::default(), scene, runs)
     }
 

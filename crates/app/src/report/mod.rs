@@ -10,7 +10,7 @@ mod words;
 pub use markdown::markdown;
 pub use rasray_report::{
     Accuracy, Bound, CameraRecord, Counters, Device, HardRecord, ImageError, Memory, Origin, Pass,
-    RateRecord, Report, Run, SCHEMA, SceneRecord, Spread, Statistics, Timer, Times,
+    RateRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord, Spread, Statistics, Timer, Times,
 };
 pub use table::table;
 pub(crate) use words::{bytes, columns, grouped};

@@ -91,6 +91,10 @@ pub fn table(report: &Report, full: bool) -> String {
         in_line(&report.scene.name),
         grouped(report.scene.triangles)
     );
+    for image in report.scene.smaller_images.iter().filter(|_| full) {
+        let ([width, height], [from_width, from_height]) = (image.to, image.from);
+        _ = writeln!(text, "image  {} as {width}x{height}, not {from_width}x{from_height}", in_line(&image.name));
+    }
     if let Some(camera) = &report.camera {
         _ = writeln!(text, "camera {}", in_line(&described(camera)));
     }
@@ -180,7 +184,8 @@ mod tests {
         };
         let accuracy = Accuracy { rays: 1000, missed: 1, ..Default::default() };
         let device = Device { name: "d".to_owned(), driver: "e".to_owned(), software: true };
-        let scene = SceneRecord { name: "box".to_owned(), triangles: 12_000, sha256: None };
+        let scene =
+            SceneRecord { name: "box".to_owned(), triangles: 12_000, sha256: None, ..SceneRecord::default() };
         let runs = vec![run("mmrt", Some(accuracy)), run("brute-force", None)];
         let text = table(&Report::new(Origin::default(), device, scene, runs), true);
         assert!(text.contains("12,000 triangles") && text.contains("ratios on that device"), "{text}");
@@ -214,7 +219,8 @@ mod tests {
             hard: Some(hard),
             ..Default::default()
         };
-        let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
+        let scene =
+            SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None, ..SceneRecord::default() };
         let report = Report::new(Origin::default(), Device::default(), scene, vec![run.clone(), run]);
         let text = table(&report, true);
         for words in [
@@ -247,7 +253,8 @@ mod tests {
             hard,
             ..Default::default()
         };
-        let scene = SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None };
+        let scene =
+            SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None, ..SceneRecord::default() };
         let report = |runs| Report::new(Origin::default(), Device::default(), scene.clone(), runs);
         let text = table(&report(vec![run(None)]), false);
         assert!(

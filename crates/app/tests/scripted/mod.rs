@@ -6,7 +6,7 @@
 use rasray_app::AppError;
 use rasray_app::backend::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, Feature, HardJob,
-    OnProgress, Progress, RenderJob, RenderOutput,
+    OnProgress, Progress, RenderJob, RenderOutput, TexelRoom,
 };
 use rasray_app::report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -20,7 +20,7 @@ const ARGUMENTS: &str = "RASRAY_TEST_ARGUMENTS";
 pub const READY: &str = "RASRAY_TEST_READY";
 
 /// Answers at once, except where the device's name says otherwise: `slow` takes 20 ms a sample,
-/// `stuck` takes a minute before the first, `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `absent` cannot be opened.
+/// `stuck` takes a minute before the first, `broken` fails (of hard cases, G3), `unfinished` leaves a ray unanswered, `small` holds 2000 texels, `absent` cannot be opened.
 pub struct Scripted {
     device: String,
 }
@@ -28,6 +28,11 @@ pub struct Scripted {
 impl Backend for Scripted {
     fn device(&self) -> Device {
         Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true }
+    }
+
+    fn texel_room(&self) -> TexelRoom {
+        let texels = if self.device == "small" { 2000 } else { u32::MAX.into() };
+        TexelRoom { texels, device: self.device().name }
     }
 
     fn render(

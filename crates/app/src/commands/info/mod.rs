@@ -2,6 +2,7 @@
 
 mod device;
 mod scene;
+mod texels;
 
 use crate::arguments::InfoArguments;
 use crate::backend::{Frame, OpenBackend, Sampler};
@@ -33,7 +34,8 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             sampler: Sampler::Sobol,
         };
         let view = during("scene", "looking for a view", || camera::by_default(&loaded.scene));
-        let info = SceneInfo::of(&mut loaded, &view, &frame);
+        let room = || open_device(open, &given.device).map(|backend| backend.texel_room());
+        let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
         show(given.json, || info.json(), || info.text())?;
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
         return Ok(());

@@ -1,9 +1,11 @@
 //! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
 
 use super::pair;
-use crate::backend::Frame;
+use super::texels::TexelInfo;
+use crate::backend::{Frame, TexelRoom};
 use crate::camera::{Chosen, described};
 use crate::commands::integrator_name;
+use crate::error::AppError;
 use crate::report::{CameraRecord, bytes, columns, grouped};
 use crate::scene_source::LoadedScene;
 use crate::terminal::in_line;
@@ -29,18 +31,26 @@ pub(super) struct SceneInfo {
     view: CameraRecord,
     integrator: &'static str,
     needs: Needs,
+    texels: TexelInfo,
 }
 
 impl SceneInfo {
     /// Looks a scene over. It is lit as a render would light it: what it needs then is what counts.
-    pub(super) fn of(loaded: &mut LoadedScene, view: &Chosen, frame: &Frame) -> Self {
+    pub(super) fn of(
+        loaded: &mut LoadedScene,
+        view: &Chosen,
+        frame: &Frame,
+        room: impl FnOnce() -> Result<TexelRoom, AppError>,
+    ) -> Result<Self, AppError> {
         let environment = environment(&loaded.scene.environment);
         let unlit = default_view::ensure_lit(&mut loaded.scene);
         let scene = &loaded.scene;
         let camera = |(index, camera): (usize, &rasray_scene::Camera)| {
             Chosen { camera: camera.clone(), index: Some(index) }.record()
         };
-        Self {
+        let needs = Needs::of(scene, frame.workload());
+        let texels = TexelInfo::of(scene, &needs, room)?;
+        Ok(Self {
             name: scene.name.clone(),
             counts: counts(scene, loaded.triangles),
             environment,
@@ -51,8 +61,9 @@ impl SceneInfo {
             cameras: scene.cameras.iter().enumerate().map(camera).collect(),
             view: view.record(),
             integrator: integrator_name(frame),
-            needs: Needs::of(scene, frame.workload()),
-        }
+            needs,
+            texels,
+        })
     }
 
     pub(super) fn json(&self) -> Value {
@@ -62,6 +73,7 @@ impl SceneInfo {
             "default_light": self.unlit,
             "cameras": self.cameras,
             "default_view": self.view,
+            "texels": self.texels.json(),
         });
         for (name, count) in self.counts {
             scene[name] = count.into();
@@ -90,6 +102,7 @@ impl SceneInfo {
         let mut rows: Vec<_> = self.counts.iter().map(|(name, count)| pair(name, grouped(*count))).collect();
         let added = if self.unlit { "; the default light is added" } else { "" };
         rows.push(pair("environment", format!("{}{added}", self.environment)));
+        rows.extend(self.texels.rows());
         if let Some((low, high)) = self.bounds {
             let size = high - low;
             rows.push(pair("bounds", format!("{low:.3} to {high:.3} m")));

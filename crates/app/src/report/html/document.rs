@@ -61,6 +61,13 @@ fn header(page: &mut Markup, report: &Report) {
     if let Some(sum) = &report.scene.sha256 {
         fact("Scene, SHA-256", sum.into());
     }
+    let smaller = report.scene.smaller_images.iter().map(|image| {
+        let ([width, height], [from_width, from_height]) = (image.to, image.from);
+        format!("{} as {width}x{height}, not {from_width}x{from_height}", image.name)
+    });
+    if !report.scene.smaller_images.is_empty() {
+        fact("Smaller images", smaller.collect::<Vec<_>>().join("; ").into());
+    }
     let kind = if device.software { ", software" } else { "" };
     fact("Device", format!("{} ({}{kind})", device.name, device.driver).into());
     let commit = report.commit.as_ref().map(|commit| format!(", commit {commit}")).unwrap_or_default();
