@@ -6,11 +6,18 @@ use crate::terminal;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
+use std::time::{Duration, Instant};
 
 /// From the first signal to the end, where nothing is finished by then.
 const GRACE: Duration = Duration::from_secs(1);
+
+/// How long an end waits for what it says to be taken. Who reads stderr may have stopped to, and whatever else writes
+/// there then waits with the stream locked.
+const LAST_WORDS: Duration = Duration::from_millis(200);
+
+/// What the end says where nothing was finished.
+const NOTHING: &str = "interrupted: stopped before anything was finished; nothing was written\n";
 
 /// Whether a signal asked for an early end, and which files are unfinished.
 #[derive(Clone, Debug, Default)]
@@ -52,15 +59,17 @@ impl Interrupt {
 
     /// Ends the process after a while, unless something is finished that the work will write.
     fn stop(&self) {
+        let deadline = Instant::now() + GRACE;
         let keeps = || self.keeps.load(Ordering::SeqCst);
-        terminal::note(if keeps() {
+        let text = if keeps() {
             "stopping as soon as what is finished can be written; a second signal stops at once, without a result"
         } else {
             "stopping; nothing is finished yet"
-        });
-        std::thread::sleep(GRACE);
+        };
+        say(move || terminal::note(text));
+        std::thread::sleep(deadline.saturating_duration_since(Instant::now()));
         if !keeps() {
-            terminal::complain("interrupted: stopped before anything was finished; nothing was written\n");
+            say(|| terminal::complain(NOTHING));
             self.leave();
         }
     }
@@ -90,6 +99,19 @@ impl Interrupt {
             _ = std::fs::remove_file(path);
         }
         signal_hook::low_level::exit(EXIT_INTERRUPTED.into())
+    }
+}
+
+/// Says something, and goes on when it is said or after [`LAST_WORDS`].
+fn say(words: impl FnOnce() + Send + 'static) {
+    let (said, is_said) = mpsc::channel();
+    let speaker = std::thread::Builder::new().name("last words".to_owned()).spawn(move || {
+        words();
+        _ = said.send(());
+    });
+    // Without a thread nothing is said: the end is worth more.
+    if speaker.is_ok() {
+        _ = is_said.recv_timeout(LAST_WORDS);
     }
 }
 

@@ -86,6 +86,35 @@ fn one_signal_ends_within_two_seconds_where_nothing_is_finished() {
     }
 }
 
+/// Nor is whoever reads what is said: a full pipe that nobody empties does not keep the command.
+#[test]
+fn one_signal_ends_within_two_seconds_where_nobody_reads_what_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let ready = folder.path().join("ready");
+    let (unread, stderr) = std::io::pipe().expect("a pipe");
+    let mut filler = stderr.try_clone().expect("a pipe");
+    // Ends when nobody can read any more.
+    let filling =
+        std::thread::spawn(move || while std::io::Write::write_all(&mut filler, &[b'.'; 4096]).is_ok() {});
+    std::thread::sleep(Duration::from_millis(200));
+    let mut child = command(folder.path(), "render cornell --size 8x8 --device stuck -o a.png")
+        .env(READY, &ready)
+        .stdout(Stdio::null())
+        .stderr(stderr)
+        .spawn()
+        .expect("the command starts");
+    wait_until("the command does not begin", &mut child, |_| ready.exists());
+    let started = Instant::now();
+    send(&child, &["TERM"]);
+    wait_until("the command does not stop", &mut child, |child| child.try_wait().expect("a child").is_some());
+    // Two seconds, and what a busy machine may add.
+    assert!(started.elapsed() < Duration::from_secs(8), "{:?}", started.elapsed());
+    assert_eq!(child.wait().expect("its end").code(), Some(130));
+    assert_eq!(entries(folder.path()), ["ready"]);
+    drop(unread);
+    filling.join().expect("the filler ends");
+}
+
 /// Reading a large scene and looking for its default view are not waited for either.
 #[test]
 fn one_signal_ends_within_two_seconds_while_a_scene_is_read() {
