@@ -9,7 +9,7 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
-use rasray_tracer::build_until_complete;
+use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 3000;
 
@@ -141,6 +141,35 @@ fn by_surface_area_no_option_changes_a_hit() {
 #[test]
 fn by_morton_codes_no_option_changes_a_hit() {
     options_change_no_hit(Builder::Lbvh);
+}
+
+/// A ray that meets thousands of boxes needs more rounds than rays are given at first: it gets them and an answer.
+#[test]
+fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
+    let bench = Bench::new();
+    let triangles = vec![[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.5, 0.0]]; 2000];
+    let rays: Vec<_> = rays(&triangles).into_iter().take(200).collect();
+    let geometry = bench.geometry(&triangles);
+    let expected = judged(&bench, &geometry, &rays);
+    let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let config = Config { work_budget: Some(16), ..Config::new(builder) };
+        let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
+        let first = bvh.rounds();
+        let (_, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, first);
+        assert!(counters.unfinished > 0, "{builder:?}: {first} rounds were enough");
+        let of = |mode| tracer.trace(&bvh, &rays, mode, Timing::None).expect("every ray is answered").hits;
+        let found = Answers {
+            closest: of(TraceMode::Closest).iter().map(bits).collect(),
+            occluded: of(TraceMode::Occluded).iter().map(Hit::is_hit).collect(),
+        };
+        same(&expected, &found, &rays, &format!("{builder:?}"));
+        assert!(bvh.rounds() > first);
+        // It ends: no ray can need more than meeting every box takes.
+        while bvh.allow_more_rounds() {}
+        assert!(u64::from(bvh.rounds()) <= 4 * 2000 / 16 + 2);
+    }
 }
 
 /// Shows that the comparison would notice.

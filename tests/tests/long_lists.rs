@@ -1,11 +1,15 @@
-//! Room for the lists that one dispatch does not sort, at every edge capacity, in every structure that sorts lists.
+//! Room for the lists that one dispatch does not sort, at every edge capacity, in every structure that sorts lists; and
+//! rounds for rays that read long ones.
 
-use rasray_ads::Ray;
+use rasray_ads::{Ray, Structure, TraceMode};
+use rasray_gpu::Timing;
 use rasray_shaders_glsl::constants::ads::SHORT_LIST_LIMIT;
 use rasray_tests::capacity::check_capacities_of;
-use rasray_tests::harness::Bench;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
+use rasray_tracer::{BatchTracer, build_until_complete};
 
 /// Square plates one behind the other along z, from one metre to two, drawn in a scrambled order.
 fn plates(count: usize) -> Vec<Triangle> {
@@ -46,6 +50,36 @@ fn every_edge_capacity_of_long_lists_of_a_buffers() {
         let sizes = |long_lists| plan(&config, Demand { long_lists, ..demand }).expect("in range");
         check_capacities_of(&bench, &mut structure, "long", sizes, &rays());
     }
+}
+
+/// A ray that reads a long list needs more rounds than rays are given at first: it gets them, and the same answer.
+#[test]
+fn rays_through_long_lists_are_given_the_rounds_they_need() {
+    use rasray_abuffer::{ABuffer, Config};
+    let bench = Bench::new();
+    let triangles = vec![[[-4.0, -4.0, 1.5], [4.0, -4.0, 1.5], [0.0, 4.0, 1.5]]; 500];
+    let geometry = bench.geometry(&triangles);
+    let tracer = BatchTracer::new(bench.device(), 100).expect("a queue fits");
+    let built = |work_budget| {
+        let config = Config { work_budget, ..Config::robust(8) };
+        let mut structure =
+            ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+            .expect("the build completes");
+        structure
+    };
+    let closest = |structure| {
+        let traced = tracer.trace(structure, &rays(), TraceMode::Closest, Timing::None);
+        traced.expect("every ray is answered").hits.iter().map(bits).collect::<Vec<_>>()
+    };
+    let (ample, short) = (built(None), built(Some(8)));
+    let first = short.rounds();
+    let (_, counters) = trace_in_rounds(&bench, &short, &rays(), TraceMode::Closest, first);
+    assert!(counters.unfinished > 0, "{first} rounds were enough");
+    assert_eq!(closest(&ample), closest(&short));
+    assert!(short.rounds() > first);
+    while short.allow_more_rounds() {}
+    assert!(short.rounds() <= 1 << 14);
 }
 
 #[test]

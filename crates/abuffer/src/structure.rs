@@ -223,6 +223,15 @@ impl ABuffer {
         device.upload_slice(self.pools.pool("scratch"), 0, &contents.scratch)?;
         device.upload_slice(self.pools.pool("fringe"), 0, &contents.fringe)
     }
+
+    /// Rounds that nearly every ray is finished in.
+    fn first_rounds(&self) -> u32 {
+        // One cell may hold all of the fringe: a small object in a large world.
+        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let room = self.pools.sizes().elements("fringe") as u32;
+        // Before the first build the header may hold anything.
+        16 + self.header().map_or(0, |header| header.fringe_demand.min(room)).div_ceil(budget)
+    }
 }
 
 impl Structure for ABuffer {
@@ -318,11 +327,12 @@ impl Structure for ABuffer {
     }
 
     fn rounds(&self) -> u32 {
-        // One cell may hold all of the fringe: a small object in a large world.
-        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
-        let room = self.pools.sizes().elements("fringe") as u32;
-        // Before the first build the header may hold anything.
-        16 + self.header().map_or(0, |header| header.fringe_demand.min(room)).div_ceil(budget)
+        self.pools.rounds(self.first_rounds())
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        // A list may be read again in every cell that a ray visits, so that no number is sure to do.
+        self.pools.allow_more_rounds(self.first_rounds(), u32::MAX)
     }
 
     fn record_trace(

@@ -209,6 +209,13 @@ impl PrimitiveLists {
         device.upload_slice(self.pools.pool("entries"), 0, &contents.entries)?;
         device.upload_slice(self.pools.pool("near"), 0, &contents.near)
     }
+
+    /// Rounds that nearly every ray is finished in.
+    fn first_rounds(&self) -> u32 {
+        // Rays from far outside are tested against every triangle, others against what a few cells list.
+        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        16 + 2 * self.geometry.triangle_count().div_ceil(budget)
+    }
 }
 
 impl Structure for PrimitiveLists {
@@ -303,9 +310,12 @@ impl Structure for PrimitiveLists {
     }
 
     fn rounds(&self) -> u32 {
-        // Rays from far outside are tested against every triangle, others against what a few cells list.
-        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
-        16 + 2 * self.geometry.triangle_count().div_ceil(budget)
+        self.pools.rounds(self.first_rounds())
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        // A list may be read again in every cell that a ray visits, so that no number is sure to do.
+        self.pools.allow_more_rounds(self.first_rounds(), u32::MAX)
     }
 
     fn record_trace(

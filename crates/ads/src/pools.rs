@@ -1,5 +1,7 @@
 //! The buffers of one structure: a header that shaders start from, and pools.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use bytemuck::{AnyBitPattern, NoUninit, pod_read_unaligned};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder,
@@ -12,6 +14,12 @@ use crate::{
 
 /// The header's name among the pools; it is the first.
 const HEADER: &str = "header";
+
+/// How many times as many rounds are allowed where rays were left unfinished.
+const MORE_ROUNDS: u32 = 4;
+
+/// Rounds beyond which no more are allowed: 2^26 units of work a ray, and 2^15 dispatches a trace.
+const MOST_ROUNDS: u32 = 1 << 14;
 
 /// Buffers of one size, one a pool, in the order of [`Sizes::pools`]. The first is the header, of one element.
 /// Its first word is the status that traces look at before anything else.
@@ -27,6 +35,9 @@ pub struct Pools {
     header_readback: Buffer,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
+    /// Rounds that were asked for beyond those that a trace has at first. Traces learn it, so it changes behind a
+    /// shared reference.
+    rounds: AtomicU32,
 }
 
 impl Pools {
@@ -89,6 +100,7 @@ impl Pools {
             header_readback,
             pools,
             set,
+            rounds: AtomicU32::new(0),
         })
     }
 
@@ -233,6 +245,20 @@ impl Pools {
     /// How a shader of one's own reaches the pools, with the structure's specialisation constants.
     pub fn inline_trace(&self, constants: Vec<(u32, u32)>) -> InlineTrace<'_> {
         InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
+    }
+
+    /// The rounds of a structure that gives rays `first` of them until more are asked for.
+    pub fn rounds(&self, first: u32) -> u32 {
+        self.rounds.load(Ordering::Relaxed).max(first)
+    }
+
+    /// Allows several times as many rounds as [`Pools::rounds`] of `first` are now, but not more than `most`, in which
+    /// every ray would be finished. False where that changes nothing, and beyond 2^14 rounds.
+    pub fn allow_more_rounds(&self, first: u32, most: u32) -> bool {
+        let now = self.rounds(first);
+        let more = now.saturating_mul(MORE_ROUNDS).min(most).min(MOST_ROUNDS);
+        self.rounds.fetch_max(more, Ordering::Relaxed);
+        more > now
     }
 
     /// Records a trace of the first `count` slots. Traces count list entries that name nothing; the header is read

@@ -251,8 +251,16 @@ pub trait Structure {
     /// No sizes would do: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError>;
 
-    /// Rounds after which any ray through this structure should be finished.
+    /// Rounds after which any ray through this structure should be finished, unless
+    /// [`Structure::allow_more_rounds`] says otherwise.
     fn rounds(&self) -> u32;
+
+    /// Raises [`Structure::rounds`] where a ray might need more of them than nearly every ray does: a round costs two
+    /// dispatches, also where no ray is left. Who finds rays unfinished asks this and traces them again; false where
+    /// more rounds would change nothing.
+    fn allow_more_rounds(&self) -> bool {
+        false
+    }
 
     /// Records a trace of the first `count` slots of `queue`, in at most `rounds` dispatches.
     fn record_trace(

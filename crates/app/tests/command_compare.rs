@@ -109,6 +109,30 @@ fn a_page_has_figures_and_a_hard_case_its_verdict() {
     assert_eq!(report.scene.name, "hard:E5");
 }
 
+/// Rays through hundreds of thousands of triangles in one place need more rounds than rays are given at first: in a
+/// batch, in an image and for what is stored beside its colours.
+#[test]
+fn a_ray_through_very_many_triangles_has_its_answer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    let mut scene = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\n".to_owned();
+    scene += &"f 1 2 3\n".repeat(400_000);
+    std::fs::write(path.join("many.obj"), scene).expect("a scene");
+    let report = compared(path, "compare many.obj --systems bvh --ray-set camera --rays 16 --size 4x4");
+    let unfinished = report.runs[0].counters.as_ref().and_then(|counters| counters.unfinished);
+    assert_eq!((unfinished, accuracy(&report, 0).missed), (Some(0), 0));
+    for system in ["bvh", "brute-force"] {
+        let line = "render many.obj --integrator raycast --size 4x4 --spp 1 --aov depth";
+        let output = rasray(path, &format!("{line} --system {system} --output {system}.exr"));
+        assert_eq!(output.status.code(), Some(0), "{system}: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    let image = |system| {
+        let read = exr::prelude::read_all_flat_layers_from_file(path.join(format!("{system}.exr")));
+        read.expect("an image").layer_data[0].channel_data.clone()
+    };
+    assert_eq!(image("bvh"), image("brute-force"));
+}
+
 /// Reports, pages and rays that do not fit are refused whole: what was there under their names stays.
 #[cfg(target_os = "linux")]
 #[test]

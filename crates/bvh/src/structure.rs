@@ -14,8 +14,9 @@ use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
 use crate::{Builder, Config, Contents, Header, Node, Record};
 
-/// Rounds that a trace records at most. Each costs two dispatches, also where no ray is left.
-const MOST_ROUNDS: u32 = 64;
+/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray on which
+/// hundreds of thousands of boxes lie needs more.
+const FIRST_ROUNDS: u32 = 64;
 
 /// A bounding volume hierarchy with two children a node.
 #[derive(Debug)]
@@ -76,6 +77,14 @@ impl Bvh {
         )?;
         let geometry = geometry.clone();
         Ok(Self { config, geometry, build, kernels, pools, prepared: None, nodes: 0 })
+    }
+
+    /// Rounds that a ray needs if it meets every box of the tree.
+    fn most_rounds(&self) -> u32 {
+        // Each triangle is tested once, each node entered once, and after pauses each child left once.
+        let units = 4 * u64::from(self.geometry.triangle_count());
+        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+        (units / budget + 2).min(u32::MAX.into()) as u32
     }
 
     /// What a device must and may offer for a configuration.
@@ -280,10 +289,13 @@ impl Structure for Bvh {
     }
 
     fn rounds(&self) -> u32 {
-        // Each triangle is tested once, each node entered once, and after pauses each child left once.
-        let units = 4 * u64::from(self.geometry.triangle_count());
-        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
-        (units / budget + 2).min(MOST_ROUNDS.into()) as u32
+        let most = self.most_rounds();
+        self.pools.rounds(most.min(FIRST_ROUNDS))
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        let most = self.most_rounds();
+        self.pools.allow_more_rounds(most.min(FIRST_ROUNDS), most)
     }
 
     fn record_trace(

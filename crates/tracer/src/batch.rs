@@ -51,7 +51,8 @@ impl BatchTracer {
         Ok(Self { device: device.clone(), queue, shares: Shares::default() })
     }
 
-    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds.
+    /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds; all of them again where
+    /// some did not finish and the structure allows more. What is measured is the last time.
     ///
     /// # Errors
     /// The device fails, rays do not finish, or the structure is not built.
@@ -62,7 +63,27 @@ impl BatchTracer {
         mode: TraceMode,
         timing: Timing,
     ) -> Result<TraceOutcome, TracerError> {
-        let rounds = structure.rounds();
+        loop {
+            let rounds = structure.rounds();
+            let outcome = self.trace_in(rounds, structure, rays, mode, timing)?;
+            let unfinished = outcome.counters.unfinished;
+            if unfinished == 0 {
+                return Ok(outcome);
+            }
+            if !structure.allow_more_rounds() {
+                return Err(TracerError::Unfinished { unfinished, rounds });
+            }
+        }
+    }
+
+    fn trace_in(
+        &self,
+        rounds: u32,
+        structure: &dyn Structure,
+        rays: &[Ray],
+        mode: TraceMode,
+        timing: Timing,
+    ) -> Result<TraceOutcome, TracerError> {
         let mut outcome = TraceOutcome { hits: Vec::with_capacity(rays.len()), ..TraceOutcome::default() };
         self.device.submit(|recorder| self.queue.record_reset(recorder))?;
         let mut rest = rays;
@@ -91,9 +112,6 @@ impl BatchTracer {
         let entries = structure.status()?.corrupted;
         if entries > 0 {
             return Err(TracerError::Corrupted { structure: structure.name(), entries });
-        }
-        if outcome.counters.unfinished > 0 {
-            return Err(TracerError::Unfinished { unfinished: outcome.counters.unfinished, rounds });
         }
         Ok(outcome)
     }

@@ -50,6 +50,9 @@ impl Replay {
         let mut capacity = FIRST_STEPS;
         loop {
             let replay = Self::with_room(device, structure, ray, mode, capacity)?;
+            if replay.hit.is_none() && structure.allow_more_rounds() {
+                continue;
+            }
             if replay.omitted == 0 || capacity == MOST_STEPS {
                 return Ok(replay);
             }

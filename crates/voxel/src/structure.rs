@@ -145,6 +145,32 @@ impl Voxels {
         device.upload_slice(self.pools.pool("lists"), 0, &contents.lists)?;
         device.upload_slice(self.pools.pool("fragments"), 0, &contents.fragments)
     }
+
+    /// Rounds that nearly every ray is finished in.
+    fn first_rounds(&self) -> u32 {
+        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
+        // not bisected at most so many as are as long as the longest: there each point of a parity reads one,
+        // where a voxel is entered, the steps in it, halvings, and for the nearest.
+        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+        let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
+        let points = match (self.config.accept, self.config.march) {
+            (Accept::Plane, _) => 1,
+            (Accept::Parity, March::Samples) => 1 + u64::from(self.config.samples),
+            (Accept::Parity, March::Exact) => 2,
+        };
+        let parity = self.config.accept == Accept::Parity && !self.config.bisects();
+        let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
+        let triangles = self.geometry.triangle_count();
+        let longest = match self.config.bisects() {
+            true => triangles,
+            // Before the first build the header may hold anything.
+            false => self
+                .header()
+                .map_or(triangles, |header| header.longest.saturating_mul(LONG_LISTS_A_RAY).min(triangles)),
+        };
+        let entries = reads * u64::from(longest);
+        16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
+    }
 }
 
 impl Structure for Voxels {
@@ -233,28 +259,12 @@ impl Structure for Voxels {
     }
 
     fn rounds(&self) -> u32 {
-        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
-        // not bisected at most so many as are as long as the longest: there each point of a parity reads one,
-        // where a voxel is entered, the steps in it, halvings, and for the nearest.
-        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
-        let steps = 12 * u64::from(self.config.resolution) + 6 * u64::from(self.config.grid());
-        let points = match (self.config.accept, self.config.march) {
-            (Accept::Plane, _) => 1,
-            (Accept::Parity, March::Samples) => 1 + u64::from(self.config.samples),
-            (Accept::Parity, March::Exact) => 2,
-        };
-        let parity = self.config.accept == Accept::Parity && !self.config.bisects();
-        let reads = if parity { points + u64::from(VOXEL_REFINEMENTS) + 1 } else { 1 };
-        let triangles = self.geometry.triangle_count();
-        let longest = match self.config.bisects() {
-            true => triangles,
-            // Before the first build the header may hold anything.
-            false => self
-                .header()
-                .map_or(triangles, |header| header.longest.saturating_mul(LONG_LISTS_A_RAY).min(triangles)),
-        };
-        let entries = reads * u64::from(longest);
-        16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
+        self.pools.rounds(self.first_rounds())
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        // A list may be read again in every cell that a ray visits, so that no number is sure to do.
+        self.pools.allow_more_rounds(self.first_rounds(), u32::MAX)
     }
 
     fn record_trace(

@@ -74,7 +74,8 @@ pub fn write(bench: &Bench, runs: Vec<Run>) {
     cases.sort_by(|a, b| (&a.id, a.triangles).cmp(&(&b.id, b.triangles)));
     cases.dedup_by(|a, b| (&a.id, a.triangles) == (&b.id, b.triangles));
     let triangles = cases.iter().map(|case| case.triangles).sum();
-    let scene = SceneRecord { name: "hard:all".to_owned(), triangles, sha256: None, ..SceneRecord::default() };
+    let scene =
+        SceneRecord { name: "hard:all".to_owned(), triangles, sha256: None, ..SceneRecord::default() };
     let origin = Origin {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: commit(),

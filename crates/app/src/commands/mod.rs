@@ -117,7 +117,8 @@ fn check_whole(run: &Run) -> Result<(), AppError> {
     if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
         return Err(AppError::refused(
             format!("{system}: {unfinished} rays had no answer after the last round"),
-            "its results are not kept; this is a defect, please report it with the command line",
+            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
+             please report it with the command line",
         ));
     }
     Ok(())

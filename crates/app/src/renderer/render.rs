@@ -63,8 +63,40 @@ pub(super) fn render_pixels(
     let integrator = integrator(frame, &desc)?;
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
     let first_use_ms = use_once(device, integrator.as_ref(), built)?;
+    let (samples_done, passes) = loop {
+        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, frame, task, progress)? {
+            break rendered;
+        }
+    };
+    let faults = film.read_faults(device).map_err(device_error)?;
+    if faults.non_finite > 0 {
+        tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
+    }
+    let corrupted = built.structure.status().map_err(device_error)?.corrupted;
+    if corrupted > 0 {
+        return Err(tracer_error(&TracerError::Corrupted {
+            structure: built.structure.name(),
+            entries: corrupted,
+        }));
+    }
+    let mut counters = built.counters()?;
+    counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
+    let beauty = film.read(device).map_err(device_error)?;
+    Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
+}
+
+/// Renders all samples: how many there are, and what they cost. Nothing where rays need more rounds than they had: then
+/// film and counters start at 0 again, and the structure allows more from now on.
+fn render_waves(
+    device: &Device,
+    integrator: &dyn rasray_integrators::Integrator,
+    built: &Built,
+    frame: &Frame,
+    task: &str,
+    progress: &mut OnProgress<'_>,
+) -> Result<Option<(u32, Passes)>, AppError> {
     let timing = device.best_timing();
-    let pixels = film.pixel_count();
+    let pixels = frame.width * frame.height;
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
     let total = waves_a_sample * u64::from(frame.spp);
     let mut passes = Passes::default();
@@ -81,6 +113,12 @@ pub(super) fn render_pixels(
             })
             .map_err(device_error)?;
         submitted.value.map_err(device_error)?;
+        // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
+        let unfinished = count_unfinished(device, &integrator.queues())?;
+        if unfinished > 0 && built.structure.allow_more_rounds() {
+            device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
+            return Ok(None);
+        }
         passes.add(&submitted.passes);
         if wave.first_pixel + wave.pixel_count == pixels {
             samples_done += 1;
@@ -88,21 +126,7 @@ pub(super) fn render_pixels(
         let now = Progress { task, done, total, unit: "waves" };
         stopping |= progress(now) == ControlFlow::Break(());
     }
-    let faults = film.read_faults(device).map_err(device_error)?;
-    if faults.non_finite > 0 {
-        tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
-    }
-    let corrupted = built.structure.status().map_err(device_error)?.corrupted;
-    if corrupted > 0 {
-        return Err(tracer_error(&TracerError::Corrupted {
-            structure: built.structure.name(),
-            entries: corrupted,
-        }));
-    }
-    let mut counters = built.counters()?;
-    counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
-    let beauty = film.read(device).map_err(device_error)?;
-    Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
+    Ok(Some((samples_done, passes)))
 }
 
 /// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
@@ -206,19 +230,25 @@ fn add_aovs(
     let pixels = job.frame.width * job.frame.height;
     let capacity = rasray_integrators::WAVE_CAPACITY.min(pixels);
     let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
-    device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
-    for wave in waves(pixels, 1, capacity) {
-        let wave = Wave { sample: 0, ..wave };
-        let submitted = device
-            .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref(), wave))
-            .map_err(device_error)?;
-        submitted.value.map_err(device_error)?;
-    }
-    if count_unfinished(device, &[aov.queue()])? > 0 {
-        return Err(AppError::refused(
-            "rays through pixel centres did not finish",
-            "its results are not kept; please report it with the command line",
-        ));
+    loop {
+        device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
+        for wave in waves(pixels, 1, capacity) {
+            let wave = Wave { sample: 0, ..wave };
+            let submitted = device
+                .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref(), wave))
+                .map_err(device_error)?;
+            submitted.value.map_err(device_error)?;
+        }
+        if count_unfinished(device, &[aov.queue()])? == 0 {
+            break;
+        }
+        if !built.structure.allow_more_rounds() {
+            return Err(AppError::refused(
+                "rays through pixel centres did not finish",
+                "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \
+                 else please report it with the command line",
+            ));
+        }
     }
     let found = aov.read(device).map_err(device_error)?;
     output.depth = job.aovs.depth.then(|| found.iter().map(|pixel| pixel.distance).collect());

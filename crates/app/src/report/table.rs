@@ -93,7 +93,11 @@ pub fn table(report: &Report, full: bool) -> String {
     );
     for image in report.scene.smaller_images.iter().filter(|_| full) {
         let ([width, height], [from_width, from_height]) = (image.to, image.from);
-        _ = writeln!(text, "image  {} as {width}x{height}, not {from_width}x{from_height}", in_line(&image.name));
+        _ = writeln!(
+            text,
+            "image  {} as {width}x{height}, not {from_width}x{from_height}",
+            in_line(&image.name)
+        );
     }
     if let Some(camera) = &report.camera {
         _ = writeln!(text, "camera {}", in_line(&described(camera)));
