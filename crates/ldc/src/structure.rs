@@ -271,8 +271,9 @@ impl Structure for LayeredDepthCube {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        // A list may be read again in every cell that a ray visits, so that no number is sure to do.
-        self.pools.allow_more_rounds(self.first_rounds(), u32::MAX)
+        let first = self.first_rounds();
+        let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        self.pools.allow_more_rounds(first, self.pools.rounds_to_read_all(first, budget))
     }
 
     fn record_trace(
