@@ -9,7 +9,9 @@ use std::f32::consts::PI;
 use glam::{Mat3, Vec2, Vec3};
 
 use super::{
-    Surface, albedo, basis_around, cosine_hemisphere, luminance,
+    Surface, albedo, basis_around, cosine_hemisphere,
+    facet_normal::facet_normal,
+    luminance,
     microfacet::{fresnel_power, ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
 };
 
@@ -21,11 +23,6 @@ const STRAIGHT_INDEX: f32 = 1.0e-3;
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
 /// How often its share of the light that probability may be at its lower bound.
 const COSINE_FACTOR: f32 = 4.0;
-/// Cosine to which the facets' normal is bent where the shading normal faces away from the viewer.
-const NORMAL_COSINE: f32 = 0.01;
-/// Least height of a mirrored direction over the geometric surface, or this share of that of the viewer where it grazes.
-const MIRRORED_HEIGHT: f32 = 0.01;
-const MIRRORED_SHARE: f32 = 0.9;
 
 /// A direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -272,27 +269,6 @@ impl Terms {
         (sine_squared < 1.0)
             .then(|| (self.eta * cosine - (1.0 - sine_squared).sqrt()) * h - self.eta * self.o)
     }
-}
-
-/// The normal that facets lie around: the shading normal, bent until it faces `o`, and then just so far that `o` mirrored
-/// at it leaves the geometric surface.
-pub(super) fn facet_normal(normal: Vec3, geometric_normal: Vec3, o: Vec3) -> Vec3 {
-    let cosine = normal.dot(o);
-    let facing =
-        if cosine < NORMAL_COSINE { (normal + (NORMAL_COSINE - cosine) * o).normalize() } else { normal };
-    let mirrored = 2.0 * facing.dot(o) * facing - o;
-    let height = mirrored.dot(geometric_normal);
-    let least = MIRRORED_HEIGHT.min(MIRRORED_SHARE * o.dot(geometric_normal));
-    if height >= least {
-        return facing;
-    }
-    let along = mirrored - height * geometric_normal;
-    let squared = along.length_squared();
-    if !(squared > 0.0) {
-        return geometric_normal;
-    }
-    let lifted = geometric_normal * least + along * ((1.0 - least * least).sqrt() / squared.sqrt());
-    (o + lifted).normalize()
 }
 
 /// Where the direction leads, `cosine` being its cosine at a normal; `None` if that normal and the geometric one disagree or

@@ -19,6 +19,7 @@ pub mod bsdf;
 mod camera;
 mod environment;
 mod error;
+mod facet_normal;
 mod light;
 mod microfacet;
 mod posed;

@@ -3,7 +3,8 @@ use rasray_scene::{Filter, Image, Material, Texture, TextureRef, Wrap};
 
 use crate::{
     shading::{
-        PosedScene, Ray, ReferenceError, Surface, View, bsdf::facet_normal, bsdf_sample, random::RandomStream,
+        PosedScene, Ray, ReferenceError, Surface, View, bsdf_sample, facet_normal::facet_normal,
+        random::RandomStream,
     },
     testing::{diffuse, quad, scene},
 };
