@@ -16,6 +16,8 @@ pub struct SceneBinding {
     pub set: BindingSet,
     /// Whether any draw is alpha-masked.
     pub alpha_masked: bool,
+    /// Specialisation constants of modules that read the scene: id and bits. They leave out what it does not have.
+    pub constants: Vec<(u32, u32)>,
 }
 
 impl SceneBinding {
@@ -88,6 +90,7 @@ impl TraceKernels {
         let mut constants = vec![(0, desc.counters.constant())];
         constants.extend(desc.work_budget.map(|budget| (1, budget)));
         constants.extend_from_slice(desc.constants);
+        constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
             let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
                 name: shader.name,

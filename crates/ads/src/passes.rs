@@ -32,7 +32,7 @@ pub struct BuildPipelines<'a> {
     device: &'a Device,
     modules: Modules,
     sets: Vec<&'a SetLayout>,
-    constants: &'a [(u32, u32)],
+    constants: Vec<(u32, u32)>,
 }
 
 impl<'a> BuildPipelines<'a> {
@@ -43,10 +43,12 @@ impl<'a> BuildPipelines<'a> {
         geometry: &'a Geometry,
         pools: &'a Pools,
         scene: Option<&'a SceneBinding>,
-        constants: &'a [(u32, u32)],
+        constants: &[(u32, u32)],
     ) -> Self {
         let mut sets = vec![geometry.layout(), pools.layout()];
         sets.extend(scene.map(|scene| &scene.layout));
+        let constants =
+            constants.iter().chain(scene.iter().flat_map(|scene| &scene.constants)).copied().collect();
         Self { device, modules, sets, constants }
     }
 
@@ -66,7 +68,7 @@ impl<'a> BuildPipelines<'a> {
             spirv: shader.words(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
-            constants: self.constants,
+            constants: &self.constants,
         })?)
     }
 
@@ -82,7 +84,7 @@ impl<'a> BuildPipelines<'a> {
             fragment_spirv: fragment.words(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
-            constants: self.constants,
+            constants: &self.constants,
         })?)
     }
 }

@@ -29,6 +29,11 @@ pub struct ShadingFeatures {
 impl ShadingFeatures {
     /// Everything: proves that leaving code out does not change a picture.
     pub const ALL: Self = Self { textures: true, transmission: true, blend: true, texel_runs: true };
+
+    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits.
+    fn constants(self) -> Vec<(u32, u32)> {
+        vec![(90, u32::from(self.textures)), (94, u32::from(self.texel_runs))]
+    }
 }
 
 /// A scene on the device: the geometry that structures build from, and the set that shading reads.
@@ -110,16 +115,17 @@ impl GpuScene {
         let layout = device.create_set_layout("scene", BINDINGS)?;
         let bound: Vec<&Buffer> = buffers.iter().chain(more_texels).collect();
         let set = device.create_binding_set(&layout, "scene", &bound)?;
+        let features = features(tables, runs);
         let alpha_masked = tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0);
         let mut bytes_by_part = upload.bytes_by_part;
         bytes_by_part.push(("frame", frame_buffer.size()));
         Ok(Self {
             geometry,
-            binding: SceneBinding { layout, set, alpha_masked },
+            binding: SceneBinding { layout, set, alpha_masked, constants: features.constants() },
             frame_buffer,
             frame,
             frame_origin: tables.frame_origin,
-            features: features(tables, runs),
+            features,
             bytes_by_part,
         })
     }
