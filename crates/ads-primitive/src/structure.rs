@@ -314,9 +314,8 @@ impl Structure for PrimitiveLists {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        let first = self.first_rounds();
         let budget = self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
-        self.pools.allow_more_rounds(first, self.pools.rounds_to_read_all(first, budget))
+        self.pools.allow_rounds_to_read_all(self.first_rounds(), budget)
     }
 
     fn record_trace(

@@ -261,11 +261,12 @@ impl Pools {
         more > now
     }
 
-    /// `first` rounds and those in which a ray reads everything that is stored. More than that is no work but a list
-    /// without an end, such as damage makes.
-    pub fn rounds_to_read_all(&self, first: u32, work_budget: u32) -> u32 {
+    /// The same up to `first` rounds and those in which a ray reads everything that is stored. More than that is no work
+    /// but a list without an end, such as damage makes.
+    pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
-        (u64::from(first) + elements.div_ceil(work_budget.into())).min(u32::MAX.into()) as u32
+        let most = u64::from(first) + elements.div_ceil(work_budget.into());
+        self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
     /// Records a trace of the first `count` slots. Traces count list entries that name nothing; the header is read

@@ -30,9 +30,15 @@ impl ShadingFeatures {
     /// Everything: proves that leaving code out does not change a picture.
     pub const ALL: Self = Self { textures: true, transmission: true, blend: true, texel_runs: true };
 
-    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits.
-    fn constants(self) -> Vec<(u32, u32)> {
-        vec![(90, u32::from(self.textures)), (94, u32::from(self.texel_runs))]
+    /// Specialisation constants of modules that read the scene (`scene/features.glsl` and
+    /// `integrators/shading_constants.glsl`): id and bits. A module without one of them ignores it.
+    pub fn constants(self) -> [(u32, u32); 4] {
+        [
+            (90, self.textures.into()),
+            (91, self.transmission.into()),
+            (92, self.blend.into()),
+            (94, self.texel_runs.into()),
+        ]
     }
 }
 
@@ -121,7 +127,7 @@ impl GpuScene {
         bytes_by_part.push(("frame", frame_buffer.size()));
         Ok(Self {
             geometry,
-            binding: SceneBinding { layout, set, alpha_masked, constants: features.constants() },
+            binding: SceneBinding { layout, set, alpha_masked, constants: features.constants().into() },
             frame_buffer,
             frame,
             frame_origin: tables.frame_origin,

@@ -6,7 +6,7 @@ use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, SetLayout,
 };
-use rasray_gpu_scene::{GpuScene, ShadingFeatures};
+use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{Shader, constants::contract::QUEUE_GROUP_SIZE};
 
 use crate::{IntegratorError, Wave};
@@ -14,22 +14,8 @@ use crate::{IntegratorError, Wave};
 /// Buffers in the integrators' set.
 const BINDINGS: u32 = 7;
 
-/// Specialisation constants of `integrators/shading_constants.glsl` and `integrators/primary.comp`.
-const CONSTANT_TEXTURES: u32 = 90;
-const CONSTANT_TRANSMISSION: u32 = 91;
-const CONSTANT_BLEND: u32 = 92;
+/// Specialisation constant of `integrators/primary.comp`.
 const CONSTANT_PIXEL_CENTRES: u32 = 93;
-const CONSTANT_TEXEL_RUNS: u32 = 94;
-
-/// Constants that switch off shading code which `features` says is never reached.
-pub(crate) fn shading_constants(features: ShadingFeatures) -> [(u32, u32); 4] {
-    [
-        (CONSTANT_TEXTURES, u32::from(features.textures)),
-        (CONSTANT_TRANSMISSION, u32::from(features.transmission)),
-        (CONSTANT_BLEND, u32::from(features.blend)),
-        (CONSTANT_TEXEL_RUNS, u32::from(features.texel_runs)),
-    ]
-}
 
 /// Constants of the camera rays: through random points of their pixels, or through the centres.
 pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {

@@ -11,7 +11,7 @@ use rasray_shaders_glsl::{
 use crate::{
     Film, Integrator, IntegratorDesc, IntegratorError, Wave,
     integrator::check_wave,
-    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer, shading_constants},
+    kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
 /// Most scatterings of a path. A wave records up to this many rounds.
@@ -95,7 +95,7 @@ impl Path {
             bounces,
             rounds: rounds(bounces, desc.features.blend),
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
-            shade: bindings.kernel(device, &INTEGRATORS_PATH_SHADE, &shading_constants(desc.features))?,
+            shade: bindings.kernel(device, &INTEGRATORS_PATH_SHADE, &desc.features.constants())?,
             resolve: bindings.kernel(device, &INTEGRATORS_PATH_RESOLVE, &[])?,
             accumulate: bindings.kernel(device, &INTEGRATORS_FILM_ACCUMULATE, &[])?,
             film: desc.film.clone(),
