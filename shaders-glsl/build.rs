@@ -11,7 +11,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use rasray_shader_compiler::{Module, Permutation, compile, preprocess, read_permutations};
+use rasray_shader_compiler::{
+    Module, Permutation, compile, preprocess, read_permutations, without_debug_text,
+};
 
 /// Files of which each `#define NAME number` becomes a Rust constant, with the module it lands in.
 const NUMBER_FILES: [(&str, &str); 9] = [
@@ -156,23 +158,6 @@ fn keep(kept: &Path, text: &str, words: &[u32]) -> Result<(), String> {
     };
     put("spv", &bytes_of(words))?;
     put("txt", text.as_bytes())
-}
-
-/// A module without names, source text and lines, none of which changes what it does.
-fn without_debug_text(words: &[u32]) -> Vec<u32> {
-    const HEADER_WORDS: usize = 5;
-    // OpSourceContinued, OpSource, OpSourceExtension, OpName, OpMemberName, OpString, OpLine, OpNoLine, OpModuleProcessed.
-    const DEBUG: [u32; 9] = [2, 3, 4, 5, 6, 7, 8, 317, 330];
-    let mut kept = words[..HEADER_WORDS].to_vec();
-    let mut rest = &words[HEADER_WORDS..];
-    while let [first, ..] = rest {
-        let (instruction, after) = rest.split_at(((first >> 16) as usize).clamp(1, rest.len()));
-        if !DEBUG.contains(&(first & 0xffff)) {
-            kept.extend_from_slice(instruction);
-        }
-        rest = after;
-    }
-    kept
 }
 
 fn read(path: &Path) -> Result<String, String> {

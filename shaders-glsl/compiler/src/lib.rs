@@ -1,8 +1,11 @@
 //! Compiles GLSL to SPIR-V with shaderc, for build scripts and for shader hot reload.
 //!
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
-//! and the options that every module of rasray is compiled with: Vulkan 1.2, performance
-//! optimisation, debug names kept, `#include` resolved from one root folder.
+//! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
+//! `#include` resolved from one root folder. Drivers optimise a module once more whatever it comes as: optimised here
+//! it takes eight times as long to compile, and drivers as long to make a pipeline of it.
+
+mod reduce;
 
 use std::path::{Path, PathBuf};
 
@@ -10,6 +13,8 @@ use shaderc::{
     CompileOptions, Compiler, EnvVersion, IncludeType, OptimizationLevel, ResolvedInclude, ShaderKind,
     SourceLanguage, TargetEnv,
 };
+
+pub use reduce::without_debug_text;
 
 /// Why a module was not compiled.
 #[derive(Debug, thiserror::Error)]
@@ -37,6 +42,10 @@ pub enum CompileError {
     Glsl(String),
 }
 
+/// What is done to every module beside what its text says: words that were kept from before are of the same module only
+/// where this is the same as well.
+const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reaches\n";
+
 /// One module to compile.
 #[derive(Clone, Debug)]
 pub struct Module<'a> {
@@ -46,7 +55,7 @@ pub struct Module<'a> {
     pub defines: &'a [(String, String)],
 }
 
-/// Compiles a module whose includes are relative to `root`. Returns SPIR-V words.
+/// Compiles a module whose includes are relative to `root`. Returns SPIR-V words: what its entry point reaches.
 ///
 /// # Errors
 /// The entry cannot be read, its name has no stage, or the GLSL is wrong; the message then names
@@ -56,11 +65,11 @@ pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileErro
     let artifact = compiler()?
         .compile_into_spirv(&source, kind, module.entry, "main", Some(&options(root, module)?))
         .map_err(|error| CompileError::Glsl(error.to_string()))?;
-    Ok(artifact.as_binary().to_vec())
+    Ok(reduce::only_reached(artifact.as_binary()))
 }
 
-/// The text of a module with includes and macros expanded: all that its SPIR-V depends on, at a fraction of the cost of
-/// compiling it.
+/// The text of a module with includes and macros expanded, after a line of options: all that its SPIR-V depends on, at
+/// a fraction of the cost of compiling it.
 ///
 /// # Errors
 /// As [`compile`], as far as directives go.
@@ -69,7 +78,7 @@ pub fn preprocess(root: &Path, module: &Module<'_>) -> Result<String, CompileErr
     let artifact = compiler()?
         .preprocess(&source, module.entry, "main", Some(&options(root, module)?))
         .map_err(|error| CompileError::Glsl(error.to_string()))?;
-    Ok(artifact.as_text())
+    Ok(OPTIONS.to_owned() + &artifact.as_text())
 }
 
 fn entry(root: &Path, module: &Module<'_>) -> Result<(String, ShaderKind), CompileError> {
@@ -92,7 +101,7 @@ fn options(root: &Path, module: &Module<'_>) -> Result<CompileOptions<'static>, 
     let mut options = CompileOptions::new().map_err(|e| CompileError::Shaderc(e.to_string()))?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_2 as u32);
-    options.set_optimization_level(OptimizationLevel::Performance);
+    options.set_optimization_level(OptimizationLevel::Zero);
     options.set_generate_debug_info();
     for (name, value) in module.defines {
         options.add_macro_definition(name, (!value.is_empty()).then_some(value.as_str()));
