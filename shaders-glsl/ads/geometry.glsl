@@ -68,4 +68,16 @@ void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     c = geometry_position(vertices.z);
 }
 
+// The draw of a triangle, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
+uint geometry_draw(uint primitive) {
+    uint draw = 0u;
+    uint end = geometry_header.draw_count;
+    while (end > draw + 1u) {
+        uint middle = draw + (end - draw) / 2u;
+        if (geometry_draws[middle].first_triangle > primitive) end = middle;
+        else draw = middle;
+    }
+    return draw;
+}
+
 #endif

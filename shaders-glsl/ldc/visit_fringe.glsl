@@ -10,14 +10,18 @@
 #include "ldc/covered.glsl"
 #include "ldc/fringe.glsl"
 
-// Whether the plane of a fragment of the cell passes within `close` metres of this point of the triangle, in the view.
-bool ldc_is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float z_center, float close) {
+// Whether a fragment of the cell stands for a triangle there: one of the same draw, whose plane passes within `close`
+// metres of this point of the triangle, in the view. Another draw may be of another material: a lamp let into a ceiling
+// is not the ceiling.
+bool ldc_is_stood_for(
+    AxisView view, uint cell, uint primitive, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
     if (list.y - list.x > FRINGE_LIMIT) {
         return false;
     }
     // Both planes lean by at most a cell each between point and centre.
     float window = 2.0 * view.cell + close + ldc_depth_rounding(ldc_built);
+    uint draw = geometry_draw(primitive);
     for (uint place = list.x; place < list.y; place++) {
         if (abs(ldc_depth(ldc_built, place) - z_center) > window) {
             continue;
@@ -25,8 +29,9 @@ bool ldc_is_stood_for(AxisView view, uint cell, vec2 point, float z_point, float
         vec3 a;
         vec3 b;
         vec3 c;
-        ldc_view_vertices(view, ldc_primitive(ldc_built, place), a, b, c);
-        if (abs(axis_plane_depth(a, b, c, point) - z_point) <= close) {
+        uint other = ldc_primitive(ldc_built, place);
+        ldc_view_vertices(view, other, a, b, c);
+        if (abs(axis_plane_depth(a, b, c, point) - z_point) <= close && geometry_draw(other) == draw) {
             return true;
         }
     }
@@ -61,7 +66,7 @@ void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
     // What is far smaller than a cell is not taken for a surface that is near for a cell only.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
-    if (ldc_is_stood_for(view, cell, point, z_point, z_center, FRINGE_DEPTH * size)) {
+    if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, FRINGE_DEPTH * size)) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
