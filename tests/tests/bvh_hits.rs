@@ -9,6 +9,7 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::is_full;
 use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 3000;
@@ -106,7 +107,9 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
         ("counters".to_owned(), Config { counters: Counters::Sums, ..base }, None),
         ("address".to_owned(), Config { addressing: Addressing::Address, ..base }, None),
     ];
-    for (budget, rounds) in [(1, 1200), (2, 700), (3, 500), (7, 250), (64, 40)] {
+    let budgets: &[_] =
+        if is_full() { &[(1, 1200), (2, 700), (3, 500), (7, 250), (64, 40)] } else { &[(3, 500)] };
+    for &(budget, rounds) in budgets {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             let config = Config { work_budget: Some(budget), addressing, ..base };
             configurations.push((format!("{budget} units a dispatch, {addressing:?}"), config, Some(rounds)));

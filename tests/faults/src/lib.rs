@@ -17,6 +17,9 @@ pub use scene::{hits, rays, spec, specs, stage, stage_of, textured_room};
 
 use rasray_gpu::{Device, DeviceDesc, Feature, GpuError, Requirements};
 
+/// Enough for every preset of every system.
+const KEPT_PIPELINES: usize = 512;
+
 /// The device floor, and as options what any system of the registry wants beyond it.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
@@ -33,7 +36,10 @@ pub fn requirements() -> Requirements {
 /// # Errors
 /// As [`Device::create`].
 pub fn device_with(requirements: Requirements) -> Result<Device, GpuError> {
-    Device::create(&DeviceDesc { requirements, validation: true, ..DeviceDesc::default() })
+    let device = Device::create(&DeviceDesc { requirements, validation: true, ..DeviceDesc::default() })?;
+    // Tests make the same structures again and again.
+    device.keep_pipelines(KEPT_PIPELINES);
+    Ok(device)
 }
 
 /// A device as the command makes it, under validation.

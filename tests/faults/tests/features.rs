@@ -8,7 +8,7 @@ use rasray_gpu::faults::{with_limits, without};
 use rasray_gpu::{Device, Feature, GpuError, Limits, Requirements};
 use rasray_gpu_scene::{GpuSceneError, Parts, TexelDemand, TexelRuns};
 use rasray_scene::Scene;
-use rasray_systems::Spec;
+use rasray_systems::{Preset, Spec};
 use rasray_tests::tier::is_full;
 
 /// Rays of each comparison.
@@ -24,9 +24,14 @@ fn name(spec: &Spec) -> String {
     format!("{} {}", spec.system().name, spec.preset().name())
 }
 
-/// Presets of the registry, and pools reached by address.
+/// Whether hits of a preset are compared: the full tier compares those of all, the quick one of each system's own.
+fn is_compared(spec: &Spec) -> bool {
+    is_full() || spec.preset() == Preset::Robust
+}
+
+/// Presets of the registry whose hits are compared, and pools reached by address.
 fn subjects() -> Vec<Spec> {
-    let mut subjects = specs().expect("registered");
+    let mut subjects: Vec<_> = specs().expect("registered").into_iter().filter(is_compared).collect();
     let by_address = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("addressing", "address")?));
     subjects.push(by_address.expect("an option of mmrt"));
     subjects
@@ -71,8 +76,8 @@ fn every_feature_can_be_missing_or_is_missed_by_name() {
     println!("{compared} comparisons, {refused} refusals");
     assert!(compared > 0 && refused > 3);
     // A list of hits of another resolution is not the same: the comparison can fail.
-    let coarse = spec("mmrt", "published").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
-    let position = subjects.iter().position(|spec| name(spec) == "mmrt published").expect("registered");
+    let coarse = spec("mmrt", "robust").and_then(|spec| Ok(spec.with_option("resolution", "16")?));
+    let position = subjects.iter().position(|spec| name(spec) == "mmrt robust").expect("registered");
     assert_ne!(bits(&device, &coarse.expect("an option")).expect("hits"), expected[position]);
     assert_eq!(finish(device), Vec::<String>::new());
 }
@@ -89,8 +94,10 @@ fn the_buffers_of_the_roadmap_profile_are_enough() {
     for spec in specs().expect("registered") {
         let requirements = spec.requirements().expect("valid");
         assert!(small.supports(&requirements), "{}: {:?}", name(&spec), small.lacks(&requirements));
-        let same = bits(&small, &spec).expect("hits") == bits(&whole, &spec).expect("hits");
-        assert!(same, "{}", name(&spec));
+        if is_compared(&spec) {
+            let same = bits(&small, &spec).expect("hits") == bits(&whole, &spec).expect("hits");
+            assert!(same, "{}", name(&spec));
+        }
         if requirements.storage_buffers > 4 {
             // Said before anything is made.
             let lacks = tiny.lacks(&requirements).join(", ");
