@@ -42,6 +42,7 @@ vec3 scene_posed_vec3(uint word) {
     return vec3(scene_posed_table[word], scene_posed_table[word + 1u], scene_posed_table[word + 2u]);
 }
 vec4 scene_posed_vec4(uint word) { return vec4(scene_posed_vec3(word), scene_posed_table[word + 3u]); }
+float scene_vertex_float(uint word) { return scene_vertex_table[word]; }
 vec2 scene_vertex_vec2(uint word) { return vec2(scene_vertex_table[word], scene_vertex_table[word + 1u]); }
 vec4 scene_vertex_vec4(uint word) {
     return vec4(scene_vertex_vec2(word), scene_vertex_vec2(word + 2u));
@@ -50,6 +51,11 @@ vec4 scene_vertex_vec4(uint word) {
 Material scene_material(uint material) { return scene_material_table[material]; }
 vec3 scene_material_specular_color(uint material) {
     return material == MATERIAL_NONE ? vec3(1.0) : scene_material_table[material].specular_color;
+}
+
+// Word of its table of what rough glass loses, or ATTRIBUTE_NONE.
+uint scene_material_albedo(uint material) {
+    return material == MATERIAL_NONE ? ATTRIBUTE_NONE : scene_material_table[material].albedo;
 }
 
 Texture scene_texture(uint texture_index) { return scene_texture_table[texture_index]; }

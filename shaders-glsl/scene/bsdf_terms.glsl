@@ -1,6 +1,6 @@
 // What: what scattering at one surface towards one direction needs to know: shares, probabilities and the light that
 // leaves the facets after several scatterings.
-// Reads: materials (specular colour only). Writes: nothing.
+// Reads: materials (specular colour, table of rough glass), vertex attributes (that table). Writes: nothing.
 // Source: docs/shading.md, "Reflection and transmission", "Energy"; glTF 2.0 appendix B.
 #ifndef SCENE_BSDF_TERMS_GLSL
 #define SCENE_BSDF_TERMS_GLSL
@@ -8,6 +8,7 @@
 #include "scene/accessors.glsl"
 #include "scene/albedo.glsl"
 #include "scene/features.glsl"
+#include "scene/glass_albedo.glsl"
 #include "scene/microfacet.glsl"
 
 // Below this perceptual roughness the microfacet lobes are perfect mirrors.
@@ -45,6 +46,13 @@ struct BsdfTerms {
     float returned_most; // of the dielectric, the largest channel
     float entering_o;    // share of the light that the dielectric lets in
     float entering_mean; // its mean over the hemisphere
+    GlassRows glass;     // of a rough volume; the rest is zero where it has none
+    uint glass_side;     // block of the side of o
+    float glass_o;       // share of the light that one scattering at the boundary loses
+    float glass_mean;    // its mean over the hemisphere
+    float glass_beyond;  // the mean on the other side
+    vec3 glass_returned; // share of the lost light that is reflected
+    vec3 glass_passed;   // share of the lost light that goes through
 };
 
 // Reflected share of the dielectric at a facet seen under `cosine`. Schlick's curve holds on the side
@@ -71,20 +79,66 @@ vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
 
 // Share of the light from `cosine` that the dielectric as a whole does not reflect, by its brightest channel.
 float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
-    if (terms.eta > 1.0) return 1.0 - largest_component(bsdf_fresnel(terms, cosine));
+    if (terms.eta > 1.0) {
+        if (terms.glass.first != ATTRIBUTE_NONE) return 1.0 - glass_albedo(terms.glass, GLASS_REFLECTED, cosine);
+        return 1.0 - largest_component(bsdf_fresnel(terms, cosine));
+    }
     float schlick = albedo_schlick(cosine, terms.alpha, loss);
     float once = largest_component(terms.f0) * (1.0 - loss - schlick) + terms.f90 * schlick;
     return max(1.0 - once - terms.returned_most * loss, 0.0);
 }
 
+// Mean share of the light that the dielectric's facets let through, by its brightest channel. From the side of the
+// larger index it is smaller by the square of the ratio: beyond the critical angle nothing goes through.
+float bsdf_facet_through(BsdfTerms terms) {
+    vec3 facet = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
+    float through = 1.0 - largest_component(facet);
+    return terms.eta > 1.0 ? through / (terms.eta * terms.eta) : through;
+}
+
 float bsdf_entering_mean(BsdfTerms terms) {
-    if (terms.eta > 1.0) return 1.0;
+    if (terms.eta > 1.0) {
+        bool rough = terms.glass.first != ATTRIBUTE_NONE;
+        float entering = rough ? 1.0 - glass_albedo_mean(terms.glass, GLASS_REFLECTED) : bsdf_facet_through(terms);
+        return max(entering, 1.0e-6);
+    }
     float schlick = albedo_schlick_mean(terms.alpha);
     float once = largest_component(terms.f0) * (1.0 - terms.loss_mean - schlick) + terms.f90 * schlick;
     return max(1.0 - once - terms.returned_most * terms.loss_mean, 1.0e-3);
 }
 
-// What becomes of light that one scattering loses. From inside a volume nothing is made up for at the dielectric.
+// What becomes of light that one scattering at the boundary of a rough volume loses: it goes through as facets let it,
+// but no more than is lost for light that takes the same way back.
+void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
+    terms.glass = GlassRows(ATTRIBUTE_NONE, 0.0);
+    terms.glass_side = s.side == 1u ? GLASS_LOST_FRONT : GLASS_LOST_BACK;
+    terms.glass_o = 0.0;
+    terms.glass_mean = 0.0;
+    terms.glass_beyond = 0.0;
+    terms.glass_returned = vec3(0.0);
+    terms.glass_passed = vec3(0.0);
+    if (!SHADING_TRANSMISSION || terms.eta == 1.0 || terms.alpha < ALBEDO_LOSSLESS_ALPHA) return;
+    uint table = scene_material_albedo(s.material);
+    if (table == ATTRIBUTE_NONE) return;
+    terms.glass = glass_rows(table, s.roughness);
+    float mean = glass_albedo_mean(terms.glass, terms.glass_side);
+    float beyond = glass_albedo_mean(terms.glass, GLASS_LOST_BACK - terms.glass_side);
+    if (!(mean > 0.0) || !(beyond > 0.0)) return;
+    terms.glass_mean = mean;
+    terms.glass_beyond = beyond;
+    terms.glass_o = glass_albedo(terms.glass, terms.glass_side, max(terms.o.z, 0.0));
+    float share = (1.0 - terms.metallic) * terms.transmission;
+    float through = bsdf_facet_through(terms) * min(1.0, beyond / mean);
+    vec3 facet = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
+    float most = largest_component(facet);
+    // Inside, what is reflected is mostly reflected in full.
+    vec3 tint = terms.eta < 1.0 && most > 0.0 ? facet / most : vec3(1.0);
+    terms.glass_returned = tint * (share * (1.0 - through));
+    terms.glass_passed = terms.base_color * (share * through);
+}
+
+// What becomes of light that one scattering loses, of what is not a volume's. What the dielectric loses on the side of
+// the larger index counts as let in.
 void bsdf_set_energy(inout BsdfTerms terms) {
     terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
     terms.loss_mean = albedo_loss_mean(terms.alpha);
@@ -92,6 +146,7 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     vec3 dielectric = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
     vec3 returned = terms.eta > 1.0 ? vec3(0.0) : albedo_returned(dielectric, terms.loss_mean);
     terms.returned_most = largest_component(returned);
+    if (terms.eta != 1.0) returned *= 1.0 - terms.transmission;
     terms.returned = mix(returned, albedo_returned(metal, terms.loss_mean), terms.metallic);
     float through = terms.eta == 1.0 ? (1.0 - terms.metallic) * terms.transmission : 0.0;
     terms.passed = terms.base_color * (through * (1.0 - terms.returned_most));
@@ -134,6 +189,7 @@ BsdfTerms bsdf_terms(Surface s, vec3 o) {
     terms.frame = basis_around(bsdf_facet_normal(s, o));
     terms.base = s.normal * terms.frame;
     terms.o = o * terms.frame;
+    bsdf_set_glass(terms, s);
     bsdf_set_energy(terms);
     return terms;
 }
@@ -143,25 +199,36 @@ float bsdf_diffuse_share(BsdfTerms terms) {
     return (1.0 - terms.metallic) * (1.0 - terms.transmission);
 }
 
+// What left the boundary of a rough volume after several scatterings, 1/sr; as bsdf_cosine_family.
+vec3 bsdf_glass(BsdfTerms terms, float cosine, int side) {
+    if (!(terms.glass_mean > 0.0)) return vec3(0.0);
+    uint block = side > 0 ? terms.glass_side : GLASS_LOST_BACK - terms.glass_side;
+    float lost = terms.glass_o * glass_albedo(terms.glass, block, cosine) / MICROFACET_PI;
+    return side > 0 ? terms.glass_returned * (lost / terms.glass_mean)
+                    : terms.glass_passed * (lost / terms.glass_beyond);
+}
+
 // Value of the cosine family, 1/sr: the diffuse base, and what left the facets after several scatterings. `cosine` of
 // the other direction is positive; `side` as of bsdf_side.
 vec3 bsdf_cosine_family(BsdfTerms terms, float cosine, int side) {
     float loss = albedo_loss(cosine, terms.alpha);
     float several = terms.loss_o > 0.0 ? terms.loss_o * loss / (terms.loss_mean * MICROFACET_PI) : 0.0;
-    if (side < 0) return terms.passed * several;
+    vec3 glass = bsdf_glass(terms, cosine, side);
+    if (side < 0) return terms.passed * several + glass;
     float share = bsdf_diffuse_share(terms);
-    if (share <= 0.0) return terms.returned * several;
+    if (share <= 0.0) return terms.returned * several + glass;
     float through = terms.entering_o * bsdf_entering(terms, cosine, loss) / terms.entering_mean;
-    return terms.returned * several + terms.base_color * (share * through / MICROFACET_PI);
+    return terms.returned * several + glass + terms.base_color * (share * through / MICROFACET_PI);
 }
 
 // Probability of the cosine family, and within it of going through the surface.
 void bsdf_cosine_probability(BsdfTerms terms, out float family, out float through) {
-    float down = luminance(terms.passed) * terms.loss_o;
-    float up = luminance(terms.returned) * terms.loss_o
+    float down = luminance(terms.passed) * terms.loss_o + luminance(terms.glass_passed) * terms.glass_o;
+    float up = luminance(terms.returned) * terms.loss_o + luminance(terms.glass_returned) * terms.glass_o
              + luminance(terms.base_color) * (bsdf_diffuse_share(terms) * terms.entering_o);
     float total = up + down;
-    float facets = (1.0 - terms.loss_o)
+    float volume = terms.glass_mean > 0.0 ? (1.0 - terms.metallic) * terms.transmission : 0.0;
+    float facets = (1.0 - mix(terms.loss_o, terms.glass_o, volume))
                  * luminance(bsdf_reflected(terms, terms.o.z) + bsdf_transmitted(terms, terms.o.z));
     through = total > 0.0 ? down / total : 0.0;
     if (total <= 0.0) family = 0.0;

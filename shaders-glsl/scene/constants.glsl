@@ -26,6 +26,11 @@
 
 // "This draw has no such attribute."
 #define ATTRIBUTE_NONE 0xFFFFFFFFu
+// Table of what rough glass loses (docs/shading.md, "Energy"): three blocks of rows, one for each roughness, of words:
+// one for each cosine, then their mean.
+#define GLASS_ROWS 16u
+#define GLASS_ROW_WORDS 17u
+
 // "This draw emits nothing."
 #define EMISSIVE_NONE 0xFFFFFFFFu
 // "No texture": the factor alone counts.

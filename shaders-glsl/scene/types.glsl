@@ -76,7 +76,7 @@ struct Material {
     float normal_scale;
     float alpha_cutoff;         // MATERIAL_ALPHA_MASK only
     uint flags;                 // MATERIAL_*
-    uint spare;                 // zero
+    uint albedo;                // vertex attributes, GLASS_* words: what rough glass loses; ATTRIBUTE_NONE: nothing
     TextureRef base_color_texture;          // table entry with TEXTURE_SRGB
     TextureRef metallic_roughness_texture;  // without
     TextureRef normal_texture;              // without

@@ -153,8 +153,8 @@ pub struct Material {
     pub alpha_cutoff: f32,
     /// `MATERIAL_*`.
     pub flags: u32,
-    /// Zero.
-    pub spare: u32,
+    /// Vertex attributes: word of the table of what rough glass loses, or `ATTRIBUTE_NONE`.
+    pub albedo: u32,
     /// With `TEXTURE_SRGB`.
     pub base_color_texture: TextureUse,
     /// Linear.

@@ -19,6 +19,7 @@ mod distribution;
 mod emissive;
 mod environment;
 mod error;
+mod glass_albedo;
 mod kinds;
 pub mod layout;
 mod lights;

@@ -2,7 +2,7 @@
 
 use rasray_scene::{AlphaMode, Scene, TextureRef};
 use rasray_shaders_glsl::constants::scene::{
-    MATERIAL_ALPHA_BLEND, MATERIAL_ALPHA_MASK, MATERIAL_DOUBLE_SIDED, MATERIAL_UNLIT,
+    ATTRIBUTE_NONE, MATERIAL_ALPHA_BLEND, MATERIAL_ALPHA_MASK, MATERIAL_DOUBLE_SIDED, MATERIAL_UNLIT,
 };
 
 use crate::{
@@ -70,7 +70,7 @@ fn pack(
         flags: alpha_flag
             | if material.double_sided { MATERIAL_DOUBLE_SIDED } else { 0 }
             | if material.unlit { MATERIAL_UNLIT } else { 0 },
-        spare: 0,
+        albedo: ATTRIBUTE_NONE,
         base_color_texture: slot(TextureKind::BaseColor, &material.base_color_texture, Encoding::Srgb)?,
         metallic_roughness_texture: slot(
             TextureKind::MetallicRoughness,

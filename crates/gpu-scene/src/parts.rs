@@ -39,6 +39,8 @@ pub struct Parts {
     pub emission_textures: bool,
     /// Transmission textures.
     pub transmission_textures: bool,
+    /// What rough glass loses in one scattering.
+    pub glass_albedos: bool,
     /// Alpha masks. Off: masked draws count as opaque everywhere.
     pub alpha: bool,
     /// Point, directional and spot lights.
@@ -61,6 +63,7 @@ impl Parts {
         normal_textures: true,
         emission_textures: true,
         transmission_textures: true,
+        glass_albedos: true,
         alpha: true,
         lights: true,
         emissive_triangles: true,
@@ -78,6 +81,7 @@ impl Parts {
         normal_textures: false,
         emission_textures: false,
         transmission_textures: false,
+        glass_albedos: false,
         alpha: true,
         lights: false,
         emissive_triangles: false,
@@ -110,6 +114,7 @@ impl From<&Needs> for Parts {
             normal_textures: has(Term::NormalTextures),
             emission_textures: has(Term::EmissionTextures),
             transmission_textures: has(Term::TransmissionTextures),
+            glass_albedos: has(Term::Transmission),
             alpha: has(Term::AlphaMask),
             lights: has(Term::PointLights) || has(Term::DirectionalLights) || has(Term::SpotLights),
             emissive_triangles: has(Term::AreaLights),

@@ -9,6 +9,7 @@ use crate::{
     attributes::pack_attributes,
     emissive::pack_emissive,
     environment::{EnvironmentTables, pack_environment},
+    glass_albedo::append_glass_albedos,
     kinds::{disk_of, kind_shares},
     layout::{DrawShading, EmissiveTriangle, Frame, Light, Material, Texture},
     lights::pack_lights,
@@ -27,7 +28,7 @@ pub struct SceneTables {
     pub draw_shadings: Vec<DrawShading>,
     /// Normals and tangents in world space, words.
     pub posed_attributes: Vec<f32>,
-    /// Texture coordinates and colours, words.
+    /// Texture coordinates and colours, then the tables of rough glass, words.
     pub vertex_attributes: Vec<f32>,
     /// As in the scene.
     pub materials: Vec<Material>,
@@ -62,7 +63,10 @@ impl SceneTables {
             );
         }
         let mut attributes = pack_attributes(scene, &posed, parts)?;
-        let (materials, textures) = pack_materials(scene, parts)?;
+        let (mut materials, textures) = pack_materials(scene, parts)?;
+        if parts.glass_albedos {
+            append_glass_albedos(scene, &mut materials, &mut attributes.vertex)?;
+        }
         let (emissive_power, emissive_triangles) = if parts.emissive_triangles {
             pack_emissive(scene, &posed, &mut attributes.draw_shadings)
         } else {

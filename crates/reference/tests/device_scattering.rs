@@ -2,12 +2,14 @@
 
 use glam::Vec3;
 use rasray_gpu::{Access, BufferUsage, ComputePipelineDesc, Device, DeviceDesc};
+use rasray_gpu_scene::{Parts, SceneTables};
 use rasray_reference::shading::{
     BsdfSample, Surface, bsdf_evaluate, bsdf_pdf, bsdf_sample,
     random::{Numbers, RandomStream, Sampler, random_dimension},
 };
+use rasray_scene::{Material, Scene};
 use rasray_shaders_glsl::constants::scene::{
-    SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID, SAMPLER_PCG, SAMPLER_SOBOL,
+    ATTRIBUTE_NONE, SAMPLE_DELTA, SAMPLE_TRANSMITTED, SAMPLE_VALID, SAMPLER_PCG, SAMPLER_SOBOL,
 };
 
 const SEED: u32 = 77;
@@ -15,13 +17,13 @@ const CASES: u32 = 6000;
 /// Words of a case and of a result in the kernel.
 const CASE_WORDS: usize = 41;
 const RESULT_WORDS: usize = 16;
-/// Words of the frame and of a material, and where the fields lie that are read.
+/// Words of the frame, and where the fields lie that are read.
 const FRAME_WORDS: usize = 35;
 const FRAME_SEED: usize = 19;
 const FRAME_SAMPLING: usize = 30;
-const MATERIAL_WORDS: usize = 64;
-const MATERIAL_SPECULAR_COLOR: usize = 16;
-const SPECULAR_COLOR: Vec3 = Vec3::new(0.2, 0.9, 1.0);
+const IORS: [f32; 5] = [1.0, 1.33, 1.5, 2.4, 0.7];
+const SPECULARS: [f32; 3] = [0.0, 0.5, 1.0];
+const SPECULAR_COLORS: [Vec3; 2] = [Vec3::ONE, Vec3::new(0.2, 0.9, 1.0)];
 
 struct Case {
     surface: Surface,
@@ -56,7 +58,9 @@ fn cases() -> Vec<Case> {
             (geometric_normal * 2.0 + towards(30)).normalize()
         };
         let normal = if normal.dot(o) < 0.01 { geometric_normal } else { normal };
-        let material = (random.float(1) < 0.5).then_some(0);
+        let number = |dimension: u32, count: usize| (random.float(dimension) * count as f32) as usize;
+        let [ior, specular, color] =
+            [number(5, IORS.len()), number(7, SPECULARS.len()), number(1, SPECULAR_COLORS.len())];
         let surface = Surface {
             geometric_normal,
             normal,
@@ -64,12 +68,12 @@ fn cases() -> Vec<Case> {
             metallic: pick(2, &[0.0, 0.0, 0.4, 1.0]),
             roughness: pick(3, &[0.0, 0.1, 0.35, 0.7, 1.0]),
             transmission: pick(4, &[0.0, 0.5, 1.0]),
-            ior: pick(5, &[1.0, 1.33, 1.5, 2.4]),
+            ior: IORS[ior],
             thickness: pick(6, &[0.0, 0.3]),
-            specular: pick(7, &[0.0, 0.5, 1.0]),
-            specular_color: if material.is_some() { SPECULAR_COLOR } else { Vec3::ONE },
+            specular: SPECULARS[specular],
+            specular_color: SPECULAR_COLORS[color],
             front: random.float(8) < 0.5,
-            material,
+            material: Some((ior * SPECULARS.len() + specular) * SPECULAR_COLORS.len() + color),
             ..Surface::default()
         };
         let stream = RandomStream { seed: SEED, pixel: pixel * 977, sample: pixel % 61 };
@@ -77,6 +81,20 @@ fn cases() -> Vec<Case> {
         Case { surface, o, i, random: stream, dimension: random_dimension(pixel % 5, 4) }
     };
     (0..CASES).map(make).collect()
+}
+
+/// One for every index, strength and colour of the dielectric's reflection; each may be a rough volume.
+fn tables() -> SceneTables {
+    let mut scene = Scene::default();
+    for ior in IORS {
+        for specular in SPECULARS {
+            for specular_color in SPECULAR_COLORS.map(|color| color.to_array()) {
+                let volume = Material { transmission: 1.0, thickness: 0.3, ior, ..Material::default() };
+                scene.materials.push(Material { specular, specular_color, ..volume });
+            }
+        }
+    }
+    SceneTables::new(&scene, glam::DVec3::ZERO, &Parts::ALL).expect("valid")
 }
 
 fn words(case: &Case) -> Vec<u32> {
@@ -104,7 +122,7 @@ fn words(case: &Case) -> Vec<u32> {
     words
 }
 
-fn run(cases: &[Case], sampler: Sampler) -> Vec<u32> {
+fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
     let device = Device::create(&desc).expect("this test needs a Vulkan device and the validation layer");
     let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
@@ -119,11 +137,9 @@ fn run(cases: &[Case], sampler: Sampler) -> Vec<u32> {
         Sampler::Pcg => SAMPLER_PCG,
     };
     let frame = device.create_buffer_with("frame", usage, &frame).expect("buffer");
-    let mut material = vec![0_u32; MATERIAL_WORDS];
-    for (word, value) in material[MATERIAL_SPECULAR_COLOR..].iter_mut().zip(SPECULAR_COLOR.to_array()) {
-        *word = value.to_bits();
-    }
-    let material = device.create_buffer_with("materials", usage, &material).expect("buffer");
+    let attributes =
+        device.create_buffer_with("attributes", usage, &packed.vertex_attributes).expect("buffer");
+    let materials = device.create_buffer_with("materials", usage, &packed.materials).expect("buffer");
     let empty = device.create_buffer_with("empty", usage, &[0_u32; 64]).expect("buffer");
 
     let own_layout = device.create_set_layout("cases", 2).expect("layout");
@@ -131,7 +147,8 @@ fn run(cases: &[Case], sampler: Sampler) -> Vec<u32> {
     let own = device.create_binding_set(&own_layout, "cases", &[&input, &output]).expect("set");
     let mut tables = [&empty; 12];
     tables[0] = &frame;
-    tables[5] = &material;
+    tables[4] = &attributes;
+    tables[5] = &materials;
     let scene = device.create_binding_set(&scene_layout, "scene", &tables).expect("set");
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
@@ -204,13 +221,13 @@ fn compare(
 
 #[test]
 fn scattering_on_the_device_is_that_of_the_reference() {
-    let cases = cases();
+    let (cases, mut packed) = (cases(), tables());
     for sampler in [Sampler::Pcg, Sampler::Sobol] {
-        let (differ, ..) = compare(&cases, &run(&cases, sampler), sampler, |surface| surface);
+        let (differ, ..) = compare(&cases, &run(&cases, sampler, &packed), sampler, |surface| surface);
         assert!(differ.len() < 12, "{sampler:?}: {} cases differ", differ.len());
     }
     let sampler = Sampler::default();
-    let results = run(&cases, sampler);
+    let results = run(&cases, sampler, &packed);
     let (differ, sampled, transmitted) = compare(&cases, &results, sampler, |surface| surface);
     assert!(sampled > CASES / 2 && transmitted > CASES / 10, "{sampled} {transmitted}: too few to tell");
     // A number next to a threshold, or a half vector near zero, may fall either way.
@@ -228,4 +245,8 @@ fn scattering_on_the_device_is_that_of_the_reference() {
         let (differ, ..) = compare(&cases, &results, sampler, mutant);
         assert!(differ.len() > 200, "mutant {number}: only {} cases differ", differ.len());
     }
+    // So is rough glass without its tables.
+    packed.materials.iter_mut().for_each(|material| material.albedo = ATTRIBUTE_NONE);
+    let (differ, ..) = compare(&cases, &run(&cases, sampler, &packed), sampler, |surface| surface);
+    assert!(differ.len() > 200, "only {} cases differ without tables", differ.len());
 }

@@ -122,7 +122,7 @@ fn records_of_the_scene() {
     });
     check_layout!(modules, scene::Material as "Material" {
         base_color, emission, metallic, roughness, transmission, ior, thickness, attenuation_color,
-        attenuation_distance, specular_color, specular, normal_scale, alpha_cutoff, flags, spare,
+        attenuation_distance, specular_color, specular, normal_scale, alpha_cutoff, flags, albedo,
         base_color_texture, metallic_roughness_texture, normal_texture, emission_texture,
         transmission_texture,
     });

@@ -6,23 +6,17 @@
 
 use std::f32::consts::PI;
 
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::{
-    Surface, albedo, basis_around, cosine_hemisphere,
-    facet_normal::facet_normal,
-    luminance,
-    microfacet::{fresnel_power, ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
+    Surface, basis_around,
+    bsdf_terms::{CosineProbability, Side, Terms},
+    cosine_hemisphere, luminance,
+    microfacet::{ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
 };
 
 /// Perceptual roughness below which the microfacet lobes are perfect mirrors.
 pub const SMOOTH_ROUGHNESS: f32 = 0.03;
-/// Indices closer to 1 than this do not bend.
-const STRAIGHT_INDEX: f32 = 1.0e-3;
-/// Bounds of the probability of the cosine family where both families exist.
-const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
-/// How often its share of the light that probability may be at its lower bound.
-const COSINE_FACTOR: f32 = 4.0;
 
 /// A direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,54 +33,6 @@ pub struct BsdfSample {
     pub transmitted: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    Reflected,
-    Transmitted,
-}
-
-struct Terms {
-    f0: Vec3,
-    f90: f32,
-    base_color: Vec3,
-    metallic: f32,
-    transmission: f32,
-    /// 0 for perfect mirrors.
-    alpha: f32,
-    /// Index on the side of o over the index on the other side; 1: straight on.
-    eta: f32,
-    mirror: bool,
-    /// World from local; z is the normal of the facets.
-    frame: Mat3,
-    /// The shading normal, local: the cosine family lies around it.
-    base: Vec3,
-    /// Local.
-    o: Vec3,
-    energy: Energy,
-}
-
-/// What becomes of light that one scattering at the facets loses.
-#[derive(Default)]
-struct Energy {
-    /// Share that is lost from o, and its mean over the hemisphere.
-    loss: f32,
-    loss_mean: f32,
-    /// Shares of the lost light that are reflected, and that go through a thin wall.
-    returned: Vec3,
-    passed: Vec3,
-    /// Of the dielectric, the largest channel.
-    returned_most: f32,
-    /// Share of the light from o that the dielectric lets in, and its mean over the hemisphere.
-    entering: f32,
-    entering_mean: f32,
-}
-
-/// Probability of the cosine family, and within it of going through the surface.
-struct CosineProbability {
-    family: f32,
-    through: f32,
-}
-
 /// What the rough microfacet family does towards a direction.
 struct Facets {
     /// Of o at the facet.
@@ -97,133 +43,6 @@ struct Facets {
 }
 
 impl Terms {
-    fn new(surface: &Surface, o: Vec3) -> Self {
-        let ior = if surface.ior > 1.0e-3 { surface.ior } else { 1.0 };
-        let root = (surface.ior.max(0.0) - 1.0) / (surface.ior.max(0.0) + 1.0);
-        let straight =
-            surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
-        let frame = basis_around(facet_normal(surface.normal, surface.geometric_normal, o));
-        let mirror = surface.roughness < SMOOTH_ROUGHNESS;
-        let mut terms = Self {
-            f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
-            f90: surface.specular,
-            base_color: surface.base_color,
-            metallic: surface.metallic,
-            transmission: surface.transmission,
-            alpha: if mirror { 0.0 } else { surface.roughness * surface.roughness },
-            eta: match (straight, surface.front) {
-                (true, _) => 1.0,
-                (false, true) => 1.0 / ior,
-                (false, false) => ior,
-            },
-            mirror,
-            frame,
-            base: frame.transpose() * surface.normal,
-            o: frame.transpose() * o,
-            energy: Energy::default(),
-        };
-        terms.set_energy();
-        terms
-    }
-
-    /// From inside a volume nothing is made up for at the dielectric.
-    fn set_energy(&mut self) {
-        let cosine = self.o.z.max(0.0);
-        self.energy.loss = albedo::loss(cosine, self.alpha);
-        self.energy.loss_mean = albedo::loss_mean(self.alpha);
-        let loss_mean = self.energy.loss_mean;
-        let metal = self.base_color + (Vec3::ONE - self.base_color) * albedo::SCHLICK_MEAN;
-        let dielectric = self.f0 + (Vec3::splat(self.f90) - self.f0) * albedo::SCHLICK_MEAN;
-        let returned = if self.eta > 1.0 { Vec3::ZERO } else { albedo::returned(dielectric, loss_mean) };
-        self.energy.returned_most = returned.max_element();
-        self.energy.returned = returned.lerp(albedo::returned(metal, loss_mean), self.metallic);
-        let through = if self.eta == 1.0 { (1.0 - self.metallic) * self.transmission } else { 0.0 };
-        self.energy.passed = self.base_color * (through * (1.0 - self.energy.returned_most));
-        self.energy.entering = self.entering(cosine, self.energy.loss);
-        self.energy.entering_mean = self.entering_mean();
-    }
-
-    /// Share of the light that the dielectric as a whole does not reflect, by its brightest channel.
-    fn entering(&self, cosine: f32, loss: f32) -> f32 {
-        if self.eta > 1.0 {
-            return 1.0 - self.fresnel(cosine).max_element();
-        }
-        let schlick = albedo::schlick(cosine, self.alpha, loss);
-        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
-        (1.0 - once - self.energy.returned_most * loss).max(0.0)
-    }
-
-    fn entering_mean(&self) -> f32 {
-        if self.eta > 1.0 {
-            return 1.0;
-        }
-        let (schlick, loss) = (albedo::schlick_mean(self.alpha), self.energy.loss_mean);
-        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
-        (1.0 - once - self.energy.returned_most * loss).max(1.0e-3)
-    }
-
-    /// Reflected share of the dielectric at a facet seen under `cosine`.
-    fn fresnel(&self, cosine: f32) -> Vec3 {
-        let mut x = cosine;
-        if self.eta > 1.0 {
-            let sine_squared = self.eta * self.eta * (1.0 - cosine * cosine);
-            if sine_squared >= 1.0 {
-                return Vec3::ONE;
-            }
-            x = (1.0 - sine_squared).sqrt();
-        }
-        self.f0 + (Vec3::splat(self.f90) - self.f0) * fresnel_power(x)
-    }
-
-    fn reflected(&self, cosine: f32) -> Vec3 {
-        let metal = self.base_color + (Vec3::ONE - self.base_color) * fresnel_power(cosine);
-        self.fresnel(cosine).lerp(metal, self.metallic)
-    }
-
-    fn transmitted(&self, cosine: f32) -> Vec3 {
-        let through = 1.0 - self.fresnel(cosine).max_element();
-        self.base_color * ((1.0 - self.metallic) * self.transmission * through)
-    }
-
-    fn diffuse_share(&self) -> f32 {
-        (1.0 - self.metallic) * (1.0 - self.transmission)
-    }
-
-    /// The diffuse base, and what left the facets after several scatterings; 1/sr.
-    fn cosine_family(&self, cosine: f32, side: Side) -> Vec3 {
-        let energy = &self.energy;
-        let loss = albedo::loss(cosine, self.alpha);
-        let several = if energy.loss > 0.0 { energy.loss * loss / (energy.loss_mean * PI) } else { 0.0 };
-        if side == Side::Transmitted {
-            return energy.passed * several;
-        }
-        let share = self.diffuse_share();
-        if share <= 0.0 {
-            return energy.returned * several;
-        }
-        let through = energy.entering * self.entering(cosine, loss) / energy.entering_mean;
-        energy.returned * several + self.base_color * (share * through / PI)
-    }
-
-    fn cosine_probability(&self) -> CosineProbability {
-        let energy = &self.energy;
-        let down = luminance(energy.passed) * energy.loss;
-        let up = luminance(energy.returned) * energy.loss
-            + luminance(self.base_color) * (self.diffuse_share() * energy.entering);
-        let total = up + down;
-        let facets = (1.0 - energy.loss) * luminance(self.reflected(self.o.z) + self.transmitted(self.o.z));
-        let through = if total > 0.0 { down / total } else { 0.0 };
-        let family = if total <= 0.0 {
-            0.0
-        } else if facets <= 0.0 {
-            1.0
-        } else {
-            let share = total / (total + facets);
-            share.clamp(COSINE_BOUNDS.0.min(COSINE_FACTOR * share), COSINE_BOUNDS.1)
-        };
-        CosineProbability { family, through }
-    }
-
     fn reflect_probability(&self, cosine: f32) -> f32 {
         let (reflected, transmitted) =
             (luminance(self.reflected(cosine)), luminance(self.transmitted(cosine)));

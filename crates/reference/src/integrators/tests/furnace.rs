@@ -2,7 +2,7 @@ use rasray_scene::{Environment, Light, Material};
 
 use crate::{
     shading::PosedScene,
-    testing::{assert_mean, cube, diffuse, scene, sphere, view},
+    testing::{assert_mean, cube, diffuse, parallel_view, scene, sphere, view},
 };
 
 /// A closed diffuse enclosure with emission 1 and albedo rho shows (1 - rho^(n+1)) / (1 - rho) after
@@ -73,6 +73,24 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
         let image = posed.render_path(&view([0.0, 0.0, 4.0], [0.0; 3], 12, 64), 400).expect("rendered");
         // Roulette ends five percent of the paths after the third scattering and makes up for it.
         assert_mean(&image, 1.0, 1.0e-3, 0.03);
+    }
+}
+
+/// Rough glass that absorbs nothing sends on all light, clear and milky.
+#[test]
+fn rough_glass_vanishes_in_a_white_sky() {
+    for (roughness, transmission) in [(0.2, 1.0), (0.4, 1.0), (1.0, 1.0), (0.4, 0.5), (1.0, 0.5)] {
+        let material =
+            Material { metallic: 0.0, roughness, transmission, thickness: 1.0, ..Material::default() };
+        let mut scene = scene(vec![material], vec![sphere(4, false, true, 0)]);
+        scene.environment = Environment::Constant([1.0; 3]);
+        let posed = PosedScene::new(&scene, glam::DVec3::ZERO).expect("valid");
+        // Every pixel is on the ball.
+        let image = posed
+            .render_path(&parallel_view([0.0, 0.0, 4.0], [0.0; 3], 0.65, 16, 256), 400)
+            .expect("rendered");
+        // Roulette ends five percent of the paths after the third scattering and makes up for it.
+        assert_mean(&image, 1.0, 5.0e-3, 0.05);
     }
 }
 

@@ -1,4 +1,5 @@
 mod bsdf;
 mod environment;
+mod glass_albedo;
 mod surface;
 mod texture;

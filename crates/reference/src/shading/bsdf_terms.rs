@@ -1,0 +1,291 @@
+//! What scattering at one surface towards one direction needs to know: shares, probabilities and the light that leaves
+//! the facets after several scatterings.
+
+use std::f32::consts::PI;
+
+use glam::{Mat3, Vec3};
+
+use super::{
+    Surface, albedo, basis_around,
+    bsdf::SMOOTH_ROUGHNESS,
+    facet_normal::facet_normal,
+    glass_albedo::{self, Block},
+    luminance,
+    microfacet::fresnel_power,
+};
+
+/// Indices closer to 1 than this do not bend.
+const STRAIGHT_INDEX: f32 = 1.0e-3;
+/// Bounds of the probability of the cosine family where both families exist.
+const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
+/// How often its share of the light that probability may be at its lower bound.
+const COSINE_FACTOR: f32 = 4.0;
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Reflected,
+    Transmitted,
+}
+
+pub struct Terms {
+    pub f0: Vec3,
+    pub f90: f32,
+    pub base_color: Vec3,
+    pub metallic: f32,
+    pub transmission: f32,
+    /// 0 for perfect mirrors.
+    pub alpha: f32,
+    /// Index on the side of o over the index on the other side; 1: straight on.
+    pub eta: f32,
+    pub mirror: bool,
+    /// World from local; z is the normal of the facets.
+    pub frame: Mat3,
+    /// The shading normal, local: the cosine family lies around it.
+    pub base: Vec3,
+    /// Local.
+    pub o: Vec3,
+    /// Of a rough volume.
+    glass: Option<Glass>,
+    energy: Energy,
+}
+
+/// What becomes of light that one scattering at the boundary of a rough volume loses.
+struct Glass {
+    table: &'static glass_albedo::Table,
+    roughness: f32,
+    /// The side of o.
+    side: Block,
+    /// Share that is lost from o, its mean over the hemisphere, and the mean on the other side.
+    loss: f32,
+    mean: f32,
+    beyond: f32,
+    /// Shares of the lost light that are reflected, and that go through.
+    returned: Vec3,
+    passed: Vec3,
+}
+
+/// What becomes of light that one scattering at the facets loses.
+#[derive(Default)]
+struct Energy {
+    /// Share that is lost from o, and its mean over the hemisphere.
+    loss: f32,
+    loss_mean: f32,
+    /// Shares of the lost light that are reflected, and that go through a thin wall.
+    returned: Vec3,
+    passed: Vec3,
+    /// Of the dielectric, the largest channel.
+    returned_most: f32,
+    /// Share of the light from o that the dielectric lets in, and its mean over the hemisphere.
+    entering: f32,
+    entering_mean: f32,
+}
+
+/// Probability of the cosine family, and within it of going through the surface.
+pub struct CosineProbability {
+    pub family: f32,
+    pub through: f32,
+}
+
+impl Terms {
+    pub fn new(surface: &Surface, o: Vec3) -> Self {
+        let ior = if surface.ior > 1.0e-3 { surface.ior } else { 1.0 };
+        let root = (surface.ior.max(0.0) - 1.0) / (surface.ior.max(0.0) + 1.0);
+        let straight =
+            surface.thickness <= 0.0 || surface.transmission <= 0.0 || (ior - 1.0).abs() < STRAIGHT_INDEX;
+        let frame = basis_around(facet_normal(surface.normal, surface.geometric_normal, o));
+        let mirror = surface.roughness < SMOOTH_ROUGHNESS;
+        let mut terms = Self {
+            f0: (root * root * surface.specular_color).min(Vec3::ONE) * surface.specular,
+            f90: surface.specular,
+            base_color: surface.base_color,
+            metallic: surface.metallic,
+            transmission: surface.transmission,
+            alpha: if mirror { 0.0 } else { surface.roughness * surface.roughness },
+            eta: match (straight, surface.front) {
+                (true, _) => 1.0,
+                (false, true) => 1.0 / ior,
+                (false, false) => ior,
+            },
+            mirror,
+            frame,
+            base: frame.transpose() * surface.normal,
+            o: frame.transpose() * o,
+            glass: None,
+            energy: Energy::default(),
+        };
+        if terms.eta != 1.0 && terms.alpha >= albedo::LOSSLESS_ALPHA {
+            terms.glass = Some(terms.glass(ior, surface));
+        }
+        terms.set_energy();
+        terms
+    }
+
+    /// Lost light goes through as facets let it, but no more than is lost for light that takes the same way back.
+    fn glass(&self, ior: f32, surface: &Surface) -> Glass {
+        let table = glass_albedo::table(ior, self.f0.max_element(), self.f90);
+        let roughness = surface.roughness;
+        let side = if surface.front { Block::Front } else { Block::Back };
+        let (mean, beyond) = (table.mean(side, roughness), table.mean(side.beyond(), roughness));
+        let mut glass = Glass {
+            table,
+            roughness,
+            side,
+            loss: 0.0,
+            mean: 0.0,
+            beyond: 0.0,
+            returned: Vec3::ZERO,
+            passed: Vec3::ZERO,
+        };
+        if !(mean > 0.0) || !(beyond > 0.0) {
+            return glass;
+        }
+        let through = self.facet_through() * (beyond / mean).min(1.0);
+        let facet = self.facet_mean();
+        let tinted = self.eta < 1.0 && facet.max_element() > 0.0;
+        let tint = if tinted { facet / facet.max_element() } else { Vec3::ONE };
+        glass.loss = table.share(side, roughness, self.o.z.max(0.0));
+        (glass.mean, glass.beyond) = (mean, beyond);
+        glass.returned = tint * (self.volume_share() * (1.0 - through));
+        glass.passed = self.base_color * (self.volume_share() * through);
+        glass
+    }
+
+    /// Share of the surface that lets light through.
+    fn volume_share(&self) -> f32 {
+        (1.0 - self.metallic) * self.transmission
+    }
+
+    /// Mean reflectance of the dielectric's facets on the side of the smaller index.
+    fn facet_mean(&self) -> Vec3 {
+        self.f0 + (Vec3::splat(self.f90) - self.f0) * albedo::SCHLICK_MEAN
+    }
+
+    /// Mean share that facets let through, by the brightest channel.
+    fn facet_through(&self) -> f32 {
+        let through = 1.0 - self.facet_mean().max_element();
+        if self.eta > 1.0 { through / (self.eta * self.eta) } else { through }
+    }
+
+    /// Of what is not a volume's. What the dielectric loses on the side of the larger index counts as let in.
+    fn set_energy(&mut self) {
+        let cosine = self.o.z.max(0.0);
+        self.energy.loss = albedo::loss(cosine, self.alpha);
+        self.energy.loss_mean = albedo::loss_mean(self.alpha);
+        let loss_mean = self.energy.loss_mean;
+        let metal = self.base_color + (Vec3::ONE - self.base_color) * albedo::SCHLICK_MEAN;
+        let mut returned =
+            if self.eta > 1.0 { Vec3::ZERO } else { albedo::returned(self.facet_mean(), loss_mean) };
+        self.energy.returned_most = returned.max_element();
+        if self.eta != 1.0 {
+            returned *= 1.0 - self.transmission;
+        }
+        self.energy.returned = returned.lerp(albedo::returned(metal, loss_mean), self.metallic);
+        let through = if self.eta == 1.0 { (1.0 - self.metallic) * self.transmission } else { 0.0 };
+        self.energy.passed = self.base_color * (through * (1.0 - self.energy.returned_most));
+        self.energy.entering = self.entering(cosine, self.energy.loss);
+        self.energy.entering_mean = self.entering_mean();
+    }
+
+    /// Share of the light that the dielectric as a whole does not reflect, by its brightest channel.
+    fn entering(&self, cosine: f32, loss: f32) -> f32 {
+        if self.eta > 1.0 {
+            return match &self.glass {
+                Some(glass) => 1.0 - glass.table.share(Block::Reflected, glass.roughness, cosine),
+                None => 1.0 - self.fresnel(cosine).max_element(),
+            };
+        }
+        let schlick = albedo::schlick(cosine, self.alpha, loss);
+        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
+        (1.0 - once - self.energy.returned_most * loss).max(0.0)
+    }
+
+    fn entering_mean(&self) -> f32 {
+        if self.eta > 1.0 {
+            let entering = match &self.glass {
+                Some(glass) => 1.0 - glass.table.mean(Block::Reflected, glass.roughness),
+                None => self.facet_through(),
+            };
+            return entering.max(1.0e-6);
+        }
+        let (schlick, loss) = (albedo::schlick_mean(self.alpha), self.energy.loss_mean);
+        let once = self.f0.max_element() * (1.0 - loss - schlick) + self.f90 * schlick;
+        (1.0 - once - self.energy.returned_most * loss).max(1.0e-3)
+    }
+
+    /// Reflected share of the dielectric at a facet seen under `cosine`.
+    pub fn fresnel(&self, cosine: f32) -> Vec3 {
+        let mut x = cosine;
+        if self.eta > 1.0 {
+            let sine_squared = self.eta * self.eta * (1.0 - cosine * cosine);
+            if sine_squared >= 1.0 {
+                return Vec3::ONE;
+            }
+            x = (1.0 - sine_squared).sqrt();
+        }
+        self.f0 + (Vec3::splat(self.f90) - self.f0) * fresnel_power(x)
+    }
+
+    pub fn reflected(&self, cosine: f32) -> Vec3 {
+        let metal = self.base_color + (Vec3::ONE - self.base_color) * fresnel_power(cosine);
+        self.fresnel(cosine).lerp(metal, self.metallic)
+    }
+
+    pub fn transmitted(&self, cosine: f32) -> Vec3 {
+        let through = 1.0 - self.fresnel(cosine).max_element();
+        self.base_color * ((1.0 - self.metallic) * self.transmission * through)
+    }
+
+    fn diffuse_share(&self) -> f32 {
+        (1.0 - self.metallic) * (1.0 - self.transmission)
+    }
+
+    /// What left the boundary of a rough volume after several scatterings; 1/sr.
+    fn several_in_glass(&self, cosine: f32, side: Side) -> Vec3 {
+        let Some(glass) = self.glass.as_ref().filter(|glass| glass.mean > 0.0) else { return Vec3::ZERO };
+        let share = |block| glass.loss * glass.table.share(block, glass.roughness, cosine) / PI;
+        match side {
+            Side::Reflected => glass.returned * (share(glass.side) / glass.mean),
+            Side::Transmitted => glass.passed * (share(glass.side.beyond()) / glass.beyond),
+        }
+    }
+
+    /// The diffuse base, and what left the facets after several scatterings; 1/sr.
+    pub fn cosine_family(&self, cosine: f32, side: Side) -> Vec3 {
+        let energy = &self.energy;
+        let loss = albedo::loss(cosine, self.alpha);
+        let several = if energy.loss > 0.0 { energy.loss * loss / (energy.loss_mean * PI) } else { 0.0 };
+        let glass = self.several_in_glass(cosine, side);
+        if side == Side::Transmitted {
+            return energy.passed * several + glass;
+        }
+        let share = self.diffuse_share();
+        if share <= 0.0 {
+            return energy.returned * several + glass;
+        }
+        let through = energy.entering * self.entering(cosine, loss) / energy.entering_mean;
+        energy.returned * several + glass + self.base_color * (share * through / PI)
+    }
+
+    pub fn cosine_probability(&self) -> CosineProbability {
+        let energy = &self.energy;
+        let (mut loss, mut down) = (energy.loss, luminance(energy.passed) * energy.loss);
+        let mut up = luminance(energy.returned) * energy.loss
+            + luminance(self.base_color) * (self.diffuse_share() * energy.entering);
+        if let Some(glass) = self.glass.as_ref().filter(|glass| glass.mean > 0.0) {
+            down += luminance(glass.passed) * glass.loss;
+            up += luminance(glass.returned) * glass.loss;
+            loss += (glass.loss - loss) * self.volume_share();
+        }
+        let total = up + down;
+        let facets = (1.0 - loss) * luminance(self.reflected(self.o.z) + self.transmitted(self.o.z));
+        let through = if total > 0.0 { down / total } else { 0.0 };
+        let family = if total <= 0.0 {
+            0.0
+        } else if facets <= 0.0 {
+            1.0
+        } else {
+            let share = total / (total + facets);
+            share.clamp(COSINE_BOUNDS.0.min(COSINE_FACTOR * share), COSINE_BOUNDS.1)
+        };
+        CosineProbability { family, through }
+    }
+}
