@@ -1,5 +1,5 @@
+mod albedo;
 mod bsdf;
 mod environment;
-mod glass_albedo;
 mod surface;
 mod texture;
