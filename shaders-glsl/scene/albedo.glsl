@@ -7,8 +7,8 @@
 #ifndef SCENE_ALBEDO_GLSL
 #define SCENE_ALBEDO_GLSL
 
-// Below this alpha, at most 0.002 of the light is lost under cosines above 0.1: it is left out.
-#define ALBEDO_LOSSLESS_ALPHA 0.01
+#include "scene/constants.glsl"
+
 // Mean of (1 - x)^5 over the hemisphere, weighted by the cosine x.
 #define ALBEDO_SCHLICK_MEAN (1.0 / 21.0)
 

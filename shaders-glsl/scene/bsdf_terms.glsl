@@ -13,8 +13,6 @@
 
 // Below this perceptual roughness the microfacet lobes are perfect mirrors.
 #define BSDF_SMOOTH_ROUGHNESS 0.03
-// Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
-#define BSDF_STRAIGHT_INDEX 1.0e-3
 // Bounds of the probability of the cosine family where both families exist. It may exceed its share of the light by
 // this factor: near the horizon it sends more than cosines tell.
 #define BSDF_COSINE_LEAST 0.05
@@ -72,9 +70,19 @@ vec3 bsdf_reflected(BsdfTerms terms, float cosine) {
     return mix(bsdf_fresnel(terms, cosine), metal, terms.metallic);
 }
 
+// Share of the surface that lets light through.
+float bsdf_volume_share(BsdfTerms terms) {
+    return (1.0 - terms.metallic) * terms.transmission;
+}
+
 vec3 bsdf_transmitted(BsdfTerms terms, float cosine) {
     float through = 1.0 - largest_component(bsdf_fresnel(terms, cosine));
-    return terms.base_color * ((1.0 - terms.metallic) * terms.transmission * through);
+    return terms.base_color * (bsdf_volume_share(terms) * through);
+}
+
+// Mean reflectance of the dielectric's facets on the side of the smaller index.
+vec3 bsdf_facet_mean(BsdfTerms terms) {
+    return terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
 }
 
 // Share of the light from `cosine` that the dielectric as a whole does not reflect, by its brightest channel.
@@ -91,8 +99,7 @@ float bsdf_entering(BsdfTerms terms, float cosine, float loss) {
 // Mean share of the light that the dielectric's facets let through, by its brightest channel. From the side of the
 // larger index it is smaller by the square of the ratio: beyond the critical angle nothing goes through.
 float bsdf_facet_through(BsdfTerms terms) {
-    vec3 facet = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
-    float through = 1.0 - largest_component(facet);
+    float through = 1.0 - largest_component(bsdf_facet_mean(terms));
     return terms.eta > 1.0 ? through / (terms.eta * terms.eta) : through;
 }
 
@@ -127,9 +134,9 @@ void bsdf_set_glass(inout BsdfTerms terms, Surface s) {
     terms.glass_mean = mean;
     terms.glass_beyond = beyond;
     terms.glass_o = glass_albedo(terms.glass, terms.glass_side, max(terms.o.z, 0.0));
-    float share = (1.0 - terms.metallic) * terms.transmission;
+    float share = bsdf_volume_share(terms);
     float through = bsdf_facet_through(terms) * min(1.0, beyond / mean);
-    vec3 facet = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
+    vec3 facet = bsdf_facet_mean(terms);
     float most = largest_component(facet);
     // Inside, what is reflected is mostly reflected in full.
     vec3 tint = terms.eta < 1.0 && most > 0.0 ? facet / most : vec3(1.0);
@@ -143,12 +150,11 @@ void bsdf_set_energy(inout BsdfTerms terms) {
     terms.loss_o = albedo_loss(max(terms.o.z, 0.0), terms.alpha);
     terms.loss_mean = albedo_loss_mean(terms.alpha);
     vec3 metal = terms.base_color + (vec3(1.0) - terms.base_color) * ALBEDO_SCHLICK_MEAN;
-    vec3 dielectric = terms.f0 + (vec3(terms.f90) - terms.f0) * ALBEDO_SCHLICK_MEAN;
-    vec3 returned = terms.eta > 1.0 ? vec3(0.0) : albedo_returned(dielectric, terms.loss_mean);
+    vec3 returned = terms.eta > 1.0 ? vec3(0.0) : albedo_returned(bsdf_facet_mean(terms), terms.loss_mean);
     terms.returned_most = largest_component(returned);
     if (terms.eta != 1.0) returned *= 1.0 - terms.transmission;
     terms.returned = mix(returned, albedo_returned(metal, terms.loss_mean), terms.metallic);
-    float through = terms.eta == 1.0 ? (1.0 - terms.metallic) * terms.transmission : 0.0;
+    float through = terms.eta == 1.0 ? bsdf_volume_share(terms) : 0.0;
     terms.passed = terms.base_color * (through * (1.0 - terms.returned_most));
     terms.entering_o = bsdf_entering(terms, max(terms.o.z, 0.0), terms.loss_o);
     terms.entering_mean = bsdf_entering_mean(terms);
@@ -227,7 +233,7 @@ void bsdf_cosine_probability(BsdfTerms terms, out float family, out float throug
     float up = luminance(terms.returned) * terms.loss_o + luminance(terms.glass_returned) * terms.glass_o
              + luminance(terms.base_color) * (bsdf_diffuse_share(terms) * terms.entering_o);
     float total = up + down;
-    float volume = terms.glass_mean > 0.0 ? (1.0 - terms.metallic) * terms.transmission : 0.0;
+    float volume = terms.glass_mean > 0.0 ? bsdf_volume_share(terms) : 0.0;
     float facets = (1.0 - mix(terms.loss_o, terms.glass_o, volume))
                  * luminance(bsdf_reflected(terms, terms.o.z) + bsdf_transmitted(terms, terms.o.z));
     through = total > 0.0 ? down / total : 0.0;

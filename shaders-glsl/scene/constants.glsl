@@ -26,10 +26,15 @@
 
 // "This draw has no such attribute."
 #define ATTRIBUTE_NONE 0xFFFFFFFFu
+
 // Table of what rough glass loses (docs/shading.md, "Energy"): three blocks of rows, one for each roughness, of words:
 // one for each cosine, then their mean.
 #define GLASS_ROWS 16u
 #define GLASS_ROW_WORDS 17u
+// Indices closer to 1 than this do not bend: the half vector of refraction would be rounding noise.
+#define BSDF_STRAIGHT_INDEX 1.0e-3
+// Below this alpha, at most 0.002 of the light is lost under cosines above 0.1: it is left out.
+#define ALBEDO_LOSSLESS_ALPHA 0.01
 
 // "This draw emits nothing."
 #define EMISSIVE_NONE 0xFFFFFFFFu

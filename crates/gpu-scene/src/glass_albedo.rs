@@ -8,7 +8,9 @@ use std::{collections::HashMap, f64::consts::PI};
 
 use glam::{DVec3, Vec3};
 use rasray_scene::Scene;
-use rasray_shaders_glsl::constants::scene::{ATTRIBUTE_NONE, GLASS_ROW_WORDS, GLASS_ROWS};
+use rasray_shaders_glsl::constants::scene::{
+    ALBEDO_LOSSLESS_ALPHA, ATTRIBUTE_NONE, BSDF_STRAIGHT_INDEX, GLASS_ROW_WORDS, GLASS_ROWS,
+};
 
 use crate::{GpuSceneError, layout::Material};
 
@@ -16,9 +18,6 @@ const ROWS: usize = GLASS_ROWS as usize;
 const ROW_WORDS: usize = GLASS_ROW_WORDS as usize;
 /// The last word of a row is the mean.
 const COSINES: usize = ROW_WORDS - 1;
-/// As in `scene/bsdf_terms.glsl` and `scene/albedo.glsl`: where nothing bends, where nothing is lost.
-const STRAIGHT_INDEX: f32 = 1.0e-3;
-const LOSSLESS_ALPHA: f32 = 0.01;
 /// Points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours in the sequence.
 const POINTS: u32 = 2584;
 const STEP: u32 = 1597;
@@ -38,9 +37,9 @@ struct Glass {
 impl Glass {
     /// `None` where the material is never a rough volume that bends light.
     fn of(material: &rasray_scene::Material) -> Option<Self> {
-        let bends = material.ior > 1.0e-3 && (material.ior - 1.0).abs() >= STRAIGHT_INDEX;
+        let bends = material.ior > 1.0e-3 && (material.ior - 1.0).abs() >= BSDF_STRAIGHT_INDEX;
         let volume = material.transmission > 0.0 && material.thickness > 0.0 && !material.unlit;
-        let rough = material.roughness * material.roughness >= LOSSLESS_ALPHA;
+        let rough = material.roughness * material.roughness >= ALBEDO_LOSSLESS_ALPHA;
         let root = (material.ior - 1.0) / (material.ior + 1.0);
         let normal = (root * root * Vec3::from(material.specular_color)).min(Vec3::ONE) * material.specular;
         (bends && volume && rough).then(|| Self {

@@ -3,7 +3,7 @@
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
 //! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
 //! `#include` resolved from one root folder. Drivers optimise a module once more whatever it comes as: optimised here
-//! it takes eight times as long to compile, and drivers as long to make a pipeline of it.
+//! it takes seven times as long to compile, and drivers as long to make a pipeline of it.
 
 mod reduce;
 

@@ -4,6 +4,7 @@
 //! Drivers would drop it again, but a variable that is there counts as used where a device limits the buffers of a
 //! stage, and every byte lies in the program.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
 const HEADER_WORDS: usize = 5;
@@ -43,17 +44,17 @@ fn operation(instruction: &[u32]) -> u32 {
 }
 
 /// The module with those instructions alone that `keep` answers, as it answers them.
-fn filtered<'a>(words: &'a [u32], mut keep: impl FnMut(&'a [u32]) -> Option<Vec<u32>>) -> Vec<u32> {
+fn filtered<'a>(words: &'a [u32], keep: impl FnMut(&'a [u32]) -> Option<Cow<'a, [u32]>>) -> Vec<u32> {
     let mut kept = words[..HEADER_WORDS.min(words.len())].to_vec();
-    for instruction in instructions(words) {
-        kept.extend(keep(instruction).into_iter().flatten());
+    for instruction in instructions(words).filter_map(keep) {
+        kept.extend_from_slice(&instruction);
     }
     kept
 }
 
 /// A module without names, source text and lines, none of which changes what it does.
 pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
-    filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.to_vec()))
+    filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.into()))
 }
 
 /// A module without the functions that its entry points do not reach, and without the variables that only those name.
@@ -95,9 +96,9 @@ pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
         if unreached || dropped {
             None
         } else if operation == OP_ENTRY_POINT {
-            Some(entry_point(instruction, &gone))
+            Some(entry_point(instruction, &gone).into())
         } else {
-            Some(instruction.to_vec())
+            Some(instruction.into())
         }
     })
 }

@@ -20,6 +20,7 @@ const STRAIGHT_INDEX: f32 = 1.0e-3;
 const COSINE_BOUNDS: (f32, f32) = (0.05, 0.95);
 /// How often its share of the light that probability may be at its lower bound.
 const COSINE_FACTOR: f32 = 4.0;
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     Reflected,
@@ -179,7 +180,7 @@ impl Terms {
             returned *= 1.0 - self.transmission;
         }
         self.energy.returned = returned.lerp(albedo::returned(metal, loss_mean), self.metallic);
-        let through = if self.eta == 1.0 { (1.0 - self.metallic) * self.transmission } else { 0.0 };
+        let through = if self.eta == 1.0 { self.volume_share() } else { 0.0 };
         self.energy.passed = self.base_color * (through * (1.0 - self.energy.returned_most));
         self.energy.entering = self.entering(cosine, self.energy.loss);
         self.energy.entering_mean = self.entering_mean();
@@ -231,7 +232,7 @@ impl Terms {
 
     pub fn transmitted(&self, cosine: f32) -> Vec3 {
         let through = 1.0 - self.fresnel(cosine).max_element();
-        self.base_color * ((1.0 - self.metallic) * self.transmission * through)
+        self.base_color * (self.volume_share() * through)
     }
 
     fn diffuse_share(&self) -> f32 {
