@@ -12,9 +12,9 @@ use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 use crate::layout::{cell_count, draws, long_capacity};
 use crate::{Config, Header, March, Storage};
 
-/// Pipelines of the build.
+/// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
 #[derive(Debug)]
-pub(crate) struct Build {
+pub struct Build {
     near: ComputePipeline,
     pairs: Option<PairsPass>,
     bounds: Option<Visit>,

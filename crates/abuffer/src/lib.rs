@@ -18,6 +18,7 @@ mod layout;
 mod structure;
 mod validate;
 
+pub use build::Build;
 pub use choices::{Accept, Coverage, March, Payload, Storage, Views};
 pub use config::Config;
 pub use fault::Fault;

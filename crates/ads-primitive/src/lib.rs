@@ -24,6 +24,6 @@ pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use rasray_ads::{Addressing, Builder};
 pub use rules::{Accept, Coverage, Depths, March, Stop};
-pub use structure::PrimitiveLists;
+pub use structure::{Passes, PrimitiveLists};
 pub use validate::{Contents, Fault, well_formed};
 pub use views::Views;

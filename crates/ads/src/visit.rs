@@ -1,6 +1,6 @@
 //! Passes that visit the cells of every triangle, by drawing or by computing.
 
-use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
+use rasray_gpu::{Access, ComputePipeline, Feature, RasterPipeline, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 
 use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
@@ -24,6 +24,15 @@ impl Builder {
             Self::Raster => "raster",
             Self::Binning => "binning",
         }
+    }
+
+    /// What it needs of a device: the floor, and to draw also stores of fragment shaders.
+    pub fn requirements(self) -> Requirements {
+        let mut requirements = Requirements::floor();
+        if self == Self::Raster {
+            requirements.required.push(Feature::FragmentStoresAndAtomics);
+        }
+        requirements
     }
 }
 

@@ -20,5 +20,5 @@ pub use config::{Builder, Config};
 pub use header::{Header, Node, Record};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use rasray_ads::Addressing;
-pub use structure::Bvh;
+pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};

@@ -1,13 +1,13 @@
 //! The BVH as a structure.
 
+use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildStatus, BuildTarget, Check, Counters, Geometry, InlineTrace, Modules,
-    PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure, StructureKind, StructureReport,
-    TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint,
 };
-use rasray_gpu::{Device, Feature, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
-use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::host::{self, Box3};
@@ -18,18 +18,30 @@ use crate::{Builder, Config, Contents, Header, Node, Record};
 /// hundreds of thousands of boxes lie needs more.
 const FIRST_ROUNDS: u32 = 64;
 
-/// A bounding volume hierarchy with two children a node.
+/// A bounding volume hierarchy with two children a node, made from a [`Config`].
+pub type Bvh = Pooled<Tree>;
+
+/// Pipelines of the build: the design of [`Bvh`].
 #[derive(Debug)]
-pub struct Bvh {
-    config: Config,
-    geometry: Geometry,
+pub struct Tree {
     build: Build,
-    kernels: TraceKernels,
-    pools: Pools,
     /// What the host made for the next build.
     prepared: Option<Prepared>,
     /// Inner nodes of the last build recorded.
     nodes: u64,
+}
+
+/// What a tree takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Inner nodes.
+    pub nodes: u64,
+    /// Triangles in leaves.
+    pub records: u64,
+    /// Words that the build works in.
+    pub scratch: u64,
+    /// Triangles of the geometry.
+    pub triangles: u64,
 }
 
 /// Root and number of inner nodes of a tree in the pools.
@@ -39,150 +51,50 @@ struct Prepared {
     nodes: u64,
 }
 
-/// Its shaders.
-fn modules(config: &Config) -> Modules {
-    Modules { structure: NAME, prefix: NAME, addressing: config.addressing }
+/// The tree that the device builds over this many triangles.
+fn on_device(triangles: u64) -> Prepared {
+    let root = match triangles {
+        0 => BVH_NONE,
+        1 => BVH_LEAF,
+        _ => 0,
+    };
+    Prepared { root, nodes: triangles.saturating_sub(1) }
 }
 
-impl Bvh {
-    /// Makes pipelines and pools for the triangles of `geometry`. `scene` is needed for alpha masks and
-    /// surfaces.
-    ///
-    /// # Errors
-    /// An option is out of range or needs what the device does not provide; out of memory; a pool exceeds
-    /// what one binding can hold (then use device addresses).
-    pub fn new(
-        device: &Device,
-        config: Config,
-        geometry: &Geometry,
-        scene: Option<&SceneBinding>,
-    ) -> Result<Self, AdsError> {
-        let sizes = plan(&config, geometry.triangle_count().into())?;
-        config.addressing.check(device)?;
-        device.require("the hierarchy", &Self::requirements_of(&config))?;
-        let pools = Pools::new(device, NAME, config.addressing, &sizes)?;
-        let modules = modules(&config);
-        let build = Build::new(&BuildPipelines::new(device, modules, geometry, &pools, None, &[]), &config)?;
-        let kernels = TraceKernels::new(
-            device,
-            geometry,
-            &TraceKernelsDesc {
-                modules: modules.trace(scene)?,
-                structure_layout: pools.layout(),
-                constants: &[],
-                counters: config.counters,
-                work_budget: config.work_budget,
-                scene,
-            },
-        )?;
-        let geometry = geometry.clone();
-        Ok(Self { config, geometry, build, kernels, pools, prepared: None, nodes: 0 })
-    }
+/// Whether there is room for the tree. It has no partial form: without room for all of it nothing is built.
+fn has_room(parts: &Parts<Config>) -> bool {
+    let Parts { config, geometry, pools } = parts;
+    let sizes = pools.sizes();
+    plan(config, geometry.triangle_count().into())
+        .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
+}
 
-    /// Rounds that a ray needs if it meets every box of the tree.
-    fn most_rounds(&self) -> u32 {
-        // Each triangle is tested once, each node entered once, and after pauses each child left once.
-        let units = 4 * u64::from(self.geometry.triangle_count());
-        let budget = u64::from(self.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
-        (units / budget + 2).min(u32::MAX.into()) as u32
-    }
-
-    /// What a device must and may offer for a configuration.
-    pub fn requirements_of(config: &Config) -> Requirements {
-        // Nothing is rasterized: of the device floor, dynamic rendering is not needed.
-        let mut requirements = Requirements {
-            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
-            ..Requirements::default()
-        };
-        modules(config).add_to(&mut requirements);
-        requirements
-    }
-
-    /// The configuration it was made with.
-    pub fn config(&self) -> &Config {
-        &self.config
-    }
-
-    /// The header as the last build left it. The caller has waited for the submission.
-    ///
-    /// # Errors
-    /// Host-visible memory could not be read.
-    pub fn header(&self) -> Result<Header, GpuError> {
-        self.pools.header()
-    }
-
-    /// Downloads the tree, for checks. Submits and waits: for tests and tools.
-    ///
-    /// # Errors
-    /// The device failed.
-    pub fn download(&self, device: &Device) -> Result<Contents, GpuError> {
-        let header = device.download_as::<Header>(self.pools.pool("header"), 0, 1)?[0];
-        let triangles = header.triangle_count as usize;
-        Ok(Contents {
-            header,
-            nodes: device.download_as::<Node>(self.pools.pool("nodes"), 0, self.nodes as usize)?,
-            records: device.download_as::<Record>(self.pools.pool("records"), 0, triangles)?,
-        })
-    }
-
-    /// Writes the tree back, as [`Bvh::download`] returned it or changed. Submits and waits: for tests and
-    /// tools. Traces end within their bounds whatever nodes say; the header is taken at its word.
-    ///
-    /// # Errors
-    /// The tree is larger than what was allocated, or the device failed.
-    pub fn upload(&self, device: &Device, contents: &Contents) -> Result<(), GpuError> {
-        device.upload(self.pools.pool("header"), 0, bytemuck::bytes_of(&contents.header))?;
-        device.upload_slice(self.pools.pool("nodes"), 0, &contents.nodes)?;
-        device.upload_slice(self.pools.pool("records"), 0, &contents.records)
-    }
-
-    fn target(&self) -> BuildTarget<'_> {
-        BuildTarget { geometry: &self.geometry, pools: &self.pools, scene: None }
-    }
-
-    /// The tree that the device builds over this many triangles.
-    fn on_device(triangles: u64) -> Prepared {
-        let root = match triangles {
-            0 => BVH_NONE,
-            1 => BVH_LEAF,
-            _ => 0,
-        };
-        Prepared { root, nodes: triangles.saturating_sub(1) }
-    }
-
-    /// Whether there is room for the tree. It has no partial form: without room for all of it nothing is built.
-    fn has_room(&self) -> bool {
-        let sizes = self.pools.sizes();
-        plan(&self.config, self.geometry.triangle_count().into())
-            .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
-    }
-
-    /// The header that the next build starts from.
-    fn first_header(&self, root: u32) -> Header {
-        let [lower, upper] = self.geometry.bounds();
-        let triangles = self.geometry.triangle_count();
-        let has_room = self.has_room();
-        let capacity = |pool| if has_room { self.pools.sizes().elements(pool) as u32 } else { 0 };
-        // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
-        let (order_offset, order_stride) = match self.config.builder {
-            Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
-            Builder::Lbvh => (1, 2),
-        };
-        Header {
-            root,
-            triangle_count: triangles,
-            node_capacity: capacity("nodes"),
-            record_capacity: capacity("records"),
-            scratch_capacity: capacity("scratch"),
-            order_offset,
-            order_stride,
-            lower,
-            cells_per_metre: cells_per_metre([lower, upper]),
-            nodes_address: self.pools.address_of("nodes"),
-            records_address: self.pools.address_of("records"),
-            scratch_address: self.pools.address_of("scratch"),
-            ..Header::default()
-        }
+/// The header that the next build starts from.
+fn first_header(parts: &Parts<Config>, root: u32) -> Header {
+    let Parts { config, geometry, pools } = parts;
+    let [lower, upper] = geometry.bounds();
+    let triangles = geometry.triangle_count();
+    let has_room = has_room(parts);
+    let capacity = |pool| if has_room { parts.elements(pool) as u32 } else { 0 };
+    // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
+    let (order_offset, order_stride) = match config.builder {
+        Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
+        Builder::Lbvh => (1, 2),
+    };
+    Header {
+        root,
+        triangle_count: triangles,
+        node_capacity: capacity("nodes"),
+        record_capacity: capacity("records"),
+        scratch_capacity: capacity("scratch"),
+        order_offset,
+        order_stride,
+        lower,
+        cells_per_metre: cells_per_metre([lower, upper]),
+        nodes_address: pools.address_of("nodes"),
+        records_address: pools.address_of("records"),
+        scratch_address: pools.address_of("scratch"),
+        ..Header::default()
     }
 }
 
@@ -194,146 +106,178 @@ fn cells_per_metre([lower, upper]: Box3) -> [f32; 3] {
     [cells; 3]
 }
 
-impl Structure for Bvh {
-    fn name(&self) -> &'static str {
-        NAME
+impl rasray_ads::Demand for Demand {
+    fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
+        Self {
+            nodes: with("nodes", self.nodes, other.nodes),
+            records: with("records", self.records, other.records),
+            scratch: with("scratch", self.scratch, other.scratch),
+            triangles: self.triangles,
+        }
+    }
+}
+
+/// Rounds that a ray needs if it meets every box of the tree.
+fn most_rounds(parts: &Parts<Config>) -> u32 {
+    // Each triangle is tested once, each node entered once, and after pauses each child left once.
+    let units = 4 * u64::from(parts.geometry.triangle_count());
+    let budget = u64::from(parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+    (units / budget + 2).min(u32::MAX.into()) as u32
+}
+
+impl Design for Tree {
+    type Config = Config;
+    type Header = Header;
+    type Demand = Demand;
+    type Contents = Contents;
+
+    const NAME: &'static str = NAME;
+    const PREFIX: &'static str = NAME;
+    const TITLE: &'static str = "the hierarchy";
+    const BUILD_READS_SCENE: bool = false;
+
+    fn common(config: &Config) -> Common {
+        let Config { addressing, counters, work_budget, .. } = *config;
+        Common { addressing, counters, work_budget }
     }
 
-    fn kind(&self) -> StructureKind {
+    fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
     }
 
-    fn requirements(&self) -> Requirements {
-        Self::requirements_of(&self.config)
-    }
-
-    fn counters(&self) -> Counters {
-        self.kernels.counters()
-    }
-
-    fn sizes(&self) -> &Sizes {
-        self.pools.sizes()
-    }
-
-    fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        self.pools.resize(device, sizes)?;
-        self.prepared = None;
-        Ok(())
-    }
-
-    fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        let sizes = plan(&self.config, geometry.triangle_count().into())?;
-        if sizes != *self.pools.sizes() {
-            self.resize(device, &sizes)?;
+    fn requirements(_config: &Config) -> Requirements {
+        // Nothing is rasterized: of the device floor, dynamic rendering is not needed.
+        Requirements {
+            required: vec![Feature::ScalarBlockLayout, Feature::Synchronization2],
+            ..Requirements::default()
         }
-        self.geometry = geometry.clone();
-        self.prepared = None;
-        Ok(())
     }
 
-    fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {
-        if self.config.builder != Builder::Sah {
+    fn constants(_config: &Config) -> Vec<(u32, u32)> {
+        Vec::new()
+    }
+
+    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+        plan(config, geometry.triangle_count().into())
+    }
+
+    fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it needs.
+        plan(config, demand.triangles)
+    }
+
+    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+        let sizes = plan(&parts.config, geometry.triangle_count().into())?;
+        Ok((sizes != *parts.pools.sizes()).then_some(sizes))
+    }
+
+    fn make(
+        pipelines: &BuildPipelines<'_>,
+        config: &Config,
+        _scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        Ok(Self { build: Build::new(pipelines, config)?, prepared: None, nodes: 0 })
+    }
+
+    fn prepare(&mut self, parts: &mut Parts<Config>, device: &Device) -> Result<(), AdsError> {
+        if parts.config.builder != Builder::Sah {
             return Ok(());
         }
         self.prepared = None;
-        let triangles = self.geometry.triangle_count() as usize;
-        if !self.has_room() {
+        let triangles = parts.geometry.triangle_count() as usize;
+        if !has_room(parts) {
             // The build will say so.
-            self.prepared = Some(Self::on_device(triangles as u64));
+            self.prepared = Some(on_device(triangles as u64));
             return Ok(());
         }
-        self.pools.set_header(&self.first_header(BVH_NONE));
-        device.submit(|recorder| self.build.record_boxes(recorder, self.target()))?;
-        let boxes = device.download_as::<Box3>(self.pools.pool("scratch"), 0, triangles)?;
-        let tree = host::build(&boxes, self.config.leaf);
-        device.upload_slice(self.pools.pool("nodes"), 0, &tree.nodes)?;
+        parts.pools.set_header(&first_header(parts, BVH_NONE));
+        device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
+        let boxes = device.download_as::<Box3>(parts.pools.pool("scratch"), 0, triangles)?;
+        let tree = host::build(&boxes, parts.config.leaf);
+        device.upload_slice(parts.pools.pool("nodes"), 0, &tree.nodes)?;
         let order_at = size_of::<Box3>() * triangles;
-        device.upload_slice(self.pools.pool("scratch"), order_at as u64, &tree.order)?;
+        device.upload_slice(parts.pools.pool("scratch"), order_at as u64, &tree.order)?;
         self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64 });
         Ok(())
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
-        let prepared = match self.config.builder {
+    fn forget(&mut self) {
+        self.prepared = None;
+    }
+
+    fn first_header(&mut self, parts: &Parts<Config>, _viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        let prepared = match parts.config.builder {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
-            Builder::Lbvh => Self::on_device(self.geometry.triangle_count().into()),
+            Builder::Lbvh => on_device(parts.geometry.triangle_count().into()),
         };
         self.nodes = prepared.nodes;
-        self.pools.set_header(&self.first_header(prepared.root));
-        self.build.record(recorder, self.target());
-        Ok(())
+        Ok(first_header(parts, prepared.root))
     }
 
-    fn status(&self) -> Result<BuildStatus, GpuError> {
-        let header = self.header()?;
+    fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
+        self.build.record(recorder, parts.target(scene));
+    }
+
+    fn outcome(header: &Header) -> Outcome {
+        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
+    }
+
+    fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {
         // What the tree has, and of the rest what its triangles take.
-        let wanted = plan(&self.config, self.geometry.triangle_count().into()).unwrap_or_default();
-        let pools = wanted.pools.into_iter().filter(|pool| pool.name != "header").map(|pool| PoolStatus {
-            name: pool.name,
-            demand: if pool.name == "nodes" { self.nodes } else { pool.elements },
-            capacity: self.pools.sizes().elements(pool.name),
-        });
-        Ok(BuildStatus {
-            complete: header.status & STATUS_COMPLETE != 0,
-            pools: pools.collect(),
-            unsorted: 0,
-            outside: self.pools.outside()?,
-            corrupted: header.corrupted.into(),
-        })
+        let triangles = u64::from(parts.geometry.triangle_count());
+        let wanted = plan(&parts.config, triangles).unwrap_or_default();
+        Demand {
+            nodes: self.nodes,
+            records: wanted.elements("records"),
+            scratch: wanted.elements("scratch"),
+            triangles,
+        }
     }
 
-    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
-        // A tree grows only after a resize to other sizes than those of its triangles, which say all that it needs.
-        status.check(headroom, |_| plan(&self.config, self.geometry.triangle_count().into()))
+    fn room(parts: &Parts<Config>) -> Demand {
+        Demand {
+            nodes: parts.elements("nodes"),
+            records: parts.elements("records"),
+            scratch: parts.elements("scratch"),
+            triangles: parts.geometry.triangle_count().into(),
+        }
     }
 
-    fn rounds(&self) -> u32 {
-        let most = self.most_rounds();
-        self.pools.rounds(most.min(FIRST_ROUNDS))
+    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+        most_rounds(parts).min(FIRST_ROUNDS)
     }
 
-    fn allow_more_rounds(&self) -> bool {
-        let most = self.most_rounds();
-        self.pools.allow_more_rounds(most.min(FIRST_ROUNDS), most)
+    fn most_rounds(parts: &Parts<Config>) -> Option<u32> {
+        Some(most_rounds(parts))
     }
 
-    fn record_trace(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        count: u32,
-        mode: TraceMode,
-        rounds: u32,
-    ) {
-        self.pools.record_trace(recorder, &self.kernels, &self.geometry, queue, count, mode, rounds);
+    fn used(_parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+        (pool == "nodes").then_some(asked.nodes)
     }
 
-    fn record_surfaces(
-        &self,
-        recorder: &mut Recorder<'_>,
-        queue: &RayQueue,
-        count: u32,
-    ) -> Result<(), AdsError> {
-        self.pools.record_surfaces(recorder, &self.kernels, &self.geometry, queue, count)
-    }
-
-    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
-        Some(self.pools.inline_trace(Vec::new()))
-    }
-
-    fn report(&self) -> Result<StructureReport, GpuError> {
-        let triangles = u64::from(self.geometry.triangle_count());
-        let bytes_by_part =
-            self.pools.bytes_by_part(|pool| if pool.name == "nodes" { self.nodes } else { pool.elements });
-        Ok(StructureReport {
-            options: self.config.options(),
-            paths: self.config.paths(),
-            bytes_by_part,
-            formula_bytes: formula_bytes(self.config.builder, self.nodes, triangles).total(),
-            diagnostic_bytes: 0,
+    fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
+        let Demand { nodes, triangles, .. } = *asked;
+        StructureReport {
+            options: parts.config.options(),
+            paths: parts.config.paths(),
+            formula_bytes: formula_bytes(parts.config.builder, nodes, triangles).total(),
             stored: Some(triangles),
-            lost: None,
+            ..StructureReport::default()
+        }
+    }
+
+    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
+        let triangles = header.triangle_count as usize;
+        Ok(Contents {
+            header,
+            nodes: device.download_as::<Node>(parts.pools.pool("nodes"), 0, self.nodes as usize)?,
+            records: device.download_as::<Record>(parts.pools.pool("records"), 0, triangles)?,
         })
+    }
+
+    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+        let pools = vec![("nodes", cast_slice(&contents.nodes)), ("records", cast_slice(&contents.records))];
+        (contents.header, pools)
     }
 }

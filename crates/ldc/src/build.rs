@@ -15,9 +15,9 @@ use crate::{Config, Coverage, Depth, Header, Making, Payload};
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
 const DRAWS: u32 = 1;
 
-/// Pipelines of the build.
+/// Pipelines of the build: the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
 #[derive(Debug)]
-pub(crate) struct Build {
+pub struct Build {
     pairs: Option<PairsPass>,
     count: Visit,
     scan: Scan,

@@ -14,6 +14,7 @@ mod layout;
 mod structure;
 mod validate;
 
+pub use build::Build;
 pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};

@@ -1,6 +1,6 @@
 //! Every triangle for every ray: what hits are checked against, always present.
 
-use rasray_ads::BruteForce;
+use rasray_ads::{BruteForce, StructureKind};
 use rasray_gpu::Requirements;
 
 use crate::{Preset, System};
@@ -14,6 +14,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     options: &[],
     requirements: |_| Ok(Requirements::floor()),
+    kind: |_| Ok(StructureKind::Primitive),
     create: |spec, device, geometry, scene| {
         Ok(Box::new(BruteForce::new(device, geometry, scene, spec.counters())?))
     },

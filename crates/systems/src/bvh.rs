@@ -14,6 +14,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     options: &["builder", "leaf", "addressing"],
     requirements: |spec| Ok(Bvh::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(Bvh::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| Ok(Box::new(Bvh::new(device, config(spec)?, geometry, scene)?)),
 };
 

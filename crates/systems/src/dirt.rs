@@ -16,6 +16,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     options: &OPTIONS,
     requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
+    kind: |spec| Ok(PrimitiveLists::kind_of(&config(spec, 0)?)),
     create: |spec, device, geometry, scene| {
         let config = config(spec, geometry.triangle_count())?;
         Ok(Box::new(PrimitiveLists::new(device, config, geometry, scene)?))

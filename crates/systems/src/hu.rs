@@ -24,6 +24,13 @@ pub(crate) const SYSTEM: System = System {
             Voxels::requirements_of(&config(spec)?)
         })
     },
+    kind: |spec| {
+        Ok(if keeps_triangles(spec) {
+            PrimitiveLists::kind_of(&bricks(spec)?)
+        } else {
+            Voxels::kind_of(&config(spec)?)
+        })
+    },
     create: |spec, device, geometry, scene| {
         Ok(if keeps_triangles(spec) {
             Box::new(PrimitiveLists::new(device, bricks(spec)?, geometry, scene)?)

@@ -14,6 +14,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     options: &OPTIONS,
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(LayeredDepthCube::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
         Ok(Box::new(LayeredDepthCube::new(device, config(spec)?, geometry, scene)?))
     },

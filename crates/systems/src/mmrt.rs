@@ -14,6 +14,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: Some("cube+camera"),
     options: &OPTIONS,
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(ABuffer::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
         Ok(Box::new(ABuffer::new(device, config(spec)?, geometry, scene)?))
     },

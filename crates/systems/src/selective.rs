@@ -16,6 +16,7 @@ pub(crate) const SYSTEM: System = System {
     camera_views: None,
     options: &voxel::OPTIONS,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(Voxels::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
         Ok(Box::new(Voxels::new(device, config(spec)?, geometry, scene)?))
     },

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{Counters, Geometry, SceneBinding, Structure};
+use rasray_ads::{Counters, Geometry, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Requirements};
 
 use crate::{SystemsError, brute_force, bvh, dirt, hu, ldc, mmrt, selective};
@@ -45,6 +45,8 @@ pub struct System {
     pub(crate) structure: fn(&Spec) -> &'static str,
     /// What a device must and may offer for a spec; also where a spec's values are checked.
     pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
+    /// What the hits of a spec are.
+    pub(crate) kind: fn(&Spec) -> Result<StructureKind, SystemsError>,
     /// Makes the structure of a spec.
     pub(crate) create: Create,
 }
@@ -175,6 +177,14 @@ impl Spec {
     /// An option has an impossible value.
     pub fn requirements(&self) -> Result<Requirements, SystemsError> {
         (self.system.requirements)(self)
+    }
+
+    /// What the hits of its structure are, without a device.
+    ///
+    /// # Errors
+    /// An option has an impossible value.
+    pub fn kind(&self) -> Result<StructureKind, SystemsError> {
+        (self.system.kind)(self)
     }
 
     /// Makes the structure.

@@ -26,9 +26,9 @@ struct Sort {
     long: ComputePipeline,
 }
 
-/// Pipelines of the build.
+/// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
-pub(crate) struct Build {
+pub struct Build {
     pairs: Option<PairsPass>,
     voxels: Option<Visit>,
     axes: Option<ComputePipeline>,

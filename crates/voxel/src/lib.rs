@@ -16,6 +16,7 @@ mod layout;
 mod structure;
 mod validate;
 
+pub use build::Build;
 pub use config::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};

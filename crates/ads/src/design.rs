@@ -1,0 +1,212 @@
+//! What one structure says of itself: the part of it that no other has.
+
+use std::fmt;
+
+use bytemuck::Pod;
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+
+use crate::{
+    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Geometry, Pools, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint,
+};
+
+/// What every configuration says.
+#[derive(Clone, Copy, Debug)]
+pub struct Common {
+    /// How shaders reach the pools.
+    pub addressing: Addressing,
+    /// How much of their work rays record.
+    pub counters: Counters,
+    /// Work units per dispatch; the shared default where absent.
+    pub work_budget: Option<u32>,
+}
+
+/// What a build's last pass wrote into the header.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome {
+    /// Bits of the status.
+    pub status: u32,
+    /// Lists too long to be sorted.
+    pub unsorted: u32,
+    /// List entries that named nothing.
+    pub corrupted: u32,
+}
+
+/// Numbers of elements that only a build counts, and what else planning depends on.
+pub trait Demand: Copy {
+    /// Calls `with` for each counted number: its name in statuses, this number and that of `other`. The result has what
+    /// `with` returns in their place.
+    #[must_use]
+    fn zip(self, other: Self, with: impl FnMut(&'static str, u64, u64) -> u64) -> Self;
+}
+
+/// What a structure is made of and works on, but for its passes.
+#[derive(Debug)]
+pub struct Parts<C> {
+    /// The configuration.
+    pub config: C,
+    /// The triangles.
+    pub geometry: Geometry,
+    /// The pools.
+    pub pools: Pools,
+}
+
+impl<C> Parts<C> {
+    /// Elements allocated in a pool.
+    pub fn elements(&self, pool: &str) -> u64 {
+        self.pools.sizes().elements(pool)
+    }
+
+    /// What passes work on.
+    pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
+        BuildTarget { geometry: &self.geometry, pools: &self.pools, scene }
+    }
+}
+
+/// What one structure says of itself; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build, and what a
+/// build leaves on the host.
+pub trait Design: fmt::Debug + Sized {
+    /// Options.
+    type Config: fmt::Debug + Copy;
+    /// What shaders start from.
+    type Header: Pod;
+    /// What builds ask for.
+    type Demand: Demand;
+    /// Pools on the host, for checks.
+    type Contents;
+
+    /// [`Structure::name`](crate::Structure::name).
+    const NAME: &'static str;
+    /// Folder of its shaders.
+    const PREFIX: &'static str;
+    /// What errors call it: "the A-buffer".
+    const TITLE: &'static str;
+    /// Whether passes of the build read the scene.
+    const BUILD_READS_SCENE: bool;
+
+    /// What every configuration says.
+    fn common(config: &Self::Config) -> Common;
+
+    /// What its hits are.
+    fn kind(config: &Self::Config) -> StructureKind;
+
+    /// What it needs of a device beside what its modules do.
+    fn requirements(config: &Self::Config) -> Requirements;
+
+    /// Specialisation constants: id and bits.
+    fn constants(config: &Self::Config) -> Vec<(u32, u32)>;
+
+    /// Ending of the names of the modules that trace.
+    fn trace_variant(_config: &Self::Config) -> String {
+        String::new()
+    }
+
+    /// The sizes to begin with, before anything has been counted.
+    ///
+    /// # Errors
+    /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+    fn first_plan(config: &Self::Config, geometry: &Geometry) -> Result<Sizes, AdsError>;
+
+    /// The sizes that hold what a build may ask for.
+    ///
+    /// # Errors
+    /// As [`Design::first_plan`].
+    fn plan(config: &Self::Config, demand: &Self::Demand) -> Result<Sizes, AdsError>;
+
+    /// The sizes that other triangles need at once, where a build could not ask for them; `None` to leave all as it is.
+    ///
+    /// # Errors
+    /// As [`Design::first_plan`].
+    fn plan_for(_parts: &Parts<Self::Config>, _geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+        Ok(None)
+    }
+
+    /// Refuses sizes that no build would fill.
+    ///
+    /// # Errors
+    /// An option forbids them.
+    fn accepts(_config: &Self::Config, _sizes: &Sizes) -> Result<(), AdsError> {
+        Ok(())
+    }
+
+    /// Makes the pipelines of the build; `scene` is absent where [`Design::BUILD_READS_SCENE`] is false.
+    ///
+    /// # Errors
+    /// The configuration needs a scene and there is none, or the device refuses a pipeline.
+    fn make(
+        pipelines: &BuildPipelines<'_>,
+        config: &Self::Config,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError>;
+
+    /// [`Structure::prepare_build`](crate::Structure::prepare_build).
+    ///
+    /// # Errors
+    /// As there.
+    fn prepare(&mut self, _parts: &mut Parts<Self::Config>, _device: &Device) -> Result<(), AdsError> {
+        Ok(())
+    }
+
+    /// Drops what the host keeps of the last build: pools or triangles are others now.
+    fn forget(&mut self) {}
+
+    /// The header that the next build starts from.
+    ///
+    /// # Errors
+    /// The viewpoint lacks what the configuration needs, or the build was not prepared.
+    fn first_header(
+        &mut self,
+        parts: &Parts<Self::Config>,
+        viewpoint: Viewpoint,
+    ) -> Result<Self::Header, AdsError>;
+
+    /// Records all passes.
+    fn record_passes(
+        &self,
+        recorder: &mut Recorder<'_>,
+        parts: &Parts<Self::Config>,
+        scene: Option<&BindingSet>,
+    );
+
+    /// What the last build's status pass said.
+    fn outcome(header: &Self::Header) -> Outcome;
+
+    /// What the last build asked for.
+    fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
+
+    /// What there is room for.
+    fn room(parts: &Parts<Self::Config>) -> Self::Demand;
+
+    /// Whether the demand of that name depends a little on which threads meet.
+    fn varies(_config: &Self::Config, _name: &str) -> bool {
+        false
+    }
+
+    /// Rounds that nearly every ray is finished in; `header` is that of the last build, and zeros before the first.
+    fn first_rounds(parts: &Parts<Self::Config>, header: &Self::Header) -> u32;
+
+    /// Rounds that every ray is finished in; absent where that takes reading all that is stored.
+    fn most_rounds(_parts: &Parts<Self::Config>) -> Option<u32> {
+        None
+    }
+
+    /// Elements of a pool that hold something; absent where all do.
+    fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: &str) -> Option<u64>;
+
+    /// The report, but for [`StructureReport::bytes_by_part`].
+    fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
+
+    /// Pools as downloaded.
+    ///
+    /// # Errors
+    /// The device failed.
+    fn download(
+        &self,
+        parts: &Parts<Self::Config>,
+        device: &Device,
+        header: Self::Header,
+    ) -> Result<Self::Contents, GpuError>;
+
+    /// Header and other pools to write back: names and bytes.
+    fn pools_of(contents: &Self::Contents) -> (Self::Header, Vec<(&'static str, &[u8])>);
+}

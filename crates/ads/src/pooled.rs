@@ -1,0 +1,247 @@
+//! A structure of a header, pools and passes: what all of these do alike.
+
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+
+use crate::{
+    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Geometry, InlineTrace,
+    Modules, Outcome, Parts, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure,
+    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+};
+
+/// A structure of a header, pools and the passes of its design.
+#[derive(Debug)]
+pub struct Pooled<D: Design> {
+    design: D,
+    parts: Parts<D::Config>,
+    kernels: TraceKernels,
+    /// The scene's set, where passes of the build read it.
+    scene: Option<BindingSet>,
+}
+
+fn modules<D: Design>(config: &D::Config) -> Modules {
+    Modules { structure: D::NAME, prefix: D::PREFIX, addressing: D::common(config).addressing }
+}
+
+impl<D: Design> Pooled<D> {
+    /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads that keep
+    /// something of it.
+    ///
+    /// # Errors
+    /// An option is out of range or needs what the device or the caller does not provide; out of memory; a pool
+    /// exceeds what one binding can hold (then use device addresses).
+    pub fn new(
+        device: &Device,
+        config: D::Config,
+        geometry: &Geometry,
+        scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        let sizes = D::first_plan(&config, geometry)?;
+        let Common { addressing, counters, work_budget } = D::common(&config);
+        addressing.check(device)?;
+        device.require(D::TITLE, &Self::requirements_of(&config))?;
+        let pools = Pools::new(device, D::PREFIX, addressing, &sizes)?;
+        let modules = modules::<D>(&config);
+        let constants = D::constants(&config);
+        let build_scene = scene.filter(|_| D::BUILD_READS_SCENE);
+        let pipelines = BuildPipelines::new(device, modules, geometry, &pools, build_scene, &constants);
+        let design = D::make(&pipelines, &config, build_scene)?;
+        let kernels = TraceKernels::new(
+            device,
+            geometry,
+            &TraceKernelsDesc {
+                modules: modules.trace_variant(&D::trace_variant(&config), scene)?,
+                structure_layout: pools.layout(),
+                constants: &constants,
+                counters,
+                work_budget,
+                scene,
+            },
+        )?;
+        let scene = build_scene.map(|scene| scene.set.clone());
+        Ok(Self { design, parts: Parts { config, geometry: geometry.clone(), pools }, kernels, scene })
+    }
+
+    /// What a device must and may offer for a configuration.
+    pub fn requirements_of(config: &D::Config) -> Requirements {
+        let mut requirements = D::requirements(config);
+        modules::<D>(config).add_to(&mut requirements);
+        requirements
+    }
+
+    /// What the hits of a configuration are.
+    pub fn kind_of(config: &D::Config) -> StructureKind {
+        D::kind(config)
+    }
+
+    /// The configuration it was made with.
+    pub fn config(&self) -> &D::Config {
+        &self.parts.config
+    }
+
+    /// The header as the last build or trace left it. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// Host-visible memory could not be read.
+    pub fn header(&self) -> Result<D::Header, GpuError> {
+        self.parts.pools.header()
+    }
+
+    /// Downloads what rays read, for checks. Submits and waits: for tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download(&self, device: &Device) -> Result<D::Contents, GpuError> {
+        let header = device.download_as::<D::Header>(self.parts.pools.header_buffer(), 0, 1)?[0];
+        self.design.download(&self.parts, device, header)
+    }
+
+    /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests and tools.
+    /// Traces end within their bounds whatever the other pools say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// A pool is larger than what was allocated, or the device failed.
+    pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
+        let (header, pools) = D::pools_of(contents);
+        device.upload(self.parts.pools.header_buffer(), 0, bytemuck::bytes_of(&header))?;
+        pools.into_iter().try_for_each(|(name, bytes)| device.upload(self.parts.pools.pool(name), 0, bytes))
+    }
+
+    fn work_budget(&self) -> u32 {
+        D::common(&self.parts.config).work_budget.unwrap_or(TRACE_WORK_BUDGET)
+    }
+
+    fn first_rounds(&self) -> u32 {
+        // The header is in memory of the host, and zeros where that cannot be read.
+        let header = self.header().unwrap_or_else(|_| bytemuck::Zeroable::zeroed());
+        D::first_rounds(&self.parts, &header)
+    }
+}
+
+impl<D: Design> Structure for Pooled<D> {
+    fn name(&self) -> &'static str {
+        D::NAME
+    }
+
+    fn kind(&self) -> StructureKind {
+        D::kind(&self.parts.config)
+    }
+
+    fn requirements(&self) -> Requirements {
+        Self::requirements_of(&self.parts.config)
+    }
+
+    fn counters(&self) -> Counters {
+        self.kernels.counters()
+    }
+
+    fn sizes(&self) -> &Sizes {
+        self.parts.pools.sizes()
+    }
+
+    fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        D::accepts(&self.parts.config, sizes)?;
+        self.parts.pools.resize(device, sizes)?;
+        self.design.forget();
+        Ok(())
+    }
+
+    fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        if let Some(sizes) = D::plan_for(&self.parts, geometry)? {
+            self.resize(device, &sizes)?;
+        }
+        self.parts.geometry = geometry.clone();
+        self.design.forget();
+        Ok(())
+    }
+
+    fn prepare_build(&mut self, device: &Device) -> Result<(), AdsError> {
+        self.design.prepare(&mut self.parts, device)
+    }
+
+    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+        let header = self.design.first_header(&self.parts, viewpoint)?;
+        self.parts.pools.set_header(&header);
+        self.design.record_passes(recorder, &self.parts, self.scene.as_ref());
+        Ok(())
+    }
+
+    fn status(&self) -> Result<BuildStatus, GpuError> {
+        let header = self.header()?;
+        let Outcome { status, unsorted, corrupted } = D::outcome(&header);
+        let mut pools = Vec::new();
+        let _ =
+            self.design.asked(&self.parts, &header).zip(D::room(&self.parts), |name, demand, capacity| {
+                pools.push(PoolStatus { name, demand, capacity });
+                demand
+            });
+        Ok(BuildStatus {
+            complete: status & STATUS_COMPLETE != 0,
+            pools,
+            unsorted: unsorted.into(),
+            outside: self.parts.pools.outside()?,
+            corrupted: corrupted.into(),
+        })
+    }
+
+    fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
+        let config = &self.parts.config;
+        let room = D::room(&self.parts);
+        status.check(headroom, |growth| {
+            let wanted = room.zip(room, |name, room, _| {
+                let mut demand = status.demand(name).unwrap_or(0);
+                if demand > room && D::varies(config, name) {
+                    demand += demand / 64;
+                }
+                growth.of(demand, room)
+            });
+            D::plan(config, &wanted)
+        })
+    }
+
+    fn rounds(&self) -> u32 {
+        self.parts.pools.rounds(self.first_rounds())
+    }
+
+    fn allow_more_rounds(&self) -> bool {
+        let (pools, first) = (&self.parts.pools, self.first_rounds());
+        match D::most_rounds(&self.parts) {
+            Some(most) => pools.allow_more_rounds(first, most),
+            None => pools.allow_rounds_to_read_all(first, self.work_budget()),
+        }
+    }
+
+    fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        let Parts { pools, geometry, .. } = &self.parts;
+        pools.record_trace(recorder, &self.kernels, geometry, queue, count, mode, rounds);
+    }
+
+    fn record_surfaces(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        count: u32,
+    ) -> Result<(), AdsError> {
+        let Parts { pools, geometry, .. } = &self.parts;
+        pools.record_surfaces(recorder, &self.kernels, geometry, queue, count)
+    }
+
+    fn inline_trace(&self) -> Option<InlineTrace<'_>> {
+        Some(self.parts.pools.inline_trace(D::constants(&self.parts.config)))
+    }
+
+    fn report(&self) -> Result<StructureReport, GpuError> {
+        let header = self.header()?;
+        let asked = self.design.asked(&self.parts, &header);
+        let used = |pool: &PoolSize| D::used(&self.parts, &asked, pool.name).unwrap_or(pool.elements);
+        let bytes_by_part = self.parts.pools.bytes_by_part(used);
+        Ok(StructureReport { bytes_by_part, ..D::report(&self.parts, &header, &asked) })
+    }
+}
