@@ -37,7 +37,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferWalk w
     float t_high = anywhere ? ABUFFER_INFINITY : walk.segment.t_end + walk.segment.t_error;
     vec2 depths = search.z + vec2(-search.rounding, search.rounding);
     while (in_fringe ? search.link != 0u : walk.place < count) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             return true;
         }
         work++;

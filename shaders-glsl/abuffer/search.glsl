@@ -100,7 +100,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             abuffer_seek(s, list, low, high, cursor, state, work);
         }
         while (cursor.link != 0u) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 search.bucket = step_index;
                 search.link = cursor.link;
                 search.in_bucket = true;

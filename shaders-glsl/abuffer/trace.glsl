@@ -64,7 +64,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
         bool more = true;
         while (more) {
             abuffer_find_exit(walk);
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 paused = true;
                 break;
             }

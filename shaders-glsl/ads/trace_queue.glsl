@@ -13,6 +13,7 @@
 layout(push_constant, scalar) uniform TraceConstants {
     StructureRef trace_structure;
     uint trace_count;
+    uint trace_budget;
 };
 
 // Adds to the 64-bit sums of the header.
@@ -45,6 +46,7 @@ void queue_file_work(uint slot, TraceState state) {
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
     slot = invocation;
+    work_budget = trace_budget;
     if (invocation >= (queue_header.round == 0u ? trace_count : queue_header.listed)) {
         return false;
     }

@@ -13,7 +13,7 @@
 uint brute_trace(Ray ray, inout TraceState state, bool any_hit) {
     uint count = geometry_triangle_count();
     uint begin = state.cursor[0];
-    uint end = min(count, begin + WORK_BUDGET);
+    uint end = min(count, begin + work_budget);
     for (uint primitive = begin; primitive < end; primitive++) {
         if (test_triangle(ray, primitive, -BRUTE_INFINITY, BRUTE_INFINITY, state.best) && any_hit) {
             end = primitive + 1u;

@@ -52,7 +52,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool paused = false;
     // Every turn enters a node or a leaf, leaves one, or takes one from the stack.
     while (true) {
-        if (nodes + tests >= WORK_BUDGET) {
+        if (nodes + tests >= work_budget) {
             paused = true;
             break;
         }

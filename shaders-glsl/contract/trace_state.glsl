@@ -7,7 +7,9 @@
 
 // Constant ids 0 to 9 belong to the contract.
 layout(constant_id = 0) const uint COUNTERS = COUNTERS_OFF;
-layout(constant_id = 1) const uint WORK_BUDGET = TRACE_WORK_BUDGET;
+
+// Units of work after which a ray pauses. Data and no constant: one kernel serves every budget.
+uint work_budget = TRACE_WORK_BUDGET;
 
 // The state of a ray that has not been traced yet.
 TraceState trace_state_begin(Ray ray) {

@@ -163,7 +163,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     while (search.place != 0u) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             return true;
         }
         work++;
@@ -200,7 +200,7 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
             }
         }
         while (search.place < list.y) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;

@@ -87,7 +87,7 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
     inout TraceState state, inout uint work) {
     while (more) {
         while (more && !walk.in_upper) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             uint found = ldc_look(s, walk, 1u, 0u, walk.upper, walk.blocks, state, work);
@@ -95,7 +95,7 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
             more = walk.in_upper || (found == LDC_PASSED_OVER && ldc_march_next(walk.flat_ray, walk.upper));
         }
         while (more && walk.in_upper && !walk.in_block) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             uint found = ldc_look(s, walk, 0u, 2u, walk.blocks, walk.cells, state, work);
@@ -103,7 +103,7 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
             more = walk.in_block || (found == LDC_PASSED_OVER && ldc_next_block(walk));
         }
         while (more && walk.in_block) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;

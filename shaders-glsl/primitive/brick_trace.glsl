@@ -90,7 +90,7 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
         // A list that was being read when the ray paused goes on without a unit for its cell.
         bool enters = entry == BRICK_LIST_BEGIN;
         if (enters) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 paused = true;
                 break;
             }
@@ -111,7 +111,7 @@ bool brick_trace_cells(PrimitiveRef s, Ray ray, vec3 origin, float t, float t_la
                 trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
             }
             for (; entry < entries.y; entry++) {
-                if (work >= WORK_BUDGET) {
+                if (work >= work_budget) {
                     paused = true;
                     break;
                 }

@@ -12,7 +12,7 @@ bool primitive_test_listed(PrimitiveRef s, Ray ray, bool all_triangles, bool any
     uint count = all_triangles ? geometry_triangle_count()
         : min(PRIMITIVE_HEADER(s).near_demand, PRIMITIVE_HEADER(s).near_capacity);
     for (; place < count; place++) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             return true;
         }
         work++;

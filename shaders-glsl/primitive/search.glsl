@@ -71,7 +71,7 @@ bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, 
             return false;
         }
         if (!search.in_list) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;
@@ -81,7 +81,7 @@ bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, 
             trace_log(STEP_LIST, search.bucket, search.list.at, 0u, depths.x, depths.y);
         }
         while (!primitive_list_ended(search.list)) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;

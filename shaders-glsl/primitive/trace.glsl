@@ -24,7 +24,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
                 ended = true;
                 return false;
             }
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;

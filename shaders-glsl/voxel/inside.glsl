@@ -103,7 +103,7 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk
     float held_z = walk.held == VOXEL_NO_PLACE ? 0.0 : voxel_z(s, walk.held);
     walk.in_list = false;
     while (cursor.link != 0u) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             walk.link = cursor.link;
             walk.in_list = true;
             return true;

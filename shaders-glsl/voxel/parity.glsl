@@ -170,7 +170,7 @@ bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelWalk walk
     }
     bool more = true;
     while (more) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             return true;
         }
         VoxelPoint point = voxel_stage_point(s, walk, stretch, span);

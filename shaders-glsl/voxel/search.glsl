@@ -65,7 +65,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     }
     walk.in_list = false;
     while (cursor.link != 0u) {
-        if (work >= WORK_BUDGET) {
+        if (work >= work_budget) {
             walk.link = cursor.link;
             walk.in_list = true;
             return true;
@@ -120,7 +120,7 @@ bool voxel_search(VoxelRef s, Ray ray, vec2 stretch, bool any_hit, inout VoxelWa
             break;
         }
         if (!walk.in_list) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 return true;
             }
             work++;

@@ -33,7 +33,7 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
         }
         uint bits = voxel_bits(s, voxel_index(s, walk.voxel));
         if (!entered) {
-            if (work >= WORK_BUDGET) {
+            if (work >= work_budget) {
                 voxel_save(walk, state);
                 return TRACE_PAUSED;
             }

@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
 use rasray_shaders_glsl::Shader;
-use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
+use rasray_shaders_glsl::constants::contract::{QUEUE_GROUP_SIZE, TRACE_WORK_BUDGET};
 
 use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
@@ -60,6 +60,7 @@ pub struct TraceKernels {
     next_round: ComputePipeline,
     scene: Option<BindingSet>,
     counters: Counters,
+    work_budget: u32,
 }
 
 #[derive(Debug)]
@@ -68,12 +69,13 @@ struct Kernel {
     pipeline: ComputePipeline,
 }
 
-/// Address of the structure (zero with descriptors) and number of slots.
+/// Address of the structure (zero with descriptors), number of slots, and work units a dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct TraceConstants {
     structure: [u32; 2],
     count: u32,
+    work_budget: u32,
 }
 
 impl TraceKernels {
@@ -88,7 +90,6 @@ impl TraceKernels {
             sets.push(&scene.layout);
         }
         let mut constants = vec![(0, desc.counters.constant())];
-        constants.extend(desc.work_budget.map(|budget| (1, budget)));
         constants.extend_from_slice(desc.constants);
         constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
@@ -115,12 +116,18 @@ impl TraceKernels {
             next_round,
             scene: desc.scene.map(|scene| scene.set.clone()),
             counters: desc.counters,
+            work_budget: desc.work_budget.unwrap_or(TRACE_WORK_BUDGET),
         })
     }
 
     /// How much of their work rays record.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    fn constants(&self, address: u64, count: u32) -> TraceConstants {
+        let structure = [address as u32, (address >> 32) as u32];
+        TraceConstants { structure, count, work_budget: self.work_budget }
     }
 
     fn bind(
@@ -165,7 +172,7 @@ impl TraceKernels {
             TraceMode::Closest => &self.closest,
             TraceMode::Occluded => &self.occluded,
         };
-        let constants = TraceConstants { structure: [address as u32, (address >> 32) as u32], count };
+        let constants = self.constants(address, count);
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
         recorder.begin_pass(kernel.label);
@@ -210,7 +217,7 @@ impl TraceKernels {
         if refuses(recorder, queue, count) {
             return true;
         }
-        let constants = TraceConstants { structure: [address as u32, (address >> 32) as u32], count };
+        let constants = self.constants(address, count);
         recorder.begin_pass(kernel.label);
         self.bind(recorder, kernel, geometry, structure, queue, constants);
         recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
