@@ -4,7 +4,6 @@
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"
-#include "integrators/shading_constants.glsl"
 #include "ads/queue.glsl"
 #include "integrators/storage.glsl"
 #include "integrators/path.glsl"

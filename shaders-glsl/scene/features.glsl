@@ -1,6 +1,5 @@
-// What: the parts of shading a module contains. An entry may set each macro, before it includes anything, to a
-// constant or to the name of a specialisation constant. Unset, textures are specialisation constants 90 and 94, which
-// every pipeline that reads a scene is made with, and the others mean everything.
+// What: the parts of shading a module contains: specialisation constants, set from what a scene needs. An entry may set
+// each macro to something else before it includes anything. Constant ids 90 to 99 belong to scene and integrators.
 // Reads: nothing. Writes: nothing. Source: docs/shading.md, "Functions".
 #ifndef SCENE_FEATURES_GLSL
 #define SCENE_FEATURES_GLSL
@@ -10,18 +9,20 @@
 layout(constant_id = 90) const bool SCENE_HAS_TEXTURES = true;
 #define SHADING_TEXTURES SCENE_HAS_TEXTURES
 #endif
+// Any material transmits.
+#ifndef SHADING_TRANSMISSION
+layout(constant_id = 91) const bool SCENE_HAS_TRANSMISSION = true;
+#define SHADING_TRANSMISSION SCENE_HAS_TRANSMISSION
+#endif
+// Any material blends.
+#ifndef SHADING_BLEND
+layout(constant_id = 92) const bool SCENE_HAS_BLEND = true;
+#define SHADING_BLEND SCENE_HAS_BLEND
+#endif
 // Texels lie in several buffers.
 #ifndef SHADING_TEXEL_RUNS
 layout(constant_id = 94) const bool SCENE_HAS_TEXEL_RUNS = true;
 #define SHADING_TEXEL_RUNS SCENE_HAS_TEXEL_RUNS
-#endif
-// Any material transmits.
-#ifndef SHADING_TRANSMISSION
-#define SHADING_TRANSMISSION true
-#endif
-// Any material blends.
-#ifndef SHADING_BLEND
-#define SHADING_BLEND true
 #endif
 
 #endif

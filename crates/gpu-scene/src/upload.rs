@@ -30,8 +30,8 @@ impl ShadingFeatures {
     /// Everything: proves that leaving code out does not change a picture.
     pub const ALL: Self = Self { textures: true, transmission: true, blend: true, texel_runs: true };
 
-    /// Specialisation constants of modules that read the scene (`scene/features.glsl` and
-    /// `integrators/shading_constants.glsl`): id and bits. A module without one of them ignores it.
+    /// Specialisation constants of modules that read the scene (`scene/features.glsl`): id and bits. A module without
+    /// one of them ignores it.
     pub fn constants(self) -> [(u32, u32); 4] {
         [
             (90, self.textures.into()),
