@@ -5,10 +5,10 @@ use crate::terminal::in_line;
 use rasray_report::{Accuracy, Report, Run};
 
 /// The system whose rate others are put in relation to, where a report has it.
-const YARDSTICK: (&str, &str) = ("bvh", "robust");
+const BASELINE: (&str, &str) = ("bvh", "robust");
 
 /// That of several of them which it is.
-const YARDSTICK_VARIANT: &str = "builder=sah";
+const BASELINE_VARIANT: &str = "builder=sah";
 
 /// Heads of the columns; those after the second are aligned to the right.
 const HEADS: [&str; 15] = [
@@ -101,21 +101,21 @@ fn cells(report: &Report, run: &Run) -> Vec<String> {
     ]
 }
 
-/// Rays per second over those of the yardstick on the same rays; absent where the yardstick was not traced, or
+/// Rays per second over those of the baseline on the same rays; absent where the baseline was not traced, or
 /// stands there more than once and not once with its own builder.
 fn relation(report: &Report, run: &Run) -> Option<f64> {
-    let mut yardsticks: Vec<&Run> = report
+    let mut baselines: Vec<&Run> = report
         .runs
         .iter()
         .filter(|other| {
-            (other.system.as_str(), other.preset.as_str()) == YARDSTICK && other.ray_set == run.ray_set
+            (other.system.as_str(), other.preset.as_str()) == BASELINE && other.ray_set == run.ray_set
         })
         .collect();
-    if yardsticks.len() > 1 {
-        yardsticks.retain(|other| other.variant.as_deref() == Some(YARDSTICK_VARIANT));
+    if baselines.len() > 1 {
+        baselines.retain(|other| other.variant.as_deref() == Some(BASELINE_VARIANT));
     }
-    let [yardstick] = yardsticks[..] else { return None };
-    Some(run.times.mrays_per_s? / yardstick.times.mrays_per_s?)
+    let [baseline] = baselines[..] else { return None };
+    Some(run.times.mrays_per_s? / baseline.times.mrays_per_s?)
 }
 
 #[cfg(test)]
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn variants_are_told_apart_and_have_no_one_yardstick() {
+    fn variants_are_told_apart_and_have_no_one_baseline() {
         let text = markdown(&report(vec![run("bvh", "sb", 1.5), run("bvh", "ll", 3.0)]));
         let rows = lines(&text);
         assert_eq!((rows[2][0], rows[3][0]), ("bvh robust storage=sb", "bvh robust storage=ll"));
@@ -177,6 +177,6 @@ mod tests {
             |builder: &str, rate| Run { variant: Some(format!("builder={builder}")), ..run("bvh", "", rate) };
         let text = markdown(&report(vec![built("lbvh", 1.5), built("sah", 3.0)]));
         let rows = lines(&text);
-        assert_eq!((rows[2][x], rows[3][x]), ("0.50", "1.00"), "the tree by surface area is the yardstick");
+        assert_eq!((rows[2][x], rows[3][x]), ("0.50", "1.00"), "the tree by surface area is the baseline");
     }
 }
