@@ -13,11 +13,6 @@ pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
 
-/// Budgets under which rays pause, one that cuts everything and more in the full tier: each is a kernel of its own.
-pub fn work_budgets() -> &'static [u32] {
-    if is_full() { &[1, 3, 40] } else { &[3] }
-}
-
 /// How often something is done, by tier and kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<T> {

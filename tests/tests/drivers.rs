@@ -30,7 +30,7 @@ fn hits_are_the_same_on_every_driver() {
     let rays: Vec<Ray> = (0..RAYS)
         .map(|_| Ray::new([0; 3].map(|_: u8| random.between(-1.9, 1.9)), random.direction()))
         .collect();
-    let subjects = Subject::all(&bench);
+    let subjects = Subject::all();
     let robust = subjects.iter().filter(|subject| subject.spec.preset() == Preset::Robust);
     let mut expected: Option<Vec<[u32; 4]>> = None;
     let brute_force_first = |subject: &&Subject| subject.spec.system().name != "brute-force";

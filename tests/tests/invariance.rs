@@ -22,8 +22,7 @@ fn option_rays(kind: StructureKind) -> usize {
 
 #[test]
 fn every_option_of_every_system_has_a_law_and_a_value() {
-    let bench = Bench::new();
-    let subjects = Subject::all(&bench);
+    let subjects = Subject::all();
     for subject in &subjects {
         for option in subject.spec.system().options {
             let law = law(option).unwrap_or_else(|| panic!("the law of --{option} is not in LAWS"));
@@ -61,11 +60,10 @@ fn every_option_of_every_system_has_a_law_and_a_value() {
 fn one_option_at_a_time_changes_no_hit() {
     let bench = Bench::new();
     let triangles = scene(true);
-    let every_triangle =
-        Subject::all(&bench).into_iter().find(|subject| subject.name() == "brute-force robust");
+    let every_triangle = Subject::all().into_iter().find(|subject| subject.name() == "brute-force robust");
     let every_triangle = every_triangle.expect("the registry has brute force");
     let every_hit = every_triangle.answers(&bench, EYE, &triangles, &rays(option_rays(every_triangle.kind)));
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let rays = rays(option_rays(subject.kind));
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
         if subject.kind == StructureKind::Primitive {
@@ -104,7 +102,7 @@ const REFUSED: &[(&str, usize)] =
 fn options_in_pairs_change_no_hit() {
     let bench = Bench::new();
     let triangles = scene(true);
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let rays = rays(option_rays(subject.kind));
         let options = speed_options(&subject);
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
@@ -161,7 +159,7 @@ fn options_in_pairs_change_no_hit() {
 fn options_that_may_change_hits_are_noticed() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(true), rays(ray_count()));
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         if subject.kind == StructureKind::Primitive {
             continue;
         }
@@ -171,7 +169,7 @@ fn options_that_may_change_hits_are_noticed() {
         assert!(first_difference(&expected, &found).is_some(), "{}", subject.name());
     }
     // A single bit of a single ray.
-    let subjects = Subject::all(&bench);
+    let subjects = Subject::all();
     let mut answers = subjects[0].answers(&bench, EYE, &triangles, &rays);
     let expected = answers.clone();
     answers.closest[17][0] ^= 1;
@@ -184,7 +182,7 @@ fn options_that_may_change_hits_are_noticed() {
 fn builds_and_traces_repeat() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(true), rays(ray_count()));
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
         for _ in 0..if is_full() { 20 } else { 2 } {
             let found = subject.answers(&bench, EYE, &triangles, &rays);
@@ -204,7 +202,7 @@ fn the_order_of_triangles_changes_no_hit() {
         order.swap(last, (random.bits() % (last as u64 + 1)) as usize);
     }
     let shuffled: Vec<Triangle> = order.iter().map(|&index| triangles[index]).collect();
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let expected = subject.answers(&bench, EYE, &triangles, &rays);
         let mut found = subject.answers(&bench, EYE, &shuffled, &rays);
         for answer in &mut found.closest {
@@ -226,7 +224,7 @@ fn answers_are_printed_for_another_process() {
     }
     let bench = Bench::new();
     let (triangles, rays) = (scene(true), rays(ray_count()));
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         println!("ANSWERS {} {:?}", subject.name(), subject.answers(&bench, EYE, &triangles, &rays));
     }
 }
@@ -247,7 +245,7 @@ fn the_number_of_driver_threads_changes_no_hit() {
         text.lines().filter_map(|line| line.split_once("ANSWERS ")).map(|(_, rest)| rest.to_owned()).collect()
     };
     let one = answers("1");
-    let subjects = Subject::all(&Bench::new()).len();
+    let subjects = Subject::all().len();
     assert!(one.len() == subjects && subjects > SYSTEMS.iter().map(|system| system.presets.len()).sum());
     assert!(one.iter().all(|line| line.contains("closest: [[")), "{one:?}");
     for threads in if is_full() { &["2", "1", "2"][..] } else { &["2"] } {

@@ -43,7 +43,7 @@ fn structures_that_were_never_built_say_so() {
     let rays = [Ray::new([0.0; 3], [0.1, 0.2, 1.0]); 5];
     let tracer = BatchTracer::new(device, 8).expect("a queue fits");
     let mut refused = 0;
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         if subject.spec.system().name == "brute-force" {
             // It builds nothing, so it is always ready.
             continue;
@@ -97,7 +97,7 @@ fn slots_beyond_the_queue_are_refused() {
     let device = bench.device();
     let geometry = bench.geometry(&closed_box([-1.0; 3], [1.0; 3]));
     let queue = RayQueue::new(device, "rays", 8, false).expect("it fits");
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let structure = subject.spec.create(device, &geometry, None).expect("it can be made");
         let submitted = device
             .submit(|recorder| structure.record_trace(recorder, &queue, 9, TraceMode::Closest, 1))
@@ -163,7 +163,7 @@ fn triangles_outside_of_the_stated_bounds_are_counted_and_no_build_is_complete()
     let reaching = triangles.iter().filter(|triangle| triangle.iter().any(|corner| corner[2] > 0.5)).count();
     let rays = [Ray::new([0.0; 3], [0.1, 0.2, 1.0]); 5];
     let tracer = BatchTracer::new(device, 8).expect("a queue fits");
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         if subject.spec.system().name == "brute-force" {
             // It asks for no bounds, and takes a vertex that there is not for the origin.
             continue;
@@ -201,7 +201,7 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         .collect();
     let count = rays.len() as u32;
     let mut differing = 0;
-    for subject in Subject::all(&bench) {
+    for subject in Subject::all() {
         let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");
         let expected = eyes.map(|eye| bench.build_and_trace(structure.as_mut(), eye, &rays));
         // Both eyes need room in the same pools, which the builds above have made.
@@ -241,7 +241,7 @@ fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
     let geometry = bench.geometry(&closed_box([-1.0; 3], [1.0; 3]));
     let rays = [Ray::new([0.0; 3], [0.1, 0.2, 1.0]); 8];
     let (raw, queue) = (device.raw(), device.raw_queue());
-    let subjects = Subject::all(&bench);
+    let subjects = Subject::all();
     let by_address = subjects.iter().filter_map(|subject| subject.with(&[("addressing", "address")]));
     for subject in subjects.iter().cloned().chain(by_address) {
         let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");

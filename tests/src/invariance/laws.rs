@@ -76,7 +76,7 @@ pub const LAWS: &[Law] = &[
     may_change("coverage", &["exact", "hardware", "conservative", "edge-on"]),
     may_change("depth", &["16", "32"]),
     may_change("depths", &["clipped", "corners"]),
-    // What a hit names; `published_payload` holds that it changes nothing else.
+    // What a hit names; `payloads::published` holds that it changes nothing else.
     may_change("ids", &["on", "off"]),
     may_change("march", &["samples", "dda", "exact", "pyramid", "jump"]),
     same_for_primitives("payload", &["index", "plane"]),

@@ -68,9 +68,8 @@ impl Subject {
     /// more of them.
     ///
     /// # Panics
-    /// If the device fails or a preset cannot be made.
-    pub fn all(bench: &Bench) -> Vec<Self> {
-        let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
+    /// If a preset is none.
+    pub fn all() -> Vec<Self> {
         let presets =
             SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, preset)));
         let presets = presets.map(|(system, preset)| {
@@ -85,7 +84,7 @@ impl Subject {
             .map(|(system, preset, given)| {
                 let options = given.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
                 let spec = Spec::new(system, preset, options).expect("the options are the system's");
-                let kind = spec.create(bench.device(), &placeholder, None).expect("it can be made").kind();
+                let kind = spec.kind().expect("the options are valid");
                 Self { spec, kind }
             })
             .collect()

@@ -79,7 +79,9 @@ pub fn write(bench: &Bench, runs: Vec<Run>) {
     let origin = Origin {
         version: env!("CARGO_PKG_VERSION").to_owned(),
         commit: commit(),
-        command: Some(format!("RASRAY_FULL=1 {FILE}=FILE cargo test -p rasray-tests --test conformance")),
+        command: Some(format!(
+            "RASRAY_FULL=1 {FILE}=FILE cargo test -p rasray-tests --test conformance -- rows::"
+        )),
     };
     let report = Report::new(origin, device, scene, runs);
     std::fs::write(&file, report.to_json())

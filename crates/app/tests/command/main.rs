@@ -1,0 +1,21 @@
+//! The command as a user starts it: what it takes, writes, says and survives.
+
+mod compare;
+mod faults_driver;
+mod faults_output;
+mod hard;
+mod html_browser;
+mod html_fixture;
+mod html_page;
+mod output;
+mod replay;
+mod results;
+mod scripted;
+mod signals;
+mod usage;
+
+/// Becomes the command where a test starts this program as one.
+#[test]
+fn as_command() {
+    scripted::become_the_command();
+}

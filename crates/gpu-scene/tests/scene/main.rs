@@ -1,0 +1,5 @@
+//! What is uploaded of a scene.
+
+mod tables;
+mod texels;
+mod upload;

@@ -1,0 +1,8 @@
+//! A device: what it is chosen for, what it computes and draws, what it refuses.
+
+mod common;
+mod compute;
+mod embedding;
+mod errors;
+mod raster;
+mod selection;

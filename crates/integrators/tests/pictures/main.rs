@@ -1,0 +1,9 @@
+//! Integrators on a device against the naive reference.
+
+mod common;
+mod corpus;
+mod images;
+mod layouts;
+mod needs;
+mod reference;
+mod texel_runs;

@@ -1,0 +1,5 @@
+//! The reference on its own and beside the device.
+
+mod device_scattering;
+mod glass_tables;
+mod oracle_replay;

@@ -1,0 +1,10 @@
+//! A-buffers: lists, layers, planes, views, both builders, pools of every edge capacity, options that change no hit.
+
+mod builders;
+mod capacity;
+mod invariance;
+mod layers;
+mod lists;
+mod lost;
+mod planes;
+mod views;

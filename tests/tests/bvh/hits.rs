@@ -1,0 +1,192 @@
+//! Hits of the BVH are those of brute force, bit for bit, whatever its options and however often rays pause.
+
+use rasray_ads::{BruteForce, Counters, Geometry, Hit, Ray, Structure, TraceMode};
+use rasray_bvh::{Addressing, Builder, Bvh, Config};
+use rasray_gpu::Timing;
+use rasray_hard_cases as hard_cases;
+use rasray_hard_cases::Scale;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::{BatchTracer, build_until_complete};
+
+const RAYS: usize = 3000;
+
+/// Scattered layers, a sphere, a room, and triangles that coincide.
+fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    triangles.extend(triangles.clone().into_iter().step_by(3));
+    triangles
+}
+
+/// Rays of all kinds: along axes and face diagonals, from corners of triangles, at corners and edges, with
+/// ranges and with an excluded triangle.
+fn rays(triangles: &[Triangle]) -> Vec<Ray> {
+    let mut random = Random::new(23);
+    let toward =
+        |from: [f32; 3], to: [f32; 3]| Ray::new(from, std::array::from_fn(|axis| to[axis] - from[axis]));
+    (0..RAYS)
+        .map(|index| {
+            let origin = random.point(-6.0, 6.0);
+            let triangle = triangles[(random.bits() % triangles.len() as u64) as usize];
+            let corner = triangle[index % 3];
+            match index % 10 {
+                0 => {
+                    let mut direction = [0.0; 3];
+                    direction[index / 10 % 3] = if index / 30 % 2 == 0 { 1.0 } else { -1.0 };
+                    Ray::new(if index % 20 == 0 { origin } else { corner }, direction)
+                }
+                1 => Ray { t_max: 2.0, t_min: 0.5, ..Ray::new(origin, random.direction()) },
+                2 => toward(origin, corner),
+                3 => {
+                    let next = triangle[(index + 1) % 3];
+                    toward(origin, std::array::from_fn(|axis| 0.5 * corner[axis] + 0.5 * next[axis]))
+                }
+                4 => Ray::new(corner, random.direction()),
+                5 => Ray {
+                    exclude_primitive: (random.bits() % triangles.len() as u64) as u32,
+                    ..Ray::new(origin, random.direction())
+                },
+                6 => Ray::new(origin, [1.0, -1.0, 0.0]),
+                _ => Ray::new(origin, random.direction()),
+            }
+        })
+        .collect()
+}
+
+struct Answers {
+    closest: Vec<[u32; 4]>,
+    occluded: Vec<bool>,
+}
+
+fn traced(bench: &Bench, structure: &mut dyn Structure, rays: &[Ray], rounds: u32) -> Answers {
+    build_until_complete(bench.device(), structure, [0.0; 3], Timing::None).expect("the build completes");
+    let of = |mode| {
+        let (hits, counters) = trace_in_rounds(bench, structure, rays, mode, rounds);
+        assert_eq!((counters.unfinished, counters.not_ready), (0, 0));
+        hits
+    };
+    let (closest, occluded) = (of(TraceMode::Closest), of(TraceMode::Occluded));
+    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+    Answers {
+        closest: closest.iter().map(bits).collect(),
+        occluded: occluded.iter().map(Hit::is_hit).collect(),
+    }
+}
+
+fn judged(bench: &Bench, geometry: &Geometry, rays: &[Ray]) -> Answers {
+    let mut judge = BruteForce::new(bench.device(), geometry, None, false).expect("pipelines can be made");
+    let rounds = judge.rounds();
+    traced(bench, &mut judge, rays, rounds)
+}
+
+fn of_bvh(bench: &Bench, config: Config, geometry: &Geometry, rays: &[Ray], rounds: Option<u32>) -> Answers {
+    let mut bvh = Bvh::new(bench.device(), config, geometry, None).expect("the options are valid");
+    let rounds = rounds.unwrap_or_else(|| bvh.rounds());
+    traced(bench, &mut bvh, rays, rounds)
+}
+
+fn same(expected: &Answers, found: &Answers, rays: &[Ray], what: &str) {
+    for (ray, (expected, found)) in expected.closest.iter().zip(&found.closest).enumerate() {
+        assert_eq!(expected, found, "{what}: closest hit of ray {ray}, {:?}", rays[ray]);
+    }
+    for (ray, (expected, found)) in expected.occluded.iter().zip(&found.occluded).enumerate() {
+        assert_eq!(expected, found, "{what}: occlusion of ray {ray}, {:?}", rays[ray]);
+    }
+}
+
+/// Every option, and budgets so small that a ray pauses after every node.
+fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
+    let base = Config::new(builder);
+    let mut configurations = vec![
+        ("defaults".to_owned(), base, None),
+        ("counters".to_owned(), Config { counters: Counters::Sums, ..base }, None),
+        ("address".to_owned(), Config { addressing: Addressing::Address, ..base }, None),
+    ];
+    for (budget, rounds) in [(1, 1200), (2, 700), (3, 500), (7, 250), (64, 40)] {
+        for addressing in [Addressing::Descriptor, Addressing::Address] {
+            let config = Config { work_budget: Some(budget), addressing, ..base };
+            configurations.push((format!("{budget} units a dispatch, {addressing:?}"), config, Some(rounds)));
+        }
+    }
+    if builder == Builder::Sah {
+        for leaf in [1, 2, 8, 16] {
+            configurations.push((format!("{leaf} triangles a leaf"), Config { leaf, ..base }, None));
+        }
+    }
+    configurations
+}
+
+fn options_change_no_hit(builder: Builder) {
+    let bench = Bench::new();
+    let triangles = scene();
+    let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
+    let expected = judged(&bench, &geometry, &rays);
+    let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
+    assert!(hit > RAYS / 4 && hit < RAYS, "{hit} of {RAYS} rays hit: too few or too many to tell anything");
+    for (name, config, rounds) in configurations(builder) {
+        let found = of_bvh(&bench, config, &geometry, &rays, rounds);
+        same(&expected, &found, &rays, &format!("{builder:?}, {name}"));
+    }
+}
+
+#[test]
+fn by_surface_area_no_option_changes_a_hit() {
+    options_change_no_hit(Builder::Sah);
+}
+
+#[test]
+fn by_morton_codes_no_option_changes_a_hit() {
+    options_change_no_hit(Builder::Lbvh);
+}
+
+/// A ray that meets thousands of boxes needs more rounds than rays are given at first: it gets them and an answer.
+#[test]
+fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
+    let bench = Bench::new();
+    let triangles = vec![[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.5, 0.0]]; 2000];
+    let rays: Vec<_> = rays(&triangles).into_iter().take(200).collect();
+    let geometry = bench.geometry(&triangles);
+    let expected = judged(&bench, &geometry, &rays);
+    let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
+    for builder in [Builder::Sah, Builder::Lbvh] {
+        let config = Config { work_budget: Some(16), ..Config::new(builder) };
+        let mut bvh = Bvh::new(bench.device(), config, &geometry, None).expect("the options are valid");
+        build_until_complete(bench.device(), &mut bvh, [0.0; 3], Timing::None).expect("the build completes");
+        let first = bvh.rounds();
+        let (_, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, first);
+        assert!(counters.unfinished > 0, "{builder:?}: {first} rounds were enough");
+        let of = |mode| tracer.trace(&bvh, &rays, mode, Timing::None).expect("every ray is answered").hits;
+        let found = Answers {
+            closest: of(TraceMode::Closest).iter().map(bits).collect(),
+            occluded: of(TraceMode::Occluded).iter().map(Hit::is_hit).collect(),
+        };
+        same(&expected, &found, &rays, &format!("{builder:?}"));
+        assert!(bvh.rounds() > first);
+        // It ends: no ray can need more than meeting every box takes.
+        while bvh.allow_more_rounds() {}
+        assert!(u64::from(bvh.rounds()) <= 4 * 2000 / 16 + 2);
+    }
+}
+
+/// Shows that the comparison would notice.
+#[test]
+fn another_scene_has_other_hits() {
+    let bench = Bench::new();
+    let triangles = scene();
+    let rays = rays(&triangles);
+    let expected = judged(&bench, &bench.geometry(&triangles), &rays);
+    let mut moved = triangles;
+    for triangle in moved.iter_mut().take(12) {
+        triangle[0][1] += 1.0e-3;
+    }
+    let found = of_bvh(&bench, Config::new(Builder::Sah), &bench.geometry(&moved), &rays, None);
+    assert_ne!(expected.closest, found.closest);
+    let bvh =
+        Bvh::new(bench.device(), Config::new(Builder::Sah), &bench.geometry(&moved), None).expect("valid");
+    let (_, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 2);
+    assert_eq!(counters.not_ready as usize, rays.len(), "a tree that was not built answers nothing");
+}

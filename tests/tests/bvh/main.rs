@@ -1,0 +1,5 @@
+//! Bounding volume hierarchies: trees, hits, and the oracle.
+
+mod hits;
+mod oracle;
+mod trees;

@@ -1,0 +1,10 @@
+//! Hits of all systems where something is unusual: surfaces as origins, masks, long lists, motion, huge pools, replayed rays.
+
+mod hard_transforms;
+mod large_pools;
+mod long_lists;
+mod masked;
+mod motion;
+mod on_surface;
+mod ray_work;
+mod replay;

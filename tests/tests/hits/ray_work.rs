@@ -1,0 +1,115 @@
+//! Work counted per ray: it adds up to the sums, and counting changes no hit.
+
+use rasray_ads::{BruteForce, Counters, Hit, QueueCounters, Ray, RayWork, StructureKind, TraceMode};
+use rasray_gpu::Timing;
+use rasray_tests::harness::Bench;
+use rasray_tests::invariance::Subject;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
+
+const EYE: [f32; 3] = [0.25, -0.125, 0.5];
+
+const MODES: [TraceMode; 2] = [TraceMode::Closest, TraceMode::Occluded];
+
+/// Units of work a dispatch: so few that rays pause, and enough for their rounds.
+fn budget(kind: StructureKind) -> u32 {
+    if kind == StructureKind::Fragment { 40 } else { 5 }
+}
+
+fn scene() -> Vec<Triangle> {
+    let mut triangles = closed_box([-4.0; 3], [4.0; 3]);
+    triangles.extend(sphere([1.0, 0.5, -1.5], 0.75, 24));
+    triangles
+}
+
+fn rays(count: usize) -> Vec<Ray> {
+    let mut random = Random::new(0x0077_6F72_6B00);
+    let mut rays: Vec<Ray> =
+        (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect();
+    // Slots that ask nothing are filed too.
+    rays[7].t_max = -1.0;
+    rays[8].direction = [0.0; 3];
+    rays
+}
+
+/// Both modes.
+fn trace(bench: &Bench, subject: &Subject, counters: Counters, rays: &[Ray]) -> [TraceOutcome; 2] {
+    let geometry = bench.geometry(&scene());
+    let spec = subject.spec.clone().with_counters(counters).with_work_budget(budget(subject.kind));
+    let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), structure.as_mut(), EYE, Timing::None).expect("the build completes");
+    // Smaller than the batch, so that slots are used again.
+    let tracer = BatchTracer::new(bench.device(), 300).expect("a queue fits");
+    MODES.map(|mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish"))
+}
+
+/// What is wrong with work against sums.
+fn difference(work: &[RayWork], sums: &QueueCounters) -> Option<String> {
+    let sum = |part: fn(&RayWork) -> u32| work.iter().map(|w| u64::from(part(w))).sum::<u64>();
+    let added = [sum(|w| w.cells), sum(|w| w.entries), sum(|w| w.tests)];
+    let expected = [sums.cells, sums.entries, sums.tests];
+    (added != expected).then(|| format!("{added:?} added up, {expected:?} in the header"))
+}
+
+#[test]
+fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
+    let bench = Bench::new();
+    let rays = rays(1000);
+    for subject in Subject::all() {
+        let name = subject.name();
+        let [off, sums, per_ray] = [Counters::Off, Counters::Sums, Counters::PerRay]
+            .map(|counters| trace(&bench, &subject, counters, &rays));
+        for (place, mode) in MODES.into_iter().enumerate() {
+            let (off, sums, per_ray) = (&off[place], &sums[place], &per_ray[place]);
+            assert!(off.work.is_empty() && sums.work.is_empty());
+            assert_eq!(per_ray.work.len(), rays.len());
+            assert_eq!(off.counters, QueueCounters::default());
+            // Threads fill lists in another order in each build, and any hit ends at the first that is met.
+            if mode == TraceMode::Closest {
+                assert_eq!(sums.counters, per_ray.counters, "{name}, {mode:?}");
+            }
+            assert!(sums.counters.cells + sums.counters.tests > 2000, "{:?}", sums.counters);
+            assert_eq!(difference(&per_ray.work, &per_ray.counters), None, "{name}, {mode:?}");
+            assert!(per_ray.counters.cells + per_ray.counters.tests > 2000, "{:?}", per_ray.counters);
+            assert!(per_ray.work.iter().all(|work| work.rounds >= 1));
+            let nothing = RayWork { rounds: 1, ..RayWork::default() };
+            assert_eq!([per_ray.work[7], per_ray.work[8]], [nothing; 2], "{name}: rays that ask nothing");
+            if name != "brute-force robust" {
+                assert!(per_ray.work.iter().any(|work| work.rounds > 1), "{name}: no ray paused");
+            }
+            let hits = |outcome: &TraceOutcome| {
+                let key = |hit: &Hit| match mode {
+                    TraceMode::Closest => (hit.t.to_bits(), hit.primitive),
+                    TraceMode::Occluded => (0, u32::from(hit.is_hit())),
+                };
+                outcome.hits.iter().map(key).collect::<Vec<_>>()
+            };
+            assert_eq!(hits(off), hits(per_ray), "{name}, {mode:?}");
+            assert_eq!(hits(off), hits(sums), "{name}, {mode:?}");
+            // One unit more or less on any ray is noticed.
+            let mut wrong = per_ray.work.clone();
+            wrong[500].tests += 1;
+            assert!(difference(&wrong, &per_ray.counters).is_some());
+            wrong[500].tests -= 1;
+            wrong[499].cells = wrong[499].cells.wrapping_sub(1);
+            assert!(difference(&wrong, &per_ray.counters).is_some());
+        }
+    }
+}
+
+/// A structure that counts per ray may meet a queue without room for it: nothing is written past its end.
+#[test]
+fn a_queue_without_room_for_work_is_left_alone() {
+    let bench = Bench::new();
+    let rays = rays(200);
+    let geometry = bench.geometry(&scene());
+    let structure =
+        BruteForce::new(bench.device(), &geometry, None, Counters::PerRay).expect("pipelines can be made");
+    let (hits, counters) =
+        rasray_tests::conformance::trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
+    assert_eq!((counters.unfinished, counters.not_ready), (0, 0));
+    let expected = bench.trace(&structure, &rays);
+    assert_eq!(hits, expected.hits);
+    assert_eq!(counters, expected.counters);
+}

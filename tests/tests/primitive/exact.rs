@@ -1,0 +1,332 @@
+//! Primitive lists against brute force, bit for bit: at every size of tiles and buckets, from every eye and
+//! origin, with every budget; and lists that cover too little are noticed.
+
+use rasray_ads::{BruteForce, Hit, Ray, Structure, TraceMode};
+use rasray_ads_primitive::{
+    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
+};
+use rasray_gpu::Timing;
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, all_sizes, closed_box, sphere};
+use rasray_tests::tier::is_full;
+use rasray_tracer::build_until_complete;
+
+const EYES: [[f32; 3]; 3] = [[0.0; 3], [0.125, -0.25, 0.375], [-3.0, 2.0, 1.5]];
+
+fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
+    let mut random = Random::new(seed);
+    (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
+}
+
+/// The exact preset in each storage, and bricks along the axes.
+fn storages(resolution: u32) -> [Config; 4] {
+    let of = |storage| Config { storage, ..Config::robust(resolution) };
+    let axes = Config { views: Views::Axes, grid: Some(resolution / 2), ..of(Storage::Bricks) };
+    [of(Storage::Contiguous), of(Storage::Linked), of(Storage::Bricks), axes]
+}
+
+fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> PrimitiveLists {
+    let geometry = bench.geometry(triangles);
+    let mut structure =
+        PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, eye, Timing::None).expect("the build completes");
+    structure
+}
+
+fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> {
+    let geometry = bench.geometry(triangles);
+    let structure = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+    bench.trace(&structure, rays).hits
+}
+
+/// Rays whose hits differ in any bit.
+fn differences(found: &[Hit], expected: &[Hit]) -> Vec<usize> {
+    assert_eq!(found.len(), expected.len());
+    (0..found.len()).filter(|&ray| bits(&found[ray]) != bits(&expected[ray])).collect()
+}
+
+fn assert_exact(what: &str, bench: &Bench, structure: &PrimitiveLists, rays: &[Ray], expected: &[Hit]) {
+    let hits = bench.trace(structure, rays).hits;
+    if let [first, ..] = differences(&hits, expected)[..] {
+        let (ray, hit, expected) = (rays[first], hits[first], expected[first]);
+        panic!("{what}: {ray:?}: {hit:?}, brute force finds {expected:?}");
+    }
+    for (ray, occluded) in bench.occluded(structure, rays).into_iter().enumerate() {
+        assert_eq!(occluded, expected[ray].is_hit(), "{what}: {:?}", rays[ray]);
+    }
+    assert_eq!(structure.status().expect("the header is readable").corrupted, 0, "{what}");
+}
+
+#[test]
+fn hits_are_those_of_brute_force() {
+    let bench = Bench::new();
+    let triangles = all_sizes();
+    let rounds = if is_full() { 100 } else { 1 };
+    for round in 0..rounds {
+        let rays = rays(round, 100_000, 9.0);
+        let expected = brute_force(&bench, &triangles, &rays);
+        let hit = expected.iter().filter(|hit| hit.is_hit()).count();
+        assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
+        for config in [0, 2, 3].map(|which| Config { pyramid: true, ..storages(128)[which] }) {
+            let structure = lists(&bench, config, &triangles, EYES[round as usize % 3]);
+            let what = format!("{:?}, {:?}", config.storage, config.views);
+            assert_exact(&what, &bench, &structure, &rays, &expected);
+        }
+    }
+}
+
+#[test]
+fn no_size_changes_a_hit() {
+    let bench = Bench::new();
+    let (triangles, rays) = (all_sizes(), rays(3, 4000, 9.0));
+    let expected = brute_force(&bench, &triangles, &rays);
+    let sizes = [
+        (1, 1, 1),
+        (2, 1, 64),
+        (3, 2, 4),
+        (7, 1, 5),
+        (33, 4, 2),
+        (64, 1, 1),
+        (100, 8, 16),
+        (256, 2, 32),
+        (300, 1, 8),
+    ];
+    for (index, (resolution, tile, buckets)) in sizes.into_iter().enumerate() {
+        let storage = if index % 2 == 0 { Storage::Linked } else { Storage::Contiguous };
+        let builder = Some(if index % 4 < 2 { Builder::Binning } else { Builder::Raster });
+        let (skip, pyramid) = (index % 3 != 0, index % 2 == 0);
+        let config = Config { tile, buckets, storage, skip, builder, pyramid, ..Config::robust(resolution) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    let bricks = [
+        (1, 1, None),
+        (4, 1, Some(1)),
+        (5, 1, Some(30)),
+        (33, 4, Some(64)),
+        (64, 1, Some(7)),
+        (100, 2, Some(200)),
+        (256, 2, Some(1024)),
+        (300, 1, None),
+    ];
+    for (index, (resolution, tile, slices)) in bricks.into_iter().enumerate() {
+        let storage = Storage::Bricks;
+        let (skip, corners) = (index % 3 != 0, index % 2 == 0);
+        let builder = Some(if index % 4 < 2 { Builder::Raster } else { Builder::Binning });
+        let config = Config { tile, slices, storage, skip, corners, builder, ..Config::robust(resolution) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    for (grid, index) in [1, 5, 16, 77, 256].into_iter().zip(0..) {
+        let (views, skip, corners) = (Views::Axes, index % 3 != 0, index % 2 == 0);
+        let builder = Some(if index % 2 == 0 { Builder::Raster } else { Builder::Binning });
+        let config = Config { views, grid: Some(grid), skip, corners, builder, ..Config::robust(1) };
+        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+    }
+    for config in storages(64) {
+        // Each in the way that is not its usual one.
+        let other = match config.builder() {
+            Builder::Raster => Builder::Binning,
+            Builder::Binning => Builder::Raster,
+        };
+        let addressing = Addressing::Address;
+        let config = Config { addressing, builder: Some(other), pyramid: true, ..config };
+        let structure = lists(&bench, config, &triangles, EYES[1]);
+        assert_exact(&format!("{:?} by address", config.storage), &bench, &structure, &rays, &expected);
+    }
+}
+
+/// Triangles that cross each other and triangles that are seen almost edge-on, in tiles and buckets so wide
+/// that many share one.
+fn crossing() -> Vec<Triangle> {
+    let mut random = Random::new(29);
+    let mut triangles: Vec<Triangle> = (0..300)
+        .map(|_| {
+            let at = random.point(-8.0, 8.0);
+            let size = random.between(0.2, 3.0);
+            std::array::from_fn(|_| {
+                let away = random.point(-size, size);
+                std::array::from_fn(|axis| at[axis] + away[axis])
+            })
+        })
+        .collect();
+    for _ in 0..400 {
+        // Seen almost edge-on from the middle.
+        let (far, beside) = (random.point(-9.0, 9.0), random.point(-2.0, 2.0));
+        let near = random.point(-0.1, 0.1);
+        triangles.push([
+            far,
+            std::array::from_fn(|axis| 0.2 * far[axis] + near[axis]),
+            std::array::from_fn(|axis| 0.6 * far[axis] + beside[axis]),
+        ]);
+    }
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    triangles
+}
+
+/// Each rule of the paper loses hits by itself, and what is found instead lies behind: the comparison
+/// notices. The rule that a hit must lie in its tile alone loses those that rounding moves: one in many
+/// thousands.
+#[test]
+fn every_published_rule_loses_hits() {
+    let bench = Bench::new();
+    let (triangles, rays) = (crossing(), rays(5, 20_000, 9.0));
+    let expected = brute_force(&bench, &triangles, &rays);
+    let lists_of = |resolution, buckets| {
+        let storage = Storage::Contiguous;
+        Config { tile: 1, buckets, storage, ..Config::robust(resolution) }
+    };
+    let (coarse, fine) = (lists_of(1, 4), lists_of(64, 8));
+    for (rule, config, least) in [
+        ("coverage", Config { coverage: Coverage::Hardware, ..fine }, 100),
+        ("stop", Config { stop: Stop::Bucket, ..coarse }, 10),
+        ("depths", Config { depths: Depths::Corners, ..fine }, 10),
+        ("march", Config { march: March::Jump, ..fine }, 10),
+        ("accept and march", Config { accept: Accept::Tile, march: March::Jump, ..fine }, 100),
+        ("all", Config { tile: 1, buckets: 8, ..Config::published(64) }, 100),
+    ] {
+        assert!(!config.is_exact(), "{rule}");
+        let structure = lists(&bench, config, &triangles, EYES[0]);
+        let hits = bench.trace(&structure, &rays).hits;
+        let lost = differences(&hits, &expected);
+        assert!(lost.len() > least, "{rule}: {} of {} hits differ", lost.len(), rays.len());
+        println!("{rule}: {} of {} hits differ", lost.len(), rays.len());
+        assert!(lost.iter().all(|&ray| !hits[ray].is_hit() || hits[ray].t >= expected[ray].t), "{rule}");
+    }
+    let accept = Config { accept: Accept::Tile, ..fine };
+    let structure = lists(&bench, accept, &triangles, EYES[0]);
+    let lost = differences(&bench.trace(&structure, &rays).hits, &expected).len();
+    println!("accept: {lost} of {} hits differ", rays.len());
+    // Rounding alone moves a hit to another tile. That the rule is there shows beside the jump, where it
+    // refuses what a tile passed by would have had.
+    assert!(!accept.is_exact() && lost < rays.len() / 1000, "{lost} of {} hits differ", rays.len());
+    let jumping = Config { march: March::Jump, ..fine };
+    let refusing = Config { accept: Accept::Tile, ..jumping };
+    let [jumping, refusing] = [jumping, refusing].map(|config| {
+        let structure = lists(&bench, config, &triangles, EYES[0]);
+        differences(&bench.trace(&structure, &rays).hits, &expected).len()
+    });
+    assert!(refusing > 10 * jumping, "{refusing} hits differ with the rule, {jumping} without");
+}
+
+/// Rays that start far outside of everything, beyond what the cells can bear and below it; and rays from an
+/// eye far outside.
+#[test]
+fn distance_changes_no_hit() {
+    let bench = Bench::new();
+    let triangles = all_sizes();
+    let mut random = Random::new(17);
+    for distance in [30.0, 45.0, 1.0e3, 1.0e5] {
+        let rays: Vec<Ray> = (0..1000)
+            .map(|_| {
+                let (target, away) = (random.point(-9.0, 9.0), random.direction());
+                let origin = std::array::from_fn(|axis| target[axis] - distance * away[axis]);
+                Ray::new(origin, away)
+            })
+            .collect();
+        let expected = brute_force(&bench, &triangles, &rays);
+        assert!(expected.iter().all(Hit::is_hit));
+        for config in storages(64) {
+            let what = format!("{:?}, {distance} m away", config.storage);
+            let structure = lists(&bench, config, &triangles, EYES[0]);
+            assert_exact(&what, &bench, &structure, &rays, &expected);
+            let structure = lists(&bench, config, &triangles, [0.0, distance, 0.0]);
+            assert_exact(&format!("an eye: {what}"), &bench, &structure, &rays, &expected);
+        }
+    }
+}
+
+/// Triangles so close to the eye that their cell is lost in rounding are found all the same.
+#[test]
+fn triangles_around_the_eye_are_found() {
+    let bench = Bench::new();
+    for eye in EYES {
+        let shifted = |p: [f32; 3]| -> [f32; 3] { std::array::from_fn(|axis| p[axis] + eye[axis]) };
+        let mut triangles = all_sizes();
+        let mut random = Random::new(8);
+        for _ in 0..200 {
+            let size = 10.0_f32.powf(random.between(-7.0, -1.0));
+            triangles.push(std::array::from_fn(|_| shifted(random.point(-size, size))));
+        }
+        let rays: Vec<Ray> = (0..2000)
+            .map(|index| {
+                let target = shifted(random.point(-1.0e-3, 1.0e-3));
+                let origin = if index % 2 == 0 { eye } else { random.point(-2.0, 2.0) };
+                Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+            })
+            .collect();
+        let expected = brute_force(&bench, &triangles, &rays);
+        assert!(expected.iter().filter(|hit| hit.primitive as usize >= triangles.len() - 200).count() > 200);
+        for config in storages(64) {
+            let structure = lists(&bench, config, &triangles, eye);
+            let header = structure.header().expect("the header is readable");
+            let near = header.near_demand as usize;
+            let has_near_list = config.views == Views::Cube;
+            assert!(has_near_list || near == 0, "{near} triangles are near the centre");
+            assert!(
+                !has_near_list || near > 20 && near < triangles.len() / 2,
+                "{near} triangles are in the near list"
+            );
+            assert_exact(
+                &format!("{:?}, eye at {eye:?}", config.storage),
+                &bench,
+                &structure,
+                &rays,
+                &expected,
+            );
+        }
+    }
+}
+
+/// Ranges and exclusions, as brute force keeps them.
+#[test]
+fn limits_and_exclusion_are_kept() {
+    let bench = Bench::new();
+    let triangles = all_sizes();
+    let mut random = Random::new(21);
+    let mut rays = rays(22, 3000, 9.0);
+    for (ray, first) in rays.clone().iter().zip(brute_force(&bench, &triangles, &rays)) {
+        rays.extend([
+            Ray { t_max: first.t, ..*ray },
+            Ray { t_max: first.t.next_up(), ..*ray },
+            Ray { t_min: first.t, ..*ray },
+            Ray { t_min: first.t.next_down(), ..*ray },
+            Ray { exclude_primitive: first.primitive, ..*ray },
+            Ray { t_min: random.between(0.0, 5.0), t_max: random.between(0.0, 9.0), ..*ray },
+            // Not of unit length.
+            Ray { direction: ray.direction.map(|x| 1.0e-3 * x), ..*ray },
+        ]);
+    }
+    let expected = brute_force(&bench, &triangles, &rays);
+    for config in storages(64) {
+        let structure = lists(&bench, config, &triangles, EYES[1]);
+        assert_exact(&format!("limits, {:?}", config.storage), &bench, &structure, &rays, &expected);
+    }
+}
+
+/// A ray may stop after any work unit and go on in the next dispatch.
+#[test]
+fn no_budget_changes_a_hit() {
+    let bench = Bench::new();
+    let mut triangles = closed_box([-10.0; 3], [10.0; 3]);
+    triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
+    let mut rays = rays(9, 300, 9.0);
+    // Some are tested against every triangle, and some against the near list.
+    rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
+    let expected = brute_force(&bench, &triangles, &rays);
+    for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {
+        for config in storages(32) {
+            let config = Config { work_budget: Some(budget), ..config };
+            let structure = lists(&bench, config, &triangles, EYES[1]);
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, rounds);
+            assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{budget} units a dispatch");
+            assert_eq!(differences(&hits, &expected), [0; 0], "{config:?}");
+            // With too few rounds rays are counted, never given half an answer.
+            let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
+            assert!(counters.unfinished > 0);
+        }
+    }
+}

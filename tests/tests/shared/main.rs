@@ -1,0 +1,13 @@
+//! What structures share, alone on the device: triangle test, marches, grids, buckets, coverage, pages, parity, builders.
+
+mod axis_builders;
+mod bucket;
+mod coverage;
+mod device;
+mod grid;
+mod march;
+mod march_cases;
+mod pages;
+mod parity;
+mod triangle;
+mod turns;
