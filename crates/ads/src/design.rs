@@ -63,8 +63,8 @@ impl<C> Parts<C> {
     }
 }
 
-/// What one structure says of itself; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build, and what a
-/// build leaves on the host.
+/// What one structure says of itself; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
+/// and what a build leaves on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: fmt::Debug + Copy;
