@@ -108,13 +108,15 @@ fn clean(radiance: [f32; 3]) -> ([f32; 3], bool) {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
     fn solid_angles_sum_to_the_sphere() {
         for (width, height) in [(1, 1), (7, 5), (64, 32)] {
             let sum: f64 = (0..height).map(|y| f64::from(width) * texel_solid_angle(width, height, y)).sum();
-            assert!((sum - 4.0 * PI).abs() < 1e-12, "{width} x {height}: {sum}");
+            assert_abs_diff_eq!(sum, 4.0 * PI, epsilon = 1e-12);
         }
     }
 

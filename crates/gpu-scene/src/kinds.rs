@@ -48,6 +48,8 @@ pub fn kind_shares(powers: [Option<f64>; 3]) -> [f32; 3] {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
@@ -66,7 +68,7 @@ mod tests {
     fn powers_are_those_of_the_whole_sphere_and_of_the_cone() {
         let position = glam::DVec3::ZERO;
         let point = Light::Point { position, intensity: [1.0; 3], range: 1.0 };
-        assert!((punctual_power(&point, 0.0) - 4.0 * PI).abs() < 1e-6);
+        assert_abs_diff_eq!(punctual_power(&point, 0.0), 4.0 * PI, epsilon = 1e-6);
         let spot = |outer_cone| Light::Spot {
             position,
             direction: glam::DVec3::X,
@@ -75,9 +77,17 @@ mod tests {
             inner_cone: outer_cone,
             outer_cone,
         };
-        assert!((punctual_power(&spot(std::f32::consts::FRAC_PI_2), 0.0) - 2.0 * PI).abs() < 1e-6);
+        assert_abs_diff_eq!(
+            punctual_power(&spot(std::f32::consts::FRAC_PI_2), 0.0),
+            2.0 * PI,
+            epsilon = 1e-6
+        );
         assert!(punctual_power(&spot(0.1), 0.0) < 0.04);
         let sun = Light::Directional { direction: glam::DVec3::X, irradiance: [2.0; 3] };
-        assert!((punctual_power(&sun, disk_of([0.0; 3], [2.0, 0.0, 0.0])) - 2.0 * PI).abs() < 1e-6);
+        assert_abs_diff_eq!(
+            punctual_power(&sun, disk_of([0.0; 3], [2.0, 0.0, 0.0])),
+            2.0 * PI,
+            epsilon = 1e-6
+        );
     }
 }

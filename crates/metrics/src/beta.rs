@@ -77,27 +77,33 @@ pub(crate) fn inverse_incomplete_beta(a: f64, b: f64, probability: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
     fn ln_gamma_of_integers_and_halves() {
         let mut factorial: f64 = 1.0;
         for n in 1..30 {
-            assert!((ln_gamma(f64::from(n)) - factorial.ln()).abs() < 1e-13 * (1.0 + factorial.ln()));
+            assert_abs_diff_eq!(
+                ln_gamma(f64::from(n)),
+                factorial.ln(),
+                epsilon = 1e-13 * (1.0 + factorial.ln())
+            );
             factorial *= f64::from(n);
         }
-        assert!((ln_gamma(0.5) - 0.5 * std::f64::consts::PI.ln()).abs() < 1e-13);
+        assert_abs_diff_eq!(ln_gamma(0.5), 0.5 * std::f64::consts::PI.ln(), epsilon = 1e-13);
     }
 
     #[test]
     fn closed_forms() {
         for x in [0.01, 0.2, 0.5, 0.77, 0.99] {
             // I_x(a, 1) = x^a, I_x(1, b) = 1 - (1-x)^b, I_x(2, 2) = x^2 (3 - 2x), arcsine law.
-            assert!((incomplete_beta(3.5, 1.0, x) - x.powf(3.5)).abs() < 1e-13);
-            assert!((incomplete_beta(1.0, 7.0, x) - (1.0 - (1.0 - x).powi(7))).abs() < 1e-13);
-            assert!((incomplete_beta(2.0, 2.0, x) - x * x * (3.0 - 2.0 * x)).abs() < 1e-13);
+            assert_abs_diff_eq!(incomplete_beta(3.5, 1.0, x), x.powf(3.5), epsilon = 1e-13);
+            assert_abs_diff_eq!(incomplete_beta(1.0, 7.0, x), (1.0 - (1.0 - x).powi(7)), epsilon = 1e-13);
+            assert_abs_diff_eq!(incomplete_beta(2.0, 2.0, x), x * x * (3.0 - 2.0 * x), epsilon = 1e-13);
             let arcsine = 2.0 / std::f64::consts::PI * x.sqrt().asin();
-            assert!((incomplete_beta(0.5, 0.5, x) - arcsine).abs() < 1e-12);
+            assert_abs_diff_eq!(incomplete_beta(0.5, 0.5, x), arcsine, epsilon = 1e-12);
         }
     }
 
@@ -106,7 +112,7 @@ mod tests {
         for (a, b) in [(1.0, 50.0), (12.0, 3.0), (400.0, 100_000.0)] {
             for p in [0.025, 0.5, 0.975] {
                 let x = inverse_incomplete_beta(a, b, p);
-                assert!((incomplete_beta(a, b, x) - p).abs() < 1e-9, "{a} {b} {p}");
+                assert_abs_diff_eq!(incomplete_beta(a, b, x), p, epsilon = 1e-9);
             }
         }
     }

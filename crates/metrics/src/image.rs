@@ -131,6 +131,8 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     const WIDTH: usize = 40;
@@ -157,7 +159,7 @@ mod tests {
         let error = measure(&picture, &picture);
         assert_eq!((error.mae, error.rmse, error.relmse, error.bias), (0.0, 0.0, 0.0, 0.0));
         assert_eq!(error.psnr, f64::INFINITY);
-        assert!((error.ssim - 1.0).abs() < 1e-12);
+        assert_abs_diff_eq!(error.ssim, 1.0, epsilon = 1e-12);
         #[cfg(feature = "flip")]
         assert_eq!(error.flip.max, 0.0);
     }
@@ -169,7 +171,7 @@ mod tests {
         let error = measure(&brighter, &grey);
         assert_eq!((error.mae, error.mse, error.rmse, error.bias), (0.25, 0.0625, 0.25, 0.25));
         assert_eq!(error.bias_sigma, 0.0);
-        assert!((error.relmse - 0.0625 / 0.26).abs() < 1e-12);
+        assert_abs_diff_eq!(error.relmse, 0.0625 / 0.26, epsilon = 1e-12);
         // sRGB of .5 and .75 is .735357 and .880825.
         assert!((error.psnr + 20.0 * (0.880_825_f64 - 0.735_357).log10()).abs() < 1e-3, "{}", error.psnr);
     }

@@ -70,12 +70,14 @@ pub fn confidence_of_each(family_confidence: f64, rates: u64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
     fn a_family_asks_more_of_each_rate() {
         assert_eq!(confidence_of_each(0.95, 1), Some(0.95));
-        assert!((confidence_of_each(0.95, 10).expect("valid") - 0.995).abs() < 1e-12);
+        assert_abs_diff_eq!(confidence_of_each(0.95, 10).expect("valid"), 0.995, epsilon = 1e-12);
         assert_eq!(confidence_of_each(0.95, 0), None);
         assert_eq!(confidence_of_each(1.0, 3), None);
         let rate = Rate { count: 3, total: 100 };
@@ -108,15 +110,15 @@ mod tests {
             }
             sum
         };
-        assert!((at_most(high, 3) - 0.025).abs() < 1e-9);
-        assert!((1.0 - at_most(low, 2) - 0.025).abs() < 1e-9);
+        assert_abs_diff_eq!(at_most(high, 3), 0.025, epsilon = 1e-9);
+        assert_abs_diff_eq!(1.0 - at_most(low, 2), 0.025, epsilon = 1e-9);
     }
 
     #[test]
     fn never_and_always() {
         let [low, high] = Rate { count: 0, total: 150_000 }.interval().expect("something was tried");
         assert_eq!(low, 0.0);
-        assert!((high - 2e-5).abs() < 1e-7);
+        assert_abs_diff_eq!(high, 2e-5, epsilon = 1e-7);
         assert_eq!(Rate { count: 0, total: 2 }.interval(), Some([0.0, 1.0]));
         let [low, high] = Rate { count: 1000, total: 1000 }.interval().expect("something was tried");
         assert!((low - 0.997).abs() < 1e-5 && high == 1.0);

@@ -64,6 +64,8 @@ fn blur_along(plane: &[f64], length: usize, stride: usize, width: usize) -> Vec<
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     fn grey(value: f32, count: usize) -> Vec<[f32; 3]> {
@@ -76,7 +78,7 @@ mod tests {
         let [a, b] = [&a, &b].map(|pixels| Image::new(20, 10, pixels).expect("sizes fit"));
         // White against black: C1 / (1 + C1), and no variance at all.
         let value = ssim(&a, &b).expect("comparable");
-        assert!((value - C1 / (1.0 + C1)).abs() < 1e-7, "{value}");
+        assert_abs_diff_eq!(value, C1 / (1.0 + C1), epsilon = 1e-7);
     }
 
     #[test]
@@ -85,7 +87,7 @@ mod tests {
         let inverse: Vec<[f32; 3]> = pattern.iter().map(|[x, ..]| [1.0 - x; 3]).collect();
         let [a, b] = [&pattern, &inverse].map(|pixels| Image::new(20, 20, pixels).expect("sizes fit"));
         assert!(ssim(&a, &b).expect("comparable") < -0.9);
-        assert!((ssim(&a, &a).expect("comparable") - 1.0).abs() < 1e-12);
+        assert_abs_diff_eq!(ssim(&a, &a).expect("comparable"), 1.0, epsilon = 1e-12);
     }
 
     #[test]
@@ -97,7 +99,7 @@ mod tests {
         let blurred = blur(&plane, width, height);
         for y in RADIUS..height - RADIUS {
             for x in RADIUS..width - RADIUS {
-                assert!((blurred[y * width + x] - plane[y * width + x]).abs() < 1e-12);
+                assert_abs_diff_eq!(blurred[y * width + x], plane[y * width + x], epsilon = 1e-12);
             }
         }
         assert!(blur(&[2.0; 3], 3, 1).iter().all(|x| (x - 2.0).abs() < 1e-15));

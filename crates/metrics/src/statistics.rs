@@ -114,6 +114,8 @@ impl Summary {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
@@ -121,7 +123,7 @@ mod tests {
         let ramp: Vec<f64> = (0..=100).rev().map(f64::from).collect();
         let p = Percentiles::of(&ramp).expect("not empty");
         assert_eq!((p.count, p.p50, p.p90, p.p99, p.max), (101, 50.0, 90.0, 99.0, 100.0));
-        assert!((p.p999 - 99.9).abs() < 1e-9, "{p:?}");
+        assert_abs_diff_eq!(p.p999, 99.9, epsilon = 1e-9);
         let summary = Summary::of(&ramp).expect("not empty");
         assert_eq!((summary.first_quartile, summary.third_quartile), (25.0, 75.0));
         // One value beyond the rest moves the tail and none of the quartiles.

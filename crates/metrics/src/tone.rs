@@ -13,13 +13,15 @@ fn encode(linear: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     #[test]
     fn ends_knee_and_middle() {
         assert_eq!([-1.0, 0.0, f32::NAN].map(encode), [0.0; 3]);
         assert!([1.0, 7.0, f32::INFINITY].iter().all(|x| (encode(*x) - 1.0).abs() < 1e-6));
-        assert!((encode(0.003_130_8) - 0.040_45).abs() < 1e-5);
-        assert!((encode(0.214_041) - 0.5).abs() < 1e-5);
+        assert_abs_diff_eq!(encode(0.003_130_8), 0.040_45, epsilon = 1e-5);
+        assert_abs_diff_eq!(encode(0.214_041), 0.5, epsilon = 1e-5);
     }
 }

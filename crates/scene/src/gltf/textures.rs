@@ -195,6 +195,8 @@ fn matrix(transform: &TextureTransform) -> Option<[[f32; 3]; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::*;
 
     /// The rotation and the combined quad of Khronos' texture transform test: where the marker of a
@@ -212,7 +214,7 @@ mod tests {
             let rows = matrix(&transform).expect("a finite transform");
             for (row, tip) in rows.iter().zip(tip) {
                 let found = row[0] * u + row[1] * v + row[2];
-                assert!((found - tip).abs() < tolerance, "{json}: {found} instead of {tip}");
+                assert_abs_diff_eq!(found, tip, epsilon = tolerance);
             }
         }
     }

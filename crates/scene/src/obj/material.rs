@@ -89,6 +89,8 @@ fn roughness(shininess: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use approx::assert_abs_diff_eq;
+
     use super::roughness;
 
     #[test]
@@ -96,7 +98,7 @@ mod tests {
         assert_eq!(roughness(0.0), 1.0);
         assert_eq!(roughness(-5.0), 1.0);
         // alpha^2 = 2 / 32 = 1/16, alpha = 1/4, perceptual 1/2.
-        assert!((roughness(30.0) - 0.5).abs() < 1.0e-6);
+        assert_abs_diff_eq!(roughness(30.0), 0.5, epsilon = 1.0e-6);
         assert!(roughness(1.0e9) < 0.01 && roughness(f32::MAX) >= 0.0);
     }
 }

@@ -1,5 +1,6 @@
 //! Built-in scenes: counts, closedness, winding, materials, determinism, parameters.
 
+use approx::assert_abs_diff_eq;
 use std::collections::HashMap;
 
 use glam::DVec3;
@@ -65,7 +66,7 @@ fn assert_well_formed(scene: &Scene) {
             assert!(face.length() > 1.0e-9, "{}: {} has a triangle without area", scene.name, mesh.name);
             for (&corner, normals) in indices.iter().zip(normals.into_iter().cycle()) {
                 let normal = DVec3::from_array(normals[corner as usize].map(f64::from));
-                assert!((normal.length() - 1.0).abs() < 1.0e-5, "{}: {}", scene.name, mesh.name);
+                assert_abs_diff_eq!(normal.length(), 1.0, epsilon = 1.0e-5);
                 let agreement = normal.dot(face.normalize());
                 assert!(agreement > 0.3, "{}: {} normal against winding: {agreement}", scene.name, mesh.name);
             }
@@ -172,7 +173,7 @@ fn cornell_has_its_colours_sides_and_light() {
     assert!(eye.z > 0.5 && eye.x == 0.0);
     assert!(camera.world_from_camera.matrix3.z_axis.distance(DVec3::Z) < 1.0e-12);
     let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
-    assert!((fov_y.to_degrees() - 39.3).abs() < 0.1, "{fov_y}");
+    assert_abs_diff_eq!(fov_y.to_degrees(), 39.3, epsilon = 0.1);
     let half_height = f64::from(fov_y / 2.0).tan() * eye.z;
     assert!(half_height > 0.27 && half_height < 0.31, "{half_height}");
 }

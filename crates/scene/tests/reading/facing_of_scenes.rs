@@ -1,5 +1,6 @@
 //! What surfaces allow to be saved where each triangle is kept in one of three views.
 
+use approx::assert_abs_diff_eq;
 use rasray_scene::facing::Facing;
 use rasray_scene::{Instance, Mesh, Scene};
 
@@ -19,7 +20,7 @@ fn directions_decide_what_one_view_saves() {
     let slope = facing([1.0, 0.0, 0.0], [0.0, 1.0, -1.0]);
     assert_eq!(slope.saved_by_one_view(), Some(0.5));
     let corner = facing([1.0, -1.0, 0.0], [0.0, 1.0, -1.0]).saved_by_one_view().expect("it has an area");
-    assert!((corner - 2.0 / 3.0).abs() < 1e-12, "{corner}");
+    assert_abs_diff_eq!(corner, 2.0 / 3.0, epsilon = 1e-12);
     assert_eq!(facing([1.0, 0.0, 0.0], [2.0, 0.0, 0.0]).saved_by_one_view(), None);
     assert_eq!(facing([1.0, 0.0, 0.0], [0.0, f32::NAN, 0.0]), Facing::default());
 }
@@ -41,5 +42,5 @@ fn a_sphere_saves_what_all_directions_do() {
     }
     let spheres = rasray_scene::builtin::builtin("spheres:10k").expect("it is built in").expect("it is made");
     let saved = Facing::of(&spheres).saved_by_one_view().expect("it has an area");
-    assert!((saved - (1.0 - sums.0 / sums.1)).abs() < 0.01, "{saved}");
+    assert_abs_diff_eq!(saved, (1.0 - sums.0 / sums.1), epsilon = 0.01);
 }

@@ -4,6 +4,7 @@ use crate::gltf_support::rich::rich_glb;
 use crate::gltf_support::{
     assert_well_formed, data_uri, floats, kinds, load_bytes, triangle_bytes, triangle_gltf,
 };
+use approx::assert_abs_diff_eq;
 use glam::{DVec3, Vec3};
 use rasray_scene::animation::{ChannelValues, NodeTransform};
 use rasray_scene::{AlphaMode, Filter, Light, Projection, Scene, SceneError, Wrap};
@@ -143,7 +144,7 @@ fn the_rich_file_is_read_in_full() {
     let used = glass.base_color_texture.expect("a base colour texture");
     assert_eq!(glass.normal_texture.expect("a normal texture"), used, "its transform is read as well");
     assert_eq!(glass.transmission_texture, Some(used));
-    assert!((used.uv_transform[0][0] - 2.0 * 0.1_f32.cos()).abs() < 1e-6);
+    assert_abs_diff_eq!(used.uv_transform[0][0], 2.0 * 0.1_f32.cos(), epsilon = 1e-6);
     let texture = scene.textures[used.texture];
     assert_eq!((texture.wrap_u, texture.wrap_v), (Wrap::Clamp, Wrap::Mirror));
     assert_eq!((texture.filter, texture.mipmapped), (Filter::Nearest, true));
@@ -324,6 +325,6 @@ fn lights_and_cameras_follow_their_nodes() {
     let camera = &scene.cameras[0];
     assert_eq!(camera.projection, Projection::Orthographic { half_height: 3.0 });
     let axes = camera.world_from_camera.matrix3;
-    assert!((axes.determinant() - 1.0).abs() < 1e-12, "a camera is placed rigidly");
+    assert_abs_diff_eq!(axes.determinant(), 1.0, epsilon = 1e-12);
     assert_eq!(kinds(&scene), ["light-range", "bad-light", "bad-camera", "no-triangles"]);
 }

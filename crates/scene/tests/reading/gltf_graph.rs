@@ -1,5 +1,6 @@
 //! Nodes: transforms multiplied in f64, scene order, and graphs that are none.
 
+use approx::assert_abs_diff_eq;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -84,7 +85,7 @@ fn matrices_and_parts_agree() {
         {"mesh":0,"matrix":[0,2,0,0,-3,0,0,0,0,0,4,0,1,2,3,1]}]"#,
     );
     let [parts, matrix] = [0, 1].map(|i: usize| scene.instances[i].world_from_mesh);
-    assert!(parts.abs_diff_eq(matrix, 1e-15), "{parts:?} {matrix:?}");
+    assert_abs_diff_eq!(parts, matrix, epsilon = 1e-15);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Bounds, default camera and default light.
 
+use approx::assert_abs_diff_eq;
 use glam::{DAffine3, DVec3};
 use proptest::prelude::*;
 use rasray_scene::builtin::builtin;
@@ -34,7 +35,7 @@ fn cameras_look_where_they_are_told() {
     for target in [DVec3::ZERO, DVec3::new(1.0, 9.0, 3.0), DVec3::new(1.0, -9.0, 3.0), eye] {
         let camera = camera_looking_at("camera", eye, target, 0.5);
         let frame = camera.world_from_camera.matrix3;
-        assert!((frame.determinant() - 1.0).abs() < 1.0e-12, "{target}");
+        assert_abs_diff_eq!(frame.determinant(), 1.0, epsilon = 1.0e-12);
         let forward = (target - eye).normalize_or(DVec3::NEG_Z);
         assert!((-frame.z_axis).distance(forward) < 1.0e-12);
         assert!(frame.y_axis.y >= 0.0, "upright");

@@ -1,5 +1,6 @@
 //! OBJ and MTL statements one by one, on files written by the tests.
 
+use approx::assert_abs_diff_eq;
 use std::fs;
 use std::path::PathBuf;
 
@@ -199,7 +200,7 @@ fn a_plain_material_is_translated() {
     assert_eq!(material.base_color, [0.1, 0.2, 0.3, 1.0]);
     assert_eq!((material.metallic, material.specular), (0.0, 0.5));
     assert_eq!(material.specular_color, [0.5, 1.0, 0.0]);
-    assert!((material.roughness - 0.5).abs() < 1.0e-6);
+    assert_abs_diff_eq!(material.roughness, 0.5, epsilon = 1.0e-6);
     assert_eq!(material.emission, [1.0, 2.0, 3.0]);
     assert_eq!(material.ior, 1.33);
     assert_eq!((material.transmission, material.alpha_mode), (0.0, AlphaMode::Opaque));

@@ -1,5 +1,6 @@
 //! PLY files written by the tests, and those that others made.
 
+use approx::assert_abs_diff_eq;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -106,8 +107,8 @@ fn all_attributes_in_all_encodings() {
         assert_eq!(mesh.uvs[0].as_ref().expect("uvs")[1], [1.0, 0.75]);
         let [red, green, blue, alpha] = mesh.colors.as_ref().expect("colours")[0];
         assert_eq!((red, green), (1.0, 0.0));
-        assert!((blue - 0.503).abs() < 1.0e-3, "sRGB 188 is half the light: {blue}");
-        assert!((alpha - 128.0 / 255.0).abs() < 1.0e-6, "alpha is linear");
+        assert_abs_diff_eq!(blue, 0.503, epsilon = 1.0e-3);
+        assert_abs_diff_eq!(alpha, 128.0 / 255.0, epsilon = 1.0e-6);
         assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
         assert_eq!(scene.materials[0].base_color, [1.0; 4], "colours are not dimmed");
     }
