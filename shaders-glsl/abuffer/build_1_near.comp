@@ -3,7 +3,7 @@
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/geometry.glsl"
+#include "ads/bin_triangle.glsl"
 #include "abuffer/accessors.glsl"
 
 layout(local_size_x = ABUFFER_GROUP_SIZE) in;
@@ -17,15 +17,11 @@ void main() {
     if (primitive >= geometry_triangle_count()) {
         return;
     }
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    vec3 eye = ABUFFER_HEADER(abuffer_built).eye;
-    vec3 lower = min(a, min(b, c)) - eye;
-    vec3 upper = max(a, max(b, c)) - eye;
+    vec3 lower;
+    vec3 upper;
+    bin_box(ABUFFER_HEADER(abuffer_built).eye, primitive, lower, upper);
     float size = ABUFFER_HEADER(abuffer_built).near_size;
-    if (any(greaterThan(lower, vec3(size))) || any(lessThan(upper, vec3(-size)))) {
+    if (!bin_box_is_near(lower, upper, size)) {
         return;
     }
     uint place = atomicAdd(ABUFFER_HEADER(abuffer_built).near_demand, 1u);

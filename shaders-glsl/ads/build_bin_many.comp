@@ -3,7 +3,8 @@
 // Reads, writes: see the structure's binned.glsl; reads pairs.
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/bin_select.glsl"
+#include "ads/bin_visits.glsl"
+#include "structure/binned.glsl"
 
 layout(local_size_x = BIN_GROUP_SIZE) in;
 

@@ -32,11 +32,6 @@
 // What stands for the progress of a list that is sorted.
 #define LONG_LIST_DONE 0xFFFFFFFFu
 
-// In the word of a brick: it lists nothing.
-#define BRICK_EMPTY 0x80000000u
-// Bricks that one step over empty ones crosses at most, its own included.
-#define BRICK_REACH 8u
-
 // Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
 // with more, every such triangle is kept.
 #define FRINGE_LIMIT 4096u

@@ -10,6 +10,8 @@
 #include "ads/views.glsl"
 
 #define SEGMENT_NEAR 6u
+// In place of a face: the ray is tested against every triangle.
+#define SEGMENT_ALL 7u
 // Six planes, two sides of the near box, and the end.
 #define SEGMENT_LIMIT 10u
 

@@ -2,7 +2,8 @@
 // Reads: sums. Writes: numbers. One workgroup a block.
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/scan_select.glsl"
+#include "ads/scan.glsl"
+#include "structure/scanned.glsl"
 
 layout(local_size_x = SCAN_THREADS) in;
 

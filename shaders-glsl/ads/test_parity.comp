@@ -1,18 +1,25 @@
 // What: traces every ray through two structures in one shader and files both answers, for tests. FIRST and
-// SECOND say which.
+// SECOND name their folders.
 // Reads: geometry, both structures, rays. Writes: hits (two a ray).
 #version 460
 #include "contract/extensions.glsl"
-#include "contract/structures.glsl"
 
 #define STRUCTURE_SET 1
-#define TEST_STRUCTURE FIRST
-#define TEST_TRACE trace_first
-#include "ads/test_structure.glsl"
+#include "first/names.glsl"
+#include "first/trace.glsl"
+uint trace_first(uvec2 header, Ray ray, inout TraceState state, out Hit hit) {
+    return STRUCTURE_NAME(trace_closest)(StructureRef(header), ray, state, hit);
+}
+#undef STRUCTURE_SET
+#undef StructureRef
+#undef STRUCTURE_NAME
+
 #define STRUCTURE_SET 2
-#define TEST_STRUCTURE SECOND
-#define TEST_TRACE trace_second
-#include "ads/test_structure.glsl"
+#include "second/names.glsl"
+#include "second/trace.glsl"
+uint trace_second(uvec2 header, Ray ray, inout TraceState state, out Hit hit) {
+    return STRUCTURE_NAME(trace_closest)(StructureRef(header), ray, state, hit);
+}
 
 layout(local_size_x = 64) in;
 

@@ -1,4 +1,4 @@
-// What: where primitive lists keep the triangles with many columns of a face: where the corners of triangles will be.
+// What: where primitive lists keep the triangles with many columns of a face.
 // Reads, writes: pairs, header.pairs, header.groups.
 #ifndef PRIMITIVE_BIN_PAIRS_GLSL
 #define PRIMITIVE_BIN_PAIRS_GLSL
@@ -7,15 +7,15 @@
 #include "primitive/accessors.glsl"
 
 #ifdef ADDRESSING_ADDRESS
-#define PAIR_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).triangles_address).words[place]
+#define PAIR_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).pairs_address).words[place]
 #else
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer PrimitivePairsBuffer { uint primitive_pair_words[]; };
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitivePairsBuffer { uint primitive_pair_words[]; };
 #define PAIR_WORD(s, place) primitive_pair_words[place]
 #endif
 
 #define PairRef PrimitiveRef
 #define PAIR_HEADER(s) PRIMITIVE_HEADER(s)
-#define PAIR_CAPACITY(s) (PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(s).triangle_capacity)
+#define PAIR_CAPACITY(s) PRIMITIVE_HEADER(s).pair_capacity
 #include "ads/bin_pairs.glsl"
 
 #endif

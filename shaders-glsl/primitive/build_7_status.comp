@@ -1,5 +1,5 @@
 // What: declares the structure complete, or says what was missing.
-// Reads: header, geometry. Writes: header.status.
+// Reads: header. Writes: header.status.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/header.glsl"
@@ -14,9 +14,6 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 void main() {
     bool lists_fit = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
         && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
-    bool fits = lists_fit && PRIMITIVE_HEADER(primitive_built).record_demand <= PRIMITIVE_HEADER(primitive_built).record_capacity
-        && PRIMITIVE_HEADER(primitive_built).cell_demand <= PRIMITIVE_HEADER(primitive_built).cell_capacity
-        && PRIMITIVE_HEADER(primitive_built).pairs <= PRIMITIVE_PAIR_LIMIT * PRIMITIVE_HEADER(primitive_built).triangle_capacity
-        && (PRIMITIVE_STORAGE != PRIMITIVE_STORAGE_BRICKS || geometry_triangle_count() <= PRIMITIVE_HEADER(primitive_built).triangle_capacity);
-    PRIMITIVE_HEADER(primitive_built).status = build_status(fits);
+    bool pairs_fit = PRIMITIVE_HEADER(primitive_built).pairs <= PRIMITIVE_HEADER(primitive_built).pair_capacity;
+    PRIMITIVE_HEADER(primitive_built).status = build_status(lists_fit && pairs_fit);
 }

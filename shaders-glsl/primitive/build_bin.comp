@@ -20,7 +20,7 @@ void main() {
     vec3 a;
     vec3 b;
     vec3 c;
-    if (primitive >= triangles || !bin_corners(primitive_built, primitive, a, b, c)) {
+    if (primitive >= triangles || !bin_corners(PRIMITIVE_HEADER(primitive_built).centre, primitive, a, b, c)) {
         return;
     }
     PrimitiveGrid grid = primitive_grid(primitive_built);

@@ -26,7 +26,7 @@ void main() {
     vec3 b;
     vec3 c;
     ListBin bin;
-    if (!bin_corners(primitive_built, primitive, a, b, c)
+    if (!bin_corners(PRIMITIVE_HEADER(primitive_built).centre, primitive, a, b, c)
         || !list_bin_begin(grid, primitive, pair / triangles, a, b, c, bin)) {
         return;
     }

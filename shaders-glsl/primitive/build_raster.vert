@@ -9,25 +9,6 @@
 
 layout(location = 0) flat out uvec2 primitive_and_face;
 
-// Proposes the columns of a view along z: a square viewport of as many columns a side as the longer side has,
-// with a border of one.
-vec4 propose_columns(uint primitive, uint corner) {
-    vec3 p[3];
-    geometry_vertices(primitive, p[0], p[1], p[2]);
-    vec3 centre = PRIMITIVE_HEADER(primitive_built).centre;
-    vec3 lower = PRIMITIVE_HEADER(primitive_built).cells_lower;
-    vec3 per_metre = PRIMITIVE_HEADER(primitive_built).cells_per_metre;
-    float rounding = PRIMITIVE_HEADER(primitive_built).rounding;
-    uint side = max(PRIMITIVE_HEADER(primitive_built).tiles, PRIMITIVE_HEADER(primitive_built).rows);
-    for (int k = 0; k < 3; k++) {
-        p[k] = vec3((p[k] - centre - lower).xy * per_metre.xy * (2.0 / float(side)) - 1.0, 1.0);
-    }
-    // Half a column and how far columns reach beyond their sides, with 1/32 of a column for the hardware's
-    // grid and as much for rounding.
-    float margin = 0.5 + rounding * max(per_metre.x, per_metre.y) + 1.0 / 16.0;
-    return coverage_proposal_within(p[0], p[1], p[2], corner, side, margin * 2.0 / float(side));
-}
-
 void main() {
     uint primitive = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
@@ -41,13 +22,9 @@ void main() {
     primitive_face_vertices(primitive_built, primitive, face, a, b, c);
     if (!primitive_is_listed(primitive)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
-    } else if (PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES) {
-        gl_Position = propose_columns(primitive, corner);
     } else if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_CONSERVATIVE) {
         // The centre of every cell that the triangle reaches into, with 1/32 of a cell for the hardware's grid.
         float margin = 1.0 / float(tiles) + primitive_margin(grid, a, b, c) + 1.0 / (16.0 * float(tiles));
-        // Columns of bricks reach farther beyond their sides: brick_margin.
-        margin += PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS ? 2.0e-6 : 0.0;
         gl_Position = coverage_proposal_within(a, b, c, corner, tiles, margin);
     } else {
         vec3 p = corner == 0u ? a : (corner == 1u ? b : c);

@@ -5,11 +5,6 @@
 // How the lists of a cell are kept.
 #define PRIMITIVE_STORAGE_LINKED 0u
 #define PRIMITIVE_STORAGE_CONTIGUOUS 1u
-#define PRIMITIVE_STORAGE_BRICKS 2u
-
-// What columns of bricks are: of the faces of a cube around a centre, or of one box along the axes of the world.
-#define PRIMITIVE_VIEWS_CUBE 0u
-#define PRIMITIVE_VIEWS_AXES 1u
 
 // Which cells list a triangle.
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
@@ -35,23 +30,6 @@
 #define PRIMITIVE_VISIT_BOUNDS 1
 #define PRIMITIVE_VISIT_COUNT 2
 #define PRIMITIVE_VISIT_STORE 3
-
-// The same for bricks, whose cells list what lies within the rounding of the test in two coordinates (240 units) and
-// that of the march (96).
-#define PRIMITIVE_BRICK_ROUNDING 2.0e-5
-
-// How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
-#define PRIMITIVE_BRICK_PLACE 9.6e-7
-
-// Most columns a side of a face and most slices of bricks: loops over them stay far below the iterations that drivers
-// allow an invocation.
-#define PRIMITIVE_BRICK_SIDE_LIMIT 1024u
-#define PRIMITIVE_BRICK_SLICE_LIMIT 1024u
-
-// Octaves of depth in which triangles are counted, and the share of the triangles, one in so many, that may begin
-// nearer than the first slice that is cut finely.
-#define PRIMITIVE_OCTAVES 32u
-#define PRIMITIVE_OCTAVE_SHARE 256u
 
 // Columns a side of the blocks that an invocation of the workgroups for large triangles looks at by turns.
 #define PRIMITIVE_BIN_BLOCK 4

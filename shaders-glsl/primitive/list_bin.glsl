@@ -4,7 +4,8 @@
 #ifndef PRIMITIVE_LIST_BIN_GLSL
 #define PRIMITIVE_LIST_BIN_GLSL
 
-#include "primitive/bin.glsl"
+#include "ads/bin_triangle.glsl"
+#include "primitive/overlap.glsl"
 #include "primitive/corner_depths.glsl"
 #include "primitive/visit.glsl"
 
@@ -30,7 +31,7 @@ bool list_bin_begin(PrimitiveGrid grid, uint primitive, uint face, vec3 a, vec3 
     bin.c = face_from_world(c, face);
     bin.margin = primitive_margin(grid, bin.a, bin.b, bin.c);
     if (max(bin.a.z, max(bin.b.z, bin.c.z)) < 0.5 * grid.near_size
-        || !bin_bounds(grid, bin.a, bin.b, bin.c, bin.margin, 1, bin.lower, bin.upper)) {
+        || !bin_bounds(grid.tiles, grid.near_size, bin.a, bin.b, bin.c, bin.margin, 1, bin.lower, bin.upper)) {
         return false;
     }
     bin.overlap = overlap_begin(bin.a, bin.b, bin.c);

@@ -20,13 +20,6 @@ struct PrimitiveSearch {
     PrimitiveCursor list;
 };
 
-// Tests a candidate. A hit counts by its t alone, in whatever cell it lies. True if it became the best.
-bool primitive_test(uint primitive, Ray ray, inout TraceState state) {
-    float infinity = uintBitsToFloat(0x7F800000u);
-    state.tests++;
-    return test_triangle(ray, primitive, -infinity, infinity, state.best);
-}
-
 // Depths between two t, widened by rounding: that of the ray, and `rounding` of the triangles.
 vec2 primitive_ray_depths(float origin_z, float direction_z, float t_low, float t_high, float rounding) {
     float low = origin_z + t_low * direction_z;
@@ -89,8 +82,9 @@ bool primitive_search(PrimitiveRef s, Ray ray, PrimitiveTile tile, float slack, 
             uint primitive = primitive_list_next(s, search.list);
             trace_log(STEP_ENTRY, search.list.at, 0u, 0u, 0.0, 0.0);
             if (primitive != PRIMITIVE_NONE) {
+                // A hit counts by its t alone, in whatever cell it lies, unless the paper's rule is chosen.
                 bool better = PRIMITIVE_ACCEPT == PRIMITIVE_ACCEPT_TILE
-                    ? primitive_test_in_tile(s, tile, primitive, ray, state) : primitive_test(primitive, ray, state);
+                    ? primitive_test_in_tile(s, tile, primitive, ray, state) : test_anywhere(ray, primitive, state);
                 search.found = search.found || better;
             }
             if (any_hit && state.best.primitive != PRIMITIVE_NONE) {

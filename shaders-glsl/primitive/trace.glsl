@@ -9,7 +9,11 @@
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
 #include "primitive/leap.glsl"
-#include "primitive/brick_trace.glsl"
+
+#define ListedRef PrimitiveRef
+#define LISTED_HEADER(s) PRIMITIVE_HEADER(s)
+#define LISTED_NEAR(s) PRIMITIVE_NEAR_LIST(s)
+#include "ads/listed.glsl"
 
 // Searches the cells of one face. True if the budget ended first; `ended` where nothing behind can count.
 bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveWalk walk, inout TraceState state,
@@ -59,15 +63,10 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     vec3 direction = ray.direction;
     float reach = PRIMITIVE_HEADER(s).reach;
     float slack = hit_slack(origin, direction, reach);
-    // Views along axes meet nowhere, so that no near box stands between them.
-    vec2 near = PRIMITIVE_VIEWS == PRIMITIVE_VIEWS_AXES ? vec2(1.0, 0.0)
-        : near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
+    vec2 near = near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
     vec2 clip = bounds_interval(PRIMITIVE_HEADER(s).lower, PRIMITIVE_HEADER(s).upper, origin, direction, ray.t_min - slack,
         ray.t_max + slack);
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
-    if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_BRICKS) {
-        return brick_trace(s, ray, origin, clip, near, slack, distant, any_hit, state);
-    }
     PrimitiveWalk walk;
     uint work = 0u;
     float t = clip.x;
@@ -83,7 +82,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
                 break;
             }
             walk.segment = segment_at(origin, direction, t, clip.y, near);
-            walk.segment.face = distant ? PRIMITIVE_SEGMENT_ALL : walk.segment.face;
+            walk.segment.face = distant ? SEGMENT_ALL : walk.segment.face;
             primitive_begin_walk(s, origin, direction, walk);
             trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
         }
@@ -92,7 +91,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
         bool ended = distant;
         bool paused = primitive_walks_cells(walk)
             ? primitive_trace_cells(s, ray, slack, any_hit, walk, state, work, ended)
-            : primitive_test_listed(s, ray, walk.segment.face == PRIMITIVE_SEGMENT_ALL, any_hit, walk.place, state, work);
+            : listed_test(s, ray, walk.segment.face == SEGMENT_ALL, any_hit, walk.place, state, work);
         if (paused) {
             primitive_save(walk, state);
             return TRACE_PAUSED;

@@ -9,9 +9,6 @@
 #include "primitive/jump.glsl"
 #include "primitive/search.glsl"
 
-// In place of a face: the ray is tested against every triangle.
-#define PRIMITIVE_SEGMENT_ALL 7u
-
 #define PRIMITIVE_CURSOR_STARTED 1u
 #define PRIMITIVE_CURSOR_SEARCHING 2u
 

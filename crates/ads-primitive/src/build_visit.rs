@@ -10,7 +10,7 @@ use crate::{Config, Header};
 pub(crate) fn visit(pipelines: &BuildPipelines<'_>, config: &Config, name: &str) -> Result<Visit, AdsError> {
     let label = format!("primitive/{name}");
     let module = |ending| format!("{name}_{ending}");
-    match config.builder() {
+    match config.builder {
         Builder::Raster => Visit::drawn(pipelines, &format!("{label}_draw"), "build_raster", &module("draw")),
         Builder::Binning => {
             let groups = offset_of!(Header, groups);

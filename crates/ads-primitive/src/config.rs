@@ -1,17 +1,9 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Builder, Counters};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::views::cells_along;
-use crate::{Accept, Coverage, Depths, March, Stop, Views};
-
-/// Cells a side of a brick.
-pub(crate) const BRICK_SIDE: u32 = 4;
-/// Most tiles a side of a face of bricks, and most cells along an axis.
-pub(crate) const SIDE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SIDE_LIMIT;
-/// Most slices.
-const SLICE_LIMIT: u32 = numbers::PRIMITIVE_BRICK_SLICE_LIMIT;
+use crate::{Accept, Coverage, Depths, March, Stop};
 
 /// How the lists of a cell are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,9 +12,6 @@ pub enum Storage {
     Linked,
     /// Triangles one behind the other, by counting first: 4 bytes an entry.
     Contiguous,
-    /// Contiguous lists of cells that are tiles cut into depth slices, in bricks of 4x4x4 with a mask: empty space is
-    /// crossed by many bricks at a time.
-    Bricks,
 }
 
 /// Where the faces of the cube meet. Changes no hit where [`Config::is_exact`].
@@ -38,29 +27,19 @@ pub enum Centre {
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Pixels a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
+    /// Pixels along a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
     pub resolution: u32,
-    /// Pixels a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where [`Config::is_exact`].
+    /// Pixels along a side of a tile, 1 to 64: lists are kept per tile. Changes no hit where [`Config::is_exact`].
     pub tile: u32,
-    /// Depth buckets a tile, 1 to 64; bricks have slices instead. Changes no hit where [`Config::is_exact`].
+    /// Depth buckets per tile, 1 to 64. Changes no hit where [`Config::is_exact`].
     pub buckets: u32,
-    /// Bricks only: depth slices, the same for all tiles, at most 1024, made up to a multiple of 4; twice the tiles of
-    /// a side where absent. Changes no hit.
-    pub slices: Option<u32>,
-    /// Bricks only: keep the corners of triangles once more, one behind the other, 36 bytes each. Changes no hit.
-    pub corners: bool,
     /// How lists are kept.
     pub storage: Storage,
-    /// What is seen where. Resolution, tile, slices and centre are those of [`Views::Cube`].
-    pub views: Views,
-    /// [`Views::Axes`] only: cells along the longest side of the geometry's bounds, 1 to 1024, made up to a
-    /// multiple of 4; where absent, as many as make a cell about as wide as a triangle. Changes no hit.
-    pub grid: Option<u32>,
     /// Where the faces meet.
     pub centre: Centre,
-    /// Who puts triangles into cells; absent: the rasterizer for lists, a compute pass for bricks. Changes no hit.
-    pub builder: Option<Builder>,
-    /// Lists only, with [`Config::skip`]: depth bounds of blocks of tiles, over which a ray leaps. Changes no hit where
+    /// Who puts triangles into tiles. Changes no hit.
+    pub builder: Builder,
+    /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
     /// [`Config::is_exact`].
     pub pyramid: bool,
     /// Which tiles list a triangle.
@@ -73,8 +52,7 @@ pub struct Config {
     pub depths: Depths,
     /// How a ray goes on from a tile.
     pub march: March,
-    /// Skip tiles and buckets that the ray's depths cannot meet, or empty bricks. Changes no hit where
-    /// [`Config::is_exact`].
+    /// Skip tiles and buckets that the ray's depths cannot reach. Changes no hit where [`Config::is_exact`].
     pub skip: bool,
     /// How pools are reached.
     pub addressing: Addressing,
@@ -93,13 +71,9 @@ impl Config {
             resolution,
             tile: 2,
             buckets: 16,
-            slices: None,
-            corners: true,
-            storage: Storage::Bricks,
-            views: Views::Cube,
-            grid: None,
+            storage: Storage::Contiguous,
             centre: Centre::Scene,
-            builder: None,
+            builder: Builder::Raster,
             pyramid: false,
             coverage: Coverage::Conservative,
             accept: Accept::T,
@@ -112,16 +86,6 @@ impl Config {
             counters: Counters::Off,
             work_budget: None,
         }
-    }
-
-    /// The same with as many pixels a side as suit that many triangles: bricks whose tiles are about as wide as a
-    /// triangle is seen, a power of two from 32 to 256.
-    pub fn robust_for(triangles: u32) -> Self {
-        let wanted = f64::from(triangles).sqrt() / 4.0;
-        // Of two powers of two the nearer by ratio.
-        let tiles = 2.0_f64.powf(wanted.max(1.0).log2().round()).clamp(32.0, 256.0) as u32;
-        let unit = Self::robust(1);
-        Self::robust(tiles * unit.tile)
     }
 
     /// The paper's structure: linked lists, 20 buckets, and its rules, by which hits are lost.
@@ -158,49 +122,14 @@ impl Config {
         .find_map(|(kept, rule)| (!kept).then_some(rule))
     }
 
-    /// Tiles a side of a face: the cells of the march. A last tile may reach beyond the face's pixels. Bricks have a
-    /// multiple of 4.
+    /// Tiles along a side of a face: the cells of the march. A last tile may reach beyond the face's pixels.
     pub fn tiles(&self) -> u32 {
-        let tiles = self.resolution.div_ceil(self.tile.max(1));
-        if self.storage == Storage::Bricks { tiles.next_multiple_of(BRICK_SIDE) } else { tiles }
-    }
-
-    /// Depth slices of bricks; 0 for lists.
-    pub fn slices(&self) -> u32 {
-        let slices = || self.slices.unwrap_or_else(|| (2 * self.tiles()).min(SLICE_LIMIT));
-        if self.storage == Storage::Bricks { slices().next_multiple_of(BRICK_SIDE) } else { 0 }
-    }
-
-    /// Columns, rows and slices of each view of bricks over a geometry.
-    pub fn cells(&self, geometry: &Geometry) -> [u32; 3] {
-        match self.views {
-            Views::Cube => [self.tiles(), self.tiles(), self.slices()],
-            Views::Axes => cells_along(geometry.bounds(), geometry.triangle_count(), self.grid),
-        }
-    }
-
-    /// How many views there are.
-    pub(crate) fn view_count(&self) -> u32 {
-        match self.views {
-            Views::Cube => 6,
-            Views::Axes => 1,
-        }
-    }
-
-    /// Who puts triangles into cells.
-    pub fn builder(&self) -> Builder {
-        let usual = if self.storage == Storage::Bricks { Builder::Binning } else { Builder::Raster };
-        self.builder.unwrap_or(usual)
+        self.resolution.div_ceil(self.tile.max(1))
     }
 
     /// Whether there are blocks of cells.
     pub(crate) fn has_pyramid(&self) -> bool {
-        self.pyramid && self.skip && self.storage != Storage::Bricks
-    }
-
-    /// Whether triangles' corners are kept once more.
-    pub(crate) fn keeps_corners(&self) -> bool {
-        self.corners && self.storage == Storage::Bricks
+        self.pyramid && self.skip
     }
 
     /// Checks ranges.
@@ -218,42 +147,7 @@ impl Config {
         range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels a side")?;
         range("tile", self.tile, 1, 64, "1 to 64 pixels a side")?;
         range("buckets", self.buckets, 1, 64, "1 to 64 buckets a tile")?;
-        range("slices", self.slices.unwrap_or(1), 1, SLICE_LIMIT, "1 to 1024 depth slices")?;
-        if self.storage == Storage::Bricks {
-            let expected = "bricks have at most 1024 tiles a side: raise the tile or lower the resolution";
-            range("tiles a side", self.tiles(), 1, SIDE_LIMIT, expected)?;
-            if let Some((option, value)) = self.lossy_rule() {
-                let expected = "bricks lose no hit, so they follow no such rule: take storage sb or llb";
-                return Err(AdsError::Option { option, value: value.to_owned(), expected });
-            }
-        }
-        range("grid", self.grid.unwrap_or(1), 1, SIDE_LIMIT, "1 to 1024 cells along the longest side")?;
-        let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
-        match (self.views, self.storage, self.grid, self.slices) {
-            (Views::Cube, _, Some(grid), _) => {
-                return refused(
-                    "grid",
-                    grid.to_string(),
-                    "the faces of a cube have a resolution: take views axes",
-                );
-            }
-            (Views::Axes, Storage::Linked | Storage::Contiguous, ..) => {
-                return refused(
-                    "views",
-                    "axes".to_owned(),
-                    "lists are those of a cube's faces: take storage bricks",
-                );
-            }
-            (Views::Axes, _, _, Some(slices)) => {
-                return refused(
-                    "slices",
-                    slices.to_string(),
-                    "views along axes have cells of one size: take grid",
-                );
-            }
-            _ => {}
-        }
-        if self.coverage == Coverage::Hardware && self.builder() == Builder::Binning {
+        if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: take builder raster";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
         }
@@ -266,7 +160,6 @@ impl Config {
         let storage = match self.storage {
             Storage::Linked => numbers::PRIMITIVE_STORAGE_LINKED,
             Storage::Contiguous => numbers::PRIMITIVE_STORAGE_CONTIGUOUS,
-            Storage::Bricks => numbers::PRIMITIVE_STORAGE_BRICKS,
         };
         let coverage = match self.coverage {
             Coverage::Hardware => numbers::PRIMITIVE_COVERAGE_HARDWARE,
@@ -288,57 +181,40 @@ impl Config {
             March::Exact => numbers::PRIMITIVE_MARCH_EXACT,
             March::Jump => numbers::PRIMITIVE_MARCH_JUMP,
         };
-        let corners = u32::from(self.keeps_corners());
-        let skip = u32::from(self.skip);
-        let pyramid = u32::from(self.has_pyramid());
-        let views = match self.views {
-            Views::Cube => numbers::PRIMITIVE_VIEWS_CUBE,
-            Views::Axes => numbers::PRIMITIVE_VIEWS_AXES,
-        };
-        [self.buckets, storage, coverage, skip, corners, accept, stop, depths, march, pyramid, views]
+        let (skip, pyramid) = (u32::from(self.skip), u32::from(self.has_pyramid()));
+        [self.buckets, storage, coverage, skip, pyramid, accept, stop, depths, march]
             .into_iter()
             .zip(30..)
             .map(|(value, id)| (id, value))
             .collect()
     }
 
-    /// Options as name and value, for reports; `cells` are those of a view of bricks.
-    pub fn options(&self, cells: [u32; 3]) -> Vec<(&'static str, String)> {
+    /// Options as name and value, for reports.
+    pub fn options(&self) -> Vec<(&'static str, String)> {
         let storage = match self.storage {
             Storage::Linked => "llb",
             Storage::Contiguous => "sb",
-            Storage::Bricks => "bricks",
         };
         let switch = |on| if on { "on" } else { "off" }.to_owned();
-        let mut options = vec![("storage", storage.to_owned()), ("views", self.views.name().to_owned())];
-        if self.views == Views::Axes {
-            options.push(("grid", cells.map(|n| n.to_string()).join("x")));
-            options.extend([("corners", switch(self.corners)), ("skip", switch(self.skip))]);
-            return options;
-        }
-        options.extend([("resolution", self.resolution.to_string()), ("tile", self.tile.to_string())]);
-        if self.storage == Storage::Bricks {
-            options.push(("slices", self.slices().to_string()));
-            options.push(("corners", switch(self.corners)));
-        } else {
-            let lower = |rule: &dyn std::fmt::Debug| format!("{rule:?}").to_lowercase();
-            options.extend([
-                ("buckets", self.buckets.to_string()),
-                ("pyramid", switch(self.has_pyramid())),
-                ("coverage", lower(&self.coverage)),
-                ("accept", lower(&self.accept)),
-                ("stop", lower(&self.stop)),
-                ("depths", lower(&self.depths)),
-                ("march", lower(&self.march)),
-            ]);
-        }
-        let centre = format!("{:?}", self.centre).to_lowercase();
-        options.extend([("skip", switch(self.skip)), ("centre", centre)]);
-        options
+        let lower = |rule: &dyn std::fmt::Debug| format!("{rule:?}").to_lowercase();
+        vec![
+            ("storage", storage.to_owned()),
+            ("resolution", self.resolution.to_string()),
+            ("tile", self.tile.to_string()),
+            ("buckets", self.buckets.to_string()),
+            ("pyramid", switch(self.has_pyramid())),
+            ("coverage", lower(&self.coverage)),
+            ("accept", lower(&self.accept)),
+            ("stop", lower(&self.stop)),
+            ("depths", lower(&self.depths)),
+            ("march", lower(&self.march)),
+            ("skip", switch(self.skip)),
+            ("centre", lower(&self.centre)),
+        ]
     }
 
     /// Paths as name and value, for reports.
     pub fn paths(&self) -> Vec<(&'static str, String)> {
-        vec![("builder", self.builder().name().to_owned()), ("addressing", self.addressing.name().to_owned())]
+        vec![("builder", self.builder.name().to_owned()), ("addressing", self.addressing.name().to_owned())]
     }
 }

@@ -4,19 +4,7 @@ use rasray_ads::{AdsError, Geometry, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::config::BRICK_SIDE;
-use crate::{Builder, Config, Header, Storage, Views};
-
-/// The pool that holds what is known of each cell: bounds of lists, or bricks.
-pub(crate) fn cells_pool(storage: Storage) -> &'static str {
-    if storage == Storage::Bricks { "bricks" } else { "bounds" }
-}
-
-/// Words of a brick: its own and two of the mask.
-const BRICK_WORDS: u64 = 3;
-
-/// Words of a record of the binning builder.
-const RECORD_WORDS: u64 = 3;
+use crate::{Builder, Config, Header, Storage};
 
 /// What a build asks for, counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,31 +13,14 @@ pub struct Demand {
     pub entries: u64,
     /// Triangles around the eye.
     pub near: u64,
-    /// Bricks only: triangles in columns of tiles.
-    pub records: u64,
-    /// Bricks only: cells that list something.
-    pub cells: u64,
-    /// Bricks, and lists that a compute pass fills: triangles of the geometry.
+    /// Triangles of the geometry, where a compute pass puts them into tiles.
     pub triangles: u64,
-    /// Bricks of [`Views::Axes`] only: columns, rows and slices, [`Config::cells`] of the geometry.
-    pub grid: [u32; 3],
 }
 
-/// Cells of all six faces of `tiles` tiles a side, each with a border of one: those of lists.
+/// Cells of all six faces of `tiles` tiles a side, each with a border of one.
 pub fn cell_count(tiles: u32) -> u64 {
     let side = u64::from(tiles) + 2;
     6 * side * side
-}
-
-/// Bricks along each side of a view, and in all views; `cells` are those of a view.
-pub(crate) fn bricks_of(config: &Config, cells: [u32; 3]) -> ([u64; 3], u64) {
-    let along = cells.map(|cells| u64::from(cells / 4));
-    (along, u64::from(config.view_count()) * along.iter().product::<u64>())
-}
-
-/// Words of all bricks of views of so many cells.
-pub(crate) fn brick_words(config: &Config, cells: [u32; 3]) -> u64 {
-    bricks_of(config, cells).1 * BRICK_WORDS
 }
 
 /// Words of the bounds of a cell: both ends, and the scale where there are several buckets.
@@ -61,25 +32,21 @@ pub(crate) fn bounds_words(config: &Config) -> u64 {
 pub(crate) fn entry_words(storage: Storage) -> u64 {
     match storage {
         Storage::Linked => 2,
-        Storage::Contiguous | Storage::Bricks => 1,
+        Storage::Contiguous => 1,
     }
 }
 
-/// Words a triangle: its corners, or the pairs of a triangle and a face that cover many columns, which
-/// binning needs while it builds. None for lists that are drawn.
-pub(crate) fn triangle_words(config: &Config) -> u64 {
-    match (config.storage, config.builder()) {
-        (Storage::Bricks, _) if config.keeps_corners() => 9,
-        (Storage::Bricks, _) | (_, Builder::Binning) => numbers::PRIMITIVE_PAIR_LIMIT.into(),
-        (_, Builder::Raster) => 0,
+/// Words per triangle: the pairs of a triangle and a face that cover many columns, which binning needs while it
+/// builds. None for lists that are drawn.
+pub(crate) fn pair_words(config: &Config) -> u64 {
+    match config.builder {
+        Builder::Binning => numbers::PRIMITIVE_PAIR_LIMIT.into(),
+        Builder::Raster => 0,
     }
 }
 
-/// Workgroups a triangle with many columns of a face: so many that no invocation's loops turn more often than they may.
+/// Workgroups per triangle with many columns of a face: so many that no invocation's loops turn more often than they may.
 pub(crate) fn bin_groups(config: &Config) -> u32 {
-    if config.storage == Storage::Bricks {
-        return 1;
-    }
     let block = numbers::PRIMITIVE_BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
     // Each block, its rows and columns, and the buckets of each column.
@@ -104,38 +71,18 @@ fn pyramid_words(config: &Config) -> u64 {
 /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    let tiles = cell_count(config.tiles());
-    let cells = match config.views {
-        Views::Cube => [config.tiles(), config.tiles(), config.slices()],
-        // A brick at least, so that a build can say what it needs.
-        Views::Axes => demand.grid.map(|along| along.max(BRICK_SIDE)),
-    };
-    let (_, bricks) = bricks_of(config, cells);
-    let lists = tiles * u64::from(config.buckets);
-    let (cells, cell_words, lists, sums) = match config.storage {
-        Storage::Linked => (tiles, bounds_words(config), lists, 0),
-        Storage::Contiguous => (tiles, bounds_words(config), lists, Scan::sums(lists)),
-        Storage::Bricks => {
-            // The distances of bricks are found where the sums were.
-            let distances = if config.skip { bricks } else { 0 };
-            (bricks, BRICK_WORDS, demand.cells, Scan::sums(bricks.max(demand.cells)).max(distances))
-        }
-    };
-    let of_bricks = |elements| if config.storage == Storage::Bricks { elements } else { 0 };
+    let cells = cell_count(config.tiles());
+    let lists = cells * u64::from(config.buckets);
+    let sums = if config.storage == Storage::Contiguous { Scan::sums(lists) } else { 0 };
     let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
     let pools = vec![
         PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
-        pool(cells_pool(config.storage), cells * cell_words + pyramid_words(config), 1),
+        pool("bounds", cells * bounds_words(config) + pyramid_words(config), 1),
         pool("lists", lists, 1),
         pool("entries", demand.entries, entry_words(config.storage)),
         pool("sums", sums, 1),
         pool("near", demand.near, 1),
-        pool("records", of_bricks(demand.records), RECORD_WORDS),
-        pool(
-            "triangles",
-            if triangle_words(config) > 0 { demand.triangles } else { 0 },
-            triangle_words(config).max(1),
-        ),
+        pool("pairs", pair_words(config) * demand.triangles, 1),
     ];
     // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
     if let Some(pool) =
@@ -146,32 +93,23 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Ok(Sizes { pools })
 }
 
-/// The first guess where nothing has been counted: four entries a cell; for bricks, eight columns a triangle, of two
-/// cells each, half of which stand alone in theirs.
+/// The first guess where nothing has been counted: four entries per cell.
 pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-    let (triangles, grid) = (u64::from(geometry.triangle_count()), config.cells(geometry));
-    let guess = match config.storage {
-        Storage::Bricks => 16 * triangles,
-        Storage::Linked | Storage::Contiguous => 4 * cell_count(config.tiles()),
-    };
-    let entries = config.entries.unwrap_or(guess);
-    let near = if config.views == Views::Axes { 0 } else { 64 };
-    plan(config, &Demand { entries, near, records: entries / 2, cells: entries / 2, triangles, grid })
+    let entries = config.entries.unwrap_or_else(|| 4 * cell_count(config.tiles()));
+    plan(config, &Demand { entries, near: 64, triangles: geometry.triangle_count().into() })
 }
 
 /// Bytes for counted cells, buckets and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Lists: a tile 8, a list of each bucket 4, and a scale of 4 where there are several buckets; 8 a block of the
-    /// pyramid. Bricks: each 12, and 4
-    /// per cell that lists something.
+    /// Per tile 8, per list of each bucket 4, and a scale of 4 where there are several buckets; 8 per block of the
+    /// pyramid.
     pub cells: u64,
     /// Per entry: 4, or 8 in a linked list.
     pub entries: u64,
-    /// Per 1024 numbers that are scanned: a sum of 4. Bricks: 4 each where distances of empty ones are found.
+    /// Per 1024 numbers that are scanned: a sum of 4.
     pub scan: u64,
-    /// Header, 4 per triangle of the near list; bricks: 12 per triangle in a column of tiles, and per triangle 36 for
-    /// its corners or 24 while it is filed, as for lists that a compute pass fills.
+    /// Header, 4 per triangle of the near list, and 24 per triangle where a compute pass puts them into tiles.
     pub rest: u64,
 }
 
@@ -185,22 +123,6 @@ impl FormulaBytes {
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
-    let rest = 356 + 4 * demand.near;
-    if config.storage == Storage::Bricks {
-        let side = tiles.div_ceil(4);
-        let slices = config.slices.map_or((8 * side).min(1024), u64::from);
-        let bricks = if config.views == Views::Axes {
-            demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64
-        } else {
-            6 * side * side * slices.div_ceil(4)
-        };
-        return FormulaBytes {
-            cells: 12 * bricks + 4 * demand.cells,
-            entries: 4 * demand.entries,
-            scan: if config.skip { 4 * bricks } else { bricks.max(demand.cells).div_ceil(1024) * 4 },
-            rest: rest + 12 * demand.records + demand.triangles * if config.corners { 36 } else { 24 },
-        };
-    }
     let cells = (tiles + 2) * (tiles + 2) * 6;
     let buckets = u64::from(config.buckets);
     let contiguous = config.storage == Storage::Contiguous;
@@ -209,12 +131,12 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
         side = side.div_ceil(2);
         blocks += 6 * side * side;
     }
-    let pairs = if config.builder == Some(Builder::Binning) { 24 * demand.triangles } else { 0 };
+    let pairs = if config.builder == Builder::Binning { 24 * demand.triangles } else { 0 };
     FormulaBytes {
         cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }) + 8 * blocks,
         entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest: rest + pairs,
+        rest: 148 + 4 * demand.near + pairs,
     }
 }
 
@@ -224,51 +146,25 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        let demand = Demand {
-            entries: 12_345,
-            near: 7,
-            records: 2_345,
-            cells: 1_234,
-            triangles: 99,
-            grid: [8, 12, 4],
-        };
+        let demand = Demand { entries: 12_345, near: 7, triangles: 99 };
         for (resolution, tile, buckets, storage) in [
             (64, 1, 1, Storage::Linked),
             (256, 2, 16, Storage::Contiguous),
             (100, 8, 64, Storage::Contiguous),
             (33, 4, 4, Storage::Linked),
-            (64, 1, 1, Storage::Bricks),
-            (33, 2, 4, Storage::Bricks),
         ] {
-            for (slices, skip, corners, builder, pyramid) in [
-                (None, true, true, None, true),
-                (Some(13), false, true, Some(Builder::Binning), true),
-                (Some(8), true, false, Some(Builder::Raster), false),
+            for (skip, builder, pyramid) in [
+                (true, Builder::Raster, true),
+                (false, Builder::Binning, true),
+                (true, Builder::Raster, false),
             ] {
                 let own = Config::robust(resolution);
-                let config =
-                    Config { tile, buckets, storage, slices, skip, corners, builder, pyramid, ..own };
+                let config = Config { tile, buckets, storage, skip, builder, pyramid, ..own };
                 let sizes = plan(&config, &demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
                 let more = Demand { entries: demand.entries + 1, ..demand };
                 assert_ne!(sizes.bytes(), formula_bytes(&config, &more).total());
             }
-        }
-    }
-
-    /// Bricks along axes are as many as the cells of the geometry, whatever the resolution.
-    #[test]
-    fn plan_equals_formula_along_axes() {
-        let demand = Demand { entries: 500, records: 400, cells: 300, triangles: 99, ..Demand::default() };
-        for (skip, corners) in [(true, true), (false, true), (true, false)] {
-            let config = Config { views: Views::Axes, skip, corners, ..Config::robust(64) };
-            let bytes = [[4, 4, 4], [64, 12, 128]].map(|grid| {
-                let demand = Demand { grid, ..demand };
-                let sizes = plan(&config, &demand).expect("options are in range");
-                assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
-                sizes.bytes()
-            });
-            assert!(bytes[0] < bytes[1]);
         }
     }
 
@@ -311,14 +207,6 @@ mod tests {
         assert!(message(Config { resolution: 0, ..Config::robust(64) }).contains("resolution is 0"));
         let budget = Config { work_budget: Some(0), ..Config::robust(64) };
         assert!(message(budget).contains("work budget is 0"));
-        let bricks = Config { storage: Storage::Bricks, tile: 1, ..Config::robust(1028) };
-        assert!(message(bricks).contains("tiles a side is 1028"));
-        assert!(message(Config { slices: Some(1025), ..bricks }).contains("slices is 1025"));
-        assert!(message(Config { grid: Some(8), ..Config::robust(64) }).contains("views axes"));
-        let axes = Config { views: Views::Axes, ..Config::robust(64) };
-        assert!(message(Config { storage: Storage::Linked, ..axes }).contains("storage bricks"));
-        assert!(message(Config { slices: Some(8), ..axes }).contains("take grid"));
-        assert!(message(Config { grid: Some(1025), ..axes }).contains("grid is 1025"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&Config::robust(64), &demand).unwrap_err().to_string().contains("entries"));
     }

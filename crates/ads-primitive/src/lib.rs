@@ -8,16 +8,13 @@
 //! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
 mod build;
-mod build_bricks;
 mod build_visit;
-mod centre;
 mod config;
 mod header;
 mod layout;
 mod rules;
 mod structure;
 mod validate;
-mod views;
 
 pub use config::{Centre, Config, Storage};
 pub use header::Header;
@@ -26,4 +23,3 @@ pub use rasray_ads::{Addressing, Builder};
 pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::{Passes, PrimitiveLists};
 pub use validate::{Contents, Fault, well_formed};
-pub use views::Views;

@@ -1,4 +1,4 @@
-//! The paper's rules, each beside the one that takes its place. Lists alone follow them.
+//! The paper's rules, each next to the one that takes its place.
 
 /// Which cells list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

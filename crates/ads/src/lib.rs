@@ -21,6 +21,7 @@
 
 mod addressing;
 mod brute_force;
+mod centre;
 mod counters;
 mod design;
 mod error;
@@ -40,6 +41,7 @@ mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use brute_force::BruteForce;
+pub use centre::centre_within;
 pub use counters::Counters;
 pub use design::{Common, Demand, Design, Outcome, Parts};
 pub use error::AdsError;

@@ -15,7 +15,6 @@ mod renderer;
 pub mod report;
 mod scene_source;
 pub mod structure;
-mod structure_values;
 pub mod systems;
 mod terminal;
 mod texels;

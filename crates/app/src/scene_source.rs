@@ -1,10 +1,10 @@
 //! From what was typed to a scene that can be rendered.
 
 use crate::arguments::SceneArguments;
+use crate::arguments::values::Switch;
 use crate::environment;
 use crate::error::AppError;
 use crate::report::{SceneRecord, SmallerImageRecord};
-use crate::structure::Switch;
 use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;

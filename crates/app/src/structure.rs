@@ -1,237 +1,158 @@
-//! Options of acceleration structures, with the words that every system shares.
+//! Systems, presets and options of structures on the command line, made from the rows of the registry.
 
-use clap::{Args, ValueEnum};
-use serde::{Deserialize, Serialize};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::{Map, Value};
 
-pub use crate::structure_values::{
-    Accept, Addressing, Axes, Builder, Centre, Coverage, Depth, Depths, LayerBuild, March, Marking,
-    Occupancy, Payload, Stop, Storage, Switch, Views,
-};
+use crate::arguments::values;
 
-/// A system the command can run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SystemName {
-    /// A-buffers on the faces of a cube and on the camera's view
-    Mmrt,
-    /// Lists of triangles per tile of a cube's faces: hits are those of the triangles
-    Dirt,
-    /// Voxels over A-buffers along the three axes
-    Hu,
-    /// The same with voxels first, and each fragment in one of the A-buffers
-    Selective,
-    /// Layers of fragments along three axes, each triangle along the one it faces most
-    Ldc,
-    /// A bounding volume hierarchy with two children per node: the baseline
-    Bvh,
-    /// Every triangle tested against every ray: what hits are checked against, slow on purpose
-    BruteForce,
+/// Reads the name of a system.
+pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
+    let names = SYSTEMS.iter().map(|system| PossibleValue::new(system.name).help(system.doc));
+    PossibleValuesParser::new(names)
+        .map(|name| System::named(&name).expect("only names of systems are possible values"))
 }
 
-/// How closely a system follows its paper.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Preset {
-    /// The same structure with its errors repaired
-    #[default]
-    Robust,
-    /// The paper's approximations included
-    Published,
+/// Reads the name of a preset.
+pub fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    let names = Preset::ALL.map(|preset| PossibleValue::new(preset.name()).help(preset.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Preset::named(&name).expect("only names of presets are possible values"))
 }
 
-/// What was asked of a structure; what is left out follows the system's preset.
-#[derive(Clone, Debug, Default, PartialEq, Args, Serialize, Deserialize)]
-#[command(next_help_heading = "Structure (defaults follow the system and its preset)")]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct StructureOptions {
-    /// Cells along each side of a view, 1 to 8192
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8192))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resolution: Option<u32>,
-    /// With a camera among --views: columns and rows of its view, 1 to 8192 each, or one number for both; as
-    /// --resolution if not given
-    #[arg(long, value_name = "WxH", value_parser = crate::arguments::values::cells)]
-    #[serde(rename = "camera-resolution", skip_serializing_if = "Option::is_none")]
-    pub camera_resolution: Option<String>,
-    /// Pixels along each side of a tile: lists are kept per tile, 1 to 64
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tile: Option<u32>,
-    /// Cells along each side of a block of cells, a power of two, 1 to 64
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub block: Option<u32>,
-    /// Levels of blocks of cells, 1 or 2
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 2))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub levels: Option<u32>,
-    /// What a block of cells says of the depths in it
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub occupancy: Option<Occupancy>,
-    /// How the layers of a depth cube are made
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub build: Option<LayerBuild>,
-    /// With --build peel: most layers, a scene with more is refused, 1 to 1024
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub layers: Option<u32>,
-    /// Depth buckets per cell, 1 to 64
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 64))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub buckets: Option<u32>,
-    /// Keep the nearest fragments of each cell alone
-    #[arg(long, value_enum)]
-    #[serde(rename = "single-layer", skip_serializing_if = "Option::is_none")]
-    pub single_layer: Option<Switch>,
-    /// For diagnostics: keep triangles next to payloads without them, so that hits name them
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ids: Option<Switch>,
-    /// With --storage bricks: depth slices, the same for all tiles, 1 to 1024
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub slices: Option<u32>,
-    /// With --storage bricks: keep triangles' corners once more, one behind the other
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub corners: Option<Switch>,
-    /// How a cell's fragments or triangles are kept
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub storage: Option<Storage>,
-    /// Keep what a fragment carries within its list [the other word: --decoupled]
-    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "on")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inline: Option<Switch>,
-    /// Keep what a fragment carries outside its list, the same as --inline=off
-    #[arg(long, conflicts_with = "inline")]
-    #[serde(skip)]
-    pub decoupled: bool,
-    /// With --storage paged: fragments per page, 1 to 8; of mmrt 1, 2, 4 or 8
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 8))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub page: Option<u32>,
-    /// Voxels along each side of the scene's cube, balanced with --resolution if not given; with --views axes
-    /// of triangles, or --storage bricks of voxels, cells along the longest side of the scene, 1 to 1024
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 1024))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub grid: Option<u32>,
-    /// In which of the views along the axes a fragment is kept
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axes: Option<Axes>,
-    /// What makes a voxel occupied; by default fragments with --axes all, else triangles
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub voxels: Option<Marking>,
-    /// What a fragment carries
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub payload: Option<Payload>,
-    /// How a ray steps through cells
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub march: Option<March>,
-    /// With --march samples: maximum samples per face, or steps per voxel, 1 to 65535
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 65535))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub samples: Option<u32>,
-    /// With --march samples: where steps are longer than a cell, each ray looks at a place of its own in them
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub jitter: Option<Switch>,
-    /// What counts as a hit
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub accept: Option<Accept>,
-    /// Lists of triangles: where the search of a tile ends
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stop: Option<Stop>,
-    /// Lists of triangles: skip blocks of tiles by their depth bounds
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pyramid: Option<Switch>,
-    /// Lists of triangles: what the depths of a triangle in a tile are
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub depths: Option<Depths>,
-    /// With --accept thickness: metres behind a fragment that count as its inside
-    #[arg(long, value_name = "METRES", value_parser = crate::arguments::values::not_negative)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub thickness: Option<f32>,
-    /// With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side
-    #[arg(long, value_name = "SHARE", value_parser = crate::arguments::values::not_negative)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tolerance: Option<f32>,
-    /// How a fragment keeps its depth
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub depth: Option<Depth>,
-    /// Which cells a triangle is kept in
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub coverage: Option<Coverage>,
-    /// Sort the fragments of a cell by depth
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sort: Option<Switch>,
-    /// Skip empty space
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub skip: Option<Switch>,
-    /// Which projections are drawn
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub views: Option<Views>,
-    /// Lists of triangles: where the faces of the cube meet
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub centre: Option<Centre>,
-    /// Who makes the structure, and how
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub builder: Option<Builder>,
-    /// With --builder sah: most triangles of a leaf, 1 to 16
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 16))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub leaf: Option<u32>,
-    /// How shaders reach the structure's memory
-    #[arg(long, value_enum)]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub addressing: Option<Addressing>,
-    /// Capacity at first, fragments or list entries; it grows when it is too small
-    #[arg(long, value_name = "N")]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub capacity: Option<u32>,
-}
+/// What was asked of a structure, by option; what is left out follows the system's preset. Numbers are numbers, all else
+/// words.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StructureOptions(Map<String, Value>);
 
 impl StructureOptions {
-    /// The options that were given, by name, as numbers and words.
-    pub fn given(&self) -> Map<String, Value> {
-        // By way of text, where a number keeps the digits that were typed: 0.1, not 0.10000000149.
-        let text = serde_json::to_string(self).expect("numbers and words");
-        let mut given: Map<String, Value> = serde_json::from_str(&text).expect("an object of what was given");
-        if self.decoupled {
-            given.insert("inline".to_owned(), Value::from("off"));
-        }
-        given
+    /// The options that were given, by name.
+    pub fn given(&self) -> &Map<String, Value> {
+        &self.0
+    }
+
+    /// What was given for an option, as it is typed.
+    pub fn text(&self, option: &str) -> Option<String> {
+        self.0.get(option).map(text)
+    }
+
+    /// Every option that was given, as it is typed.
+    pub fn texts(&self) -> impl Iterator<Item = (String, String)> {
+        self.0.iter().map(|(name, value)| (name.clone(), text(value)))
+    }
+
+    /// The same with a word for an option.
+    #[must_use]
+    pub fn with(mut self, option: &str, word: impl Into<Value>) -> Self {
+        self.0.insert(option.to_owned(), word.into());
+        self
     }
 
     /// The options that were given and whose names `keep` accepts.
+    #[must_use]
     pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
-        let map = self.given().into_iter().filter(|(name, _)| keep(name)).collect();
-        serde_json::from_value(Value::Object(map)).expect("options read back what they wrote")
+        Self(self.0.clone().into_iter().filter(|(name, _)| keep(name)).collect())
     }
 
     /// These options with those of `over` in place of their own where it has any.
+    #[must_use]
     pub fn overlaid(&self, over: &Self) -> Self {
-        let mut map = self.given();
-        map.extend(over.given());
-        serde_json::from_value(Value::Object(map)).expect("options read back what they wrote")
+        Self(self.0.clone().into_iter().chain(over.0.clone()).collect())
+    }
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+fn heading(group: Group) -> &'static str {
+    match group {
+        Group::Size => "Structure: sizes (defaults follow the system and its preset)",
+        Group::Method => "Structure: methods",
+        Group::Speed => "Structure: speed",
+        Group::Limit => "Structure: limits",
+        Group::Diagnostic => "Structure: diagnostics",
+    }
+}
+
+/// A word that stands for the value `off` of an option.
+fn off_argument(row: &'static OptionRow, name: &'static str) -> Arg {
+    Arg::new(name)
+        .long(name)
+        .action(ArgAction::SetTrue)
+        .conflicts_with(row.name)
+        .help(format!("The same as --{}=off", row.name))
+}
+
+/// The argument of an option.
+fn argument(row: &'static OptionRow) -> Arg {
+    let argument = Arg::new(row.name).long(row.name).help(row.doc);
+    let argument = match row.values {
+        Values::Words(words) => {
+            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(*doc));
+            argument.value_name("WORD").value_parser(PossibleValuesParser::new(words))
+        }
+        Values::Whole(lowest, highest) => {
+            argument.value_name("N").value_parser(values::whole(lowest, highest))
+        }
+        Values::Metres => argument.value_name("METRES").value_parser(values::not_negative),
+        Values::Share => argument.value_name("SHARE").value_parser(values::not_negative),
+        Values::Cells => argument.value_name("WxH").value_parser(values::cells),
+    };
+    match row.off_name {
+        Some(_) => argument.num_args(0..=1).require_equals(true).default_missing_value("on"),
+        None => argument,
+    }
+}
+
+/// What was given for an option.
+fn value(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
+    match row.values {
+        Values::Words(_) | Values::Cells => matches.get_one::<String>(row.name).cloned().map(Value::from),
+        Values::Whole(..) => matches.get_one::<u32>(row.name).copied().map(Value::from),
+        Values::Metres | Values::Share => matches.get_one::<f32>(row.name).map(|number| {
+            // By way of text, which is as short as it can be: 0.1, not 0.10000000149.
+            serde_json::from_str(&number.to_string()).expect("a finite number")
+        }),
+    }
+}
+
+impl Args for StructureOptions {
+    fn augment_args(command: Command) -> Command {
+        Group::ALL.into_iter().fold(command, |command, group| {
+            let rows = OPTIONS.iter().filter(|row| row.group == group);
+            let arguments = rows.flat_map(|row| {
+                [Some(argument(row)), row.off_name.map(|name| off_argument(row, name))].into_iter().flatten()
+            });
+            // Sizes first; what else there is, is shown where everything is asked for.
+            let arguments = arguments
+                .map(|argument| argument.help_heading(heading(group)).hide_short_help(group != Group::Size));
+            command.args(arguments)
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for StructureOptions {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut options = Self::default();
+        options.update_from_arg_matches(matches)?;
+        Ok(options)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        for row in OPTIONS {
+            let given = value(row, matches);
+            let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then(|| Value::from("off"));
+            if let Some(given) = given.or(off) {
+                self.0.insert(row.name.to_owned(), given);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -239,53 +160,42 @@ impl StructureOptions {
 mod tests {
     use super::*;
 
-    fn same_words<T: ValueEnum + Serialize>() {
-        for value in T::value_variants() {
-            let typed = value.to_possible_value().expect("no hidden values").get_name().to_owned();
-            assert_eq!(serde_json::to_value(value).expect("a word"), serde_json::Value::String(typed));
+    fn read(words: &[&str]) -> Result<StructureOptions, clap::Error> {
+        let command = StructureOptions::augment_args(Command::new("options").no_binary_name(true));
+        StructureOptions::from_arg_matches(&command.try_get_matches_from(words)?)
+    }
+
+    #[test]
+    fn values_keep_what_was_typed() {
+        let given = read(&["--buckets", "8", "--thickness", "0.1", "--sort", "on"]).expect("valid");
+        assert_eq!(given.given().len(), 3);
+        assert_eq!(given.given()["buckets"], 8);
+        assert_eq!(given.given()["thickness"].to_string(), "0.1");
+        assert_eq!(given.text("sort").as_deref(), Some("on"));
+        let cells = read(&["--camera-resolution", "12"]).expect("valid");
+        assert_eq!(cells.text("camera-resolution").as_deref(), Some("12x12"));
+        for bad in [["--buckets", "65"], ["--sort", "maybe"], ["--thickness", "-1"], ["--grid", "x"]] {
+            assert!(read(&bad).is_err(), "{bad:?}");
         }
     }
 
     #[test]
-    fn reports_use_the_words_of_the_command_line() {
-        same_words::<SystemName>();
-        same_words::<Preset>();
-        same_words::<Storage>();
-        same_words::<Payload>();
-        same_words::<March>();
-        same_words::<Accept>();
-        same_words::<Stop>();
-        same_words::<Depths>();
-        same_words::<Coverage>();
-        same_words::<Axes>();
-        same_words::<Marking>();
-        same_words::<Views>();
-        same_words::<Depth>();
-        same_words::<Occupancy>();
-        same_words::<LayerBuild>();
-        same_words::<Centre>();
-        same_words::<Builder>();
-        same_words::<Addressing>();
-        same_words::<Switch>();
-    }
-
-    #[test]
     fn overlaying_replaces_only_what_is_given() {
-        let base = StructureOptions { buckets: Some(4), sort: Some(Switch::On), ..Default::default() };
-        let over = StructureOptions { buckets: Some(8), thickness: Some(0.1), ..Default::default() };
+        let base = StructureOptions::default().with("buckets", 4).with("sort", "on");
+        let over = StructureOptions::default().with("buckets", 8).with("thickness", "0.1");
         let both = base.overlaid(&over);
-        assert_eq!((both.buckets, both.sort, both.thickness), (Some(8), Some(Switch::On), Some(0.1)));
+        assert_eq!(both, base.with("buckets", 8).with("thickness", "0.1"));
         let kept = both.filtered(|name| name != "buckets");
-        assert_eq!((kept.buckets, kept.sort, kept.thickness), (None, Some(Switch::On), Some(0.1)));
-        assert_eq!(kept.given().len(), 2);
-        assert_eq!(kept.given()["thickness"].to_string(), "0.1");
+        assert_eq!((kept.text("buckets"), kept.given().len()), (None, 2));
     }
 
     #[test]
-    fn decoupled_is_another_word_for_not_inline() {
-        let base = StructureOptions { inline: Some(Switch::On), ..Default::default() };
-        let over = StructureOptions { decoupled: true, ..Default::default() };
-        assert_eq!(base.overlaid(&over).inline, Some(Switch::Off));
-        assert_eq!(over.overlaid(&base).inline, Some(Switch::On));
+    fn a_word_of_its_own_turns_an_option_off() {
+        let of = |words: &[&str]| read(words).expect("valid").text("inline");
+        assert_eq!(of(&["--inline"]).as_deref(), Some("on"));
+        assert_eq!(of(&["--inline=off"]).as_deref(), Some("off"));
+        assert_eq!(of(&["--decoupled"]).as_deref(), Some("off"));
+        assert_eq!(of(&[]), None);
+        assert!(read(&["--decoupled", "--inline"]).is_err());
     }
 }

@@ -2,12 +2,11 @@
 //! options, and how options given once reach several systems.
 
 use crate::error::AppError;
-use crate::structure::{Payload, Preset, StructureOptions, SystemName, Views};
+use crate::structure::StructureOptions;
 use clap::ValueEnum;
 use rasray_scene::needs::{Integrator, Workload};
 use rasray_scene::{Camera, Projection};
-use rasray_systems::{SYSTEMS, Spec, System};
-use serde_json::Value;
+use rasray_systems::{Preset, SYSTEMS, Spec, System};
 
 mod assigned;
 
@@ -20,7 +19,7 @@ const CAMERA_LIMIT: u32 = 8192;
 #[derive(Clone, Debug, PartialEq)]
 pub struct SystemConfig {
     /// The system.
-    pub name: SystemName,
+    pub system: &'static System,
     /// Its preset.
     pub preset: Preset,
     /// Options over the preset; only such that the system has.
@@ -30,21 +29,18 @@ pub struct SystemConfig {
 }
 
 impl SystemConfig {
-    /// The system's row in the registry.
-    pub fn entry(&self) -> &'static System {
-        entry(self.name)
-    }
-
     /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
     /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
     /// are compared beside the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         let occlusion = workload.integrator == Integrator::AmbientOcclusion;
-        if occlusion && self.preset == Preset::Published && self.options.payload.is_none() {
-            let word = self.entry().occlusion_payload;
-            self.options.payload =
-                word.map(|word| Payload::from_str(word, false).expect("a test looks it up"));
+        if occlusion
+            && self.preset == Preset::Published
+            && self.options.text("payload").is_none()
+            && let Some(word) = self.system.occlusion_payload
+        {
+            self.options = self.options.with("payload", word);
         }
         self
     }
@@ -54,15 +50,15 @@ impl SystemConfig {
     #[must_use]
     pub fn seen_by(mut self, camera: &Camera, width: u32, height: u32) -> Self {
         let perspective = matches!(camera.projection, Projection::Perspective { .. });
-        if let Some(views) = self.entry().camera_views
+        if let Some(views) = self.system.camera_views
             && perspective
             && self.preset == Preset::Published
-            && self.options.views.is_none()
+            && self.options.text("views").is_none()
         {
-            self.options.views = Some(Views::from_str(views, false).expect("a test looks it up"));
-            if self.options.camera_resolution.is_none() {
+            self.options = self.options.with("views", views);
+            if self.options.text("camera-resolution").is_none() {
                 let [columns, rows] = [width, height].map(|side| side.min(CAMERA_LIMIT));
-                self.options.camera_resolution = Some(format!("{columns}x{rows}"));
+                self.options = self.options.with("camera-resolution", format!("{columns}x{rows}"));
             }
         }
         self
@@ -70,10 +66,10 @@ impl SystemConfig {
 
     /// What images of a workload lack: a warning where they shade and fragments carry nothing to shade by.
     pub fn shortcoming(&self, workload: Workload) -> Option<String> {
-        let unshaded =
-            self.options.payload.filter(|payload| matches!(payload, Payload::Normal | Payload::Plane))?;
+        let payload =
+            self.options.text("payload").filter(|payload| ["normal", "plane"].contains(&payload.as_str()))?;
         (workload.integrator != Integrator::AmbientOcclusion).then(|| {
-            let (system, payload) = (word(&self.name), word(&unshaded));
+            let system = self.system.name;
             format!("{system}: fragments with --payload {payload} carry nothing to shade by, so that surfaces are white")
         })
     }
@@ -84,11 +80,7 @@ impl SystemConfig {
     /// A usage error for values that do not go together; none for a config that [`single`] or
     /// [`several`] made.
     pub fn spec(&self) -> Result<Spec, AppError> {
-        let options = self.options.given().into_iter().map(|(name, value)| match value {
-            Value::String(word) => (name, word),
-            number => (name, number.to_string()),
-        });
-        Spec::new(self.entry().name, &word(&self.preset), options).map_err(|error| {
+        Spec::new(self.system.name, self.preset.name(), self.options.texts()).map_err(|error| {
             AppError::usage(error.to_string(), "change the option, or leave it to the preset")
         })
     }
@@ -99,43 +91,32 @@ pub fn word(value: &impl ValueEnum) -> String {
     value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
 
-/// The row of a system in the registry.
-pub fn entry(name: SystemName) -> &'static System {
-    let name = word(&name);
-    SYSTEMS.iter().find(|row| row.name == name).expect("a test looks every name up")
-}
-
-/// Whether a system has a preset.
-fn has_preset(system: &System, preset: Preset) -> bool {
-    system.presets.iter().any(|known| known.name() == word(&preset))
-}
-
 /// One system with its options, each of which it must have.
 pub fn single(
-    name: SystemName,
+    system: &'static System,
     preset: Preset,
     options: &StructureOptions,
 ) -> Result<SystemConfig, AppError> {
-    let entry = entry(name);
-    if !has_preset(entry, preset) {
-        let system = word(&name);
+    if !system.presets.contains(&preset) {
+        let having: Vec<_> = SYSTEMS
+            .iter()
+            .filter(|system| system.presets.contains(&preset))
+            .map(|system| system.name)
+            .collect();
         return Err(AppError::usage(
-            format!("system {system} has no preset {}", word(&preset)),
-            format!(
-                "its presets: {}",
-                entry.presets.iter().map(|known| known.name()).collect::<Vec<_>>().join(", ")
-            ),
+            format!("system {} has no preset {}", system.name, preset.name()),
+            format!("leave it out or choose a --system that has it: {}", having.join(", ")),
         ));
     }
     for option in options.given().keys() {
-        if !entry.options.contains(&option.as_str()) {
+        if !system.has(option) {
             return Err(AppError::usage(
-                format!("system {} has no option --{option}", word(&name)),
+                format!("system {} has no option --{option}", system.name),
                 format!("{}; leave it out or choose another --system", who_has(option)),
             ));
         }
     }
-    let config = SystemConfig { name, preset, options: options.filtered(|_| true), variant: None };
+    let config = SystemConfig { system, preset, options: options.clone(), variant: None };
     config.spec()?;
     Ok(config)
 }
@@ -148,56 +129,56 @@ pub fn single(
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
 pub fn several(
-    names: &[SystemName],
+    systems: &[&'static System],
     presets: &[Preset],
     options: &StructureOptions,
     assignments: &[String],
 ) -> Result<Vec<SystemConfig>, AppError> {
     for option in options.given().keys() {
-        if !names.iter().any(|name| entry(*name).options.contains(&option.as_str())) {
+        if !systems.iter().any(|system| system.has(option)) {
             return Err(AppError::usage(
-                format!("none of the systems {} has an option --{option}", words(names)),
+                format!("none of the systems {} has an option --{option}", names(systems)),
                 format!("{}; leave it out or add such a system to --systems", who_has(option)),
             ));
         }
     }
     for preset in presets {
-        if !names.iter().any(|name| has_preset(entry(*name), *preset)) {
+        if !systems.iter().any(|system| system.presets.contains(preset)) {
             return Err(AppError::usage(
-                format!("none of the systems {} has the preset {}", words(names), word(preset)),
+                format!("none of the systems {} has the preset {}", names(systems), preset.name()),
                 "leave it out of --presets or add a system that has it to --systems",
             ));
         }
     }
     let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
-    if let Some(Assigned { name, .. }) = assigned.iter().find(|assigned| !names.contains(&assigned.name)) {
+    if let Some(Assigned { system, .. }) =
+        assigned.iter().find(|assigned| !systems.contains(&assigned.system))
+    {
         return Err(AppError::usage(
-            format!("an option addresses {}, which is not compared", word(name)),
-            format!("add {} to --systems or leave the option out", word(name)),
+            format!("an option addresses {}, which is not compared", system.name),
+            format!("add {} to --systems or leave the option out", system.name),
         ));
     }
     let mut addressed = assigned.iter().filter_map(|assigned| assigned.preset);
     if let Some(preset) = addressed.find(|preset| !presets.contains(preset)) {
         return Err(AppError::usage(
-            format!("an option addresses the preset {}, which is not compared", word(&preset)),
-            format!("add {} to --presets or leave the option out", word(&preset)),
+            format!("an option addresses the preset {}, which is not compared", preset.name()),
+            format!("add {} to --presets or leave the option out", preset.name()),
         ));
     }
     let mut configs = Vec::new();
-    for (position, name) in names.iter().enumerate() {
-        if names[..position].contains(name) {
+    for (position, system) in systems.iter().enumerate() {
+        if systems[..position].contains(system) {
             continue;
         }
-        let entry = entry(*name);
         for (position, preset) in presets.iter().enumerate() {
-            if !has_preset(entry, *preset) || presets[..position].contains(preset) {
+            if !system.presets.contains(preset) || presets[..position].contains(preset) {
                 continue;
             }
             let addressed = |assigned: &&Assigned| {
-                assigned.name == *name && assigned.preset.is_none_or(|addressed| addressed == *preset)
+                assigned.system == *system && assigned.preset.is_none_or(|addressed| addressed == *preset)
             };
-            let mut variants =
-                vec![(options.filtered(|option| entry.options.contains(&option)), String::new())];
+            let mut variants = vec![(options.filtered(|option| system.has(option)), String::new())];
             for Assigned { values, .. } in assigned.iter().filter(addressed) {
                 let combined = variants.iter().flat_map(|(own, variant)| {
                     values.iter().map(move |(over, word)| {
@@ -211,20 +192,20 @@ pub fn several(
             }
             for (own, variant) in variants {
                 let variant = (!variant.is_empty()).then_some(variant);
-                configs.push(SystemConfig { variant, ..single(*name, *preset, &own)? });
+                configs.push(SystemConfig { variant, ..single(system, *preset, &own)? });
             }
         }
     }
     Ok(configs)
 }
 
-fn words<T: ValueEnum>(values: &[T]) -> String {
-    values.iter().map(word).collect::<Vec<_>>().join(", ")
+fn names<'a>(systems: impl IntoIterator<Item = &'a &'static System>) -> String {
+    systems.into_iter().map(|system| system.name).collect::<Vec<_>>().join(", ")
 }
 
 fn who_has(option: &str) -> String {
     let having: Vec<_> =
-        SYSTEMS.iter().filter(|entry| entry.options.contains(&option)).map(|entry| entry.name).collect();
+        SYSTEMS.iter().filter(|system| system.has(option)).map(|system| system.name).collect();
     if having.is_empty() {
         "no system has it".to_owned()
     } else {

@@ -8,11 +8,13 @@ use crate::{Preset, System};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "brute-force",
-    structure: |_| "brute-force",
+    doc: "Every triangle tested against every ray: what hits are checked against, slow on purpose",
+    structure: "brute-force",
     presets: &[Preset::Robust],
     occlusion_payload: None,
     camera_views: None,
-    options: &[],
+    without_scene: &[],
+    options: Vec::new,
     requirements: |_| Ok(Requirements::floor()),
     kind: |_| Ok(StructureKind::Primitive),
     create: |spec, device, geometry, scene| {

@@ -1,110 +1,87 @@
 //! DIRT: primitive lists with the paper's presets.
 
 use rasray_ads_primitive::{
-    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
+    Accept, Builder, Centre, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
 };
 
-use crate::option::Given;
+use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "dirt",
-    structure: |_| "ads-primitive",
+    doc: "Lists of triangles per tile of a cube's faces: hits are those of the triangles",
+    structure: "ads-primitive",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,
-    options: &OPTIONS,
-    requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec, 0)?)),
-    kind: |spec| Ok(PrimitiveLists::kind_of(&config(spec, 0)?)),
+    without_scene: &[],
+    options: || names(OPTIONS),
+    requirements: |spec| Ok(PrimitiveLists::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(PrimitiveLists::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
-        let config = config(spec, geometry.triangle_count())?;
-        Ok(Box::new(PrimitiveLists::new(device, config, geometry, scene)?))
+        Ok(Box::new(PrimitiveLists::new(device, config(spec)?, geometry, scene)?))
     },
 };
 
-/// Options by their names on the command line.
-const OPTIONS: [&str; 19] = [
-    "resolution",
-    "tile",
-    "buckets",
-    "slices",
-    "storage",
-    "corners",
-    "coverage",
-    "accept",
-    "stop",
-    "depths",
-    "march",
-    "skip",
-    "pyramid",
-    "builder",
-    "centre",
-    "views",
-    "grid",
-    "addressing",
-    "capacity",
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
+    ("tile", |config, given| given.number().map(|value| config.tile = value)),
+    ("buckets", |config, given| given.number().map(|value| config.buckets = value)),
+    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+    ("skip", |config, given| given.switch().map(|value| config.skip = value)),
+    ("storage", |config, given| {
+        given
+            .choice(&[("llb", Storage::Linked), ("sb", Storage::Contiguous)])
+            .map(|value| config.storage = value)
+    }),
+    ("coverage", |config, given| {
+        given
+            .choice(&[("conservative", Coverage::Conservative), ("hardware", Coverage::Hardware)])
+            .map(|value| config.coverage = value)
+    }),
+    ("accept", |config, given| {
+        given.choice(&[("t", Accept::T), ("tile", Accept::Tile)]).map(|value| config.accept = value)
+    }),
+    ("stop", |config, given| {
+        given.choice(&[("best", Stop::Best), ("bucket", Stop::Bucket)]).map(|value| config.stop = value)
+    }),
+    ("depths", |config, given| {
+        given
+            .choice(&[("clipped", Depths::Clipped), ("corners", Depths::Corners)])
+            .map(|value| config.depths = value)
+    }),
+    ("march", |config, given| {
+        given.choice(&[("exact", March::Exact), ("jump", March::Jump)]).map(|value| config.march = value)
+    }),
+    ("pyramid", |config, given| given.switch().map(|value| config.pyramid = value)),
+    ("centre", |config, given| {
+        given.choice(&[("eye", Centre::Eye), ("scene", Centre::Scene)]).map(|value| config.centre = value)
+    }),
+    ("builder", |config, given| {
+        given
+            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
+            .map(|value| config.builder = value)
+    }),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Pixels a side of a face where lists are asked for and nothing else is.
+/// Pixels along a side of a face where nothing else is asked for.
 const RESOLUTION: u32 = 256;
 
 /// Those of the paper's second table.
 const PUBLISHED_RESOLUTION: u32 = 512;
 
-/// The configuration that a spec stands for, for a geometry of that many triangles.
-pub(crate) fn config(spec: &Spec, triangles: u32) -> Result<Config, SystemsError> {
-    let lists = Given::all(spec).any(|given| given.name == "storage" && given.is_not("bricks"));
+/// The configuration that a spec stands for.
+pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     let mut config = match spec.preset() {
-        Preset::Robust if lists => Config::robust(RESOLUTION),
-        Preset::Robust => Config::robust_for(triangles),
+        Preset::Robust => Config::robust(RESOLUTION),
         Preset::Published => Config::published(PUBLISHED_RESOLUTION),
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    for given in Given::all(spec) {
-        match given.name {
-            "resolution" => config.resolution = given.number()?,
-            "tile" => config.tile = given.number()?,
-            "buckets" => config.buckets = given.number()?,
-            "slices" => config.slices = Some(given.number()?),
-            "corners" => config.corners = given.switch()?,
-            "capacity" => config.entries = Some(given.number()?.into()),
-            "skip" => config.skip = given.switch()?,
-            "storage" => {
-                config.storage = given.choice(&[
-                    ("llb", Storage::Linked),
-                    ("sb", Storage::Contiguous),
-                    ("bricks", Storage::Bricks),
-                ])?;
-            }
-            "coverage" => {
-                config.coverage = given
-                    .choice(&[("conservative", Coverage::Conservative), ("hardware", Coverage::Hardware)])?;
-            }
-            "accept" => config.accept = given.choice(&[("t", Accept::T), ("tile", Accept::Tile)])?,
-            "stop" => config.stop = given.choice(&[("best", Stop::Best), ("bucket", Stop::Bucket)])?,
-            "depths" => {
-                config.depths =
-                    given.choice(&[("clipped", Depths::Clipped), ("corners", Depths::Corners)])?;
-            }
-            "march" => config.march = given.choice(&[("exact", March::Exact), ("jump", March::Jump)])?,
-            "pyramid" => config.pyramid = given.switch()?,
-            "centre" => {
-                config.centre = given.choice(&[("eye", Centre::Eye), ("scene", Centre::Scene)])?;
-            }
-            "builder" => {
-                let words = Builder::ALL.map(|builder| (builder.name(), builder));
-                config.builder = Some(given.choice(&words)?);
-            }
-            "views" => {
-                config.views = given.choice(&[Views::Cube, Views::Axes].map(|views| (views.name(), views)))?
-            }
-            "grid" => config.grid = Some(given.number()?),
-            "addressing" => config.addressing = given.addressing()?,
-            _ => return Err(given.unknown()),
-        }
-    }
+    Given::apply_all(spec, OPTIONS, &mut config)?;
     config.validate()?;
     Ok(config)
 }

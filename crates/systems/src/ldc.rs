@@ -2,17 +2,19 @@
 
 use rasray_ldc::{Accept, Builder, Config, Coverage, Depth, LayeredDepthCube, Making, Occupancy, Payload};
 
-use crate::option::Given;
+use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "ldc",
-    structure: |_| "ldc",
+    doc: "Layers of fragments along three axes, each triangle along the one it faces most",
+    structure: "ldc",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,
-    options: &OPTIONS,
+    without_scene: &[("payload", "index")],
+    options: || names(OPTIONS),
     requirements: |spec| Ok(LayeredDepthCube::requirements_of(&config(spec)?)),
     kind: |spec| Ok(LayeredDepthCube::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
@@ -20,26 +22,55 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options by their names on the command line.
-const OPTIONS: [&str; 18] = [
-    "build",
-    "layers",
-    "resolution",
-    "block",
-    "levels",
-    "occupancy",
-    "storage",
-    "payload",
-    "ids",
-    "accept",
-    "tolerance",
-    "depth",
-    "coverage",
-    "builder",
-    "skip",
-    "views",
-    "addressing",
-    "capacity",
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
+    ("block", |config, given| given.number().map(|value| config.block = value)),
+    ("layers", |config, given| given.number().map(|value| config.layers = value)),
+    ("build", |config, given| {
+        given.choice(&[("single", Making::Single), ("peel", Making::Peel)]).map(|value| config.making = value)
+    }),
+    ("levels", |config, given| given.number().map(|value| config.levels = value)),
+    ("occupancy", |config, given| {
+        given
+            .choice(&[("bounds", Occupancy::Bounds), ("slices", Occupancy::Slices)])
+            .map(|value| config.occupancy = value)
+    }),
+    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
+    ("tolerance", |config, given| given.share().map(|value| config.tolerance = value)),
+    ("skip", |config, given| given.switch().map(|value| config.skip = value)),
+    ("builder", |config, given| {
+        given
+            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
+            .map(|value| config.builder = value)
+    }),
+    // One word each so far: a value is checked, and nothing else is chosen.
+    ("storage", |_, given| given.choice(&[("sb", ())])),
+    ("views", |_, given| given.choice(&[("axes", ())])),
+    ("ids", |config, given| given.switch().map(|value| config.ids = value)),
+    ("payload", |config, given| {
+        given
+            .choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])
+            .map(|value| config.payload = value)
+    }),
+    ("depth", |config, given| {
+        given.choice(&[("16", Depth::Bits16), ("32", Depth::Bits32)]).map(|value| config.depth = value)
+    }),
+    ("accept", |config, given| {
+        given
+            .choice(&[("tolerance", Accept::Tolerance), ("slope", Accept::Slope), ("plane", Accept::Plane)])
+            .map(|value| config.accept = value)
+    }),
+    ("coverage", |config, given| {
+        given
+            .choice(&[
+                ("exact", Coverage::Exact),
+                ("hardware", Coverage::Hardware),
+                ("conservative", Coverage::Conservative),
+            ])
+            .map(|value| config.coverage = value)
+    }),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
 /// Cells a side of a view where nothing else is asked for.
@@ -56,50 +87,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    for given in Given::all(spec) {
-        match given.name {
-            "resolution" => config.resolution = given.number()?,
-            "block" => config.block = given.number()?,
-            "layers" => config.layers = given.number()?,
-            "build" => config.making = given.choice(&[("single", Making::Single), ("peel", Making::Peel)])?,
-            "levels" => config.levels = given.number()?,
-            "occupancy" => {
-                config.occupancy =
-                    given.choice(&[("bounds", Occupancy::Bounds), ("slices", Occupancy::Slices)])?;
-            }
-            "capacity" => config.fragments = Some(given.number()?.into()),
-            "tolerance" => config.tolerance = given.share()?,
-            "skip" => config.skip = given.switch()?,
-            "builder" => {
-                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
-            }
-            // One word each so far: a value is checked, and nothing else is chosen.
-            "storage" => given.choice(&[("sb", ())])?,
-            "views" => given.choice(&[("axes", ())])?,
-            "ids" => config.ids = given.switch()?,
-            "payload" => {
-                config.payload =
-                    given.choice(&[("index", Payload::Index), ("attributes", Payload::Attributes)])?;
-            }
-            "depth" => config.depth = given.choice(&[("16", Depth::Bits16), ("32", Depth::Bits32)])?,
-            "accept" => {
-                config.accept = given.choice(&[
-                    ("tolerance", Accept::Tolerance),
-                    ("slope", Accept::Slope),
-                    ("plane", Accept::Plane),
-                ])?;
-            }
-            "coverage" => {
-                config.coverage = given.choice(&[
-                    ("exact", Coverage::Exact),
-                    ("hardware", Coverage::Hardware),
-                    ("conservative", Coverage::Conservative),
-                ])?;
-            }
-            "addressing" => config.addressing = given.addressing()?,
-            _ => return Err(given.unknown()),
-        }
-    }
+    Given::apply_all(spec, OPTIONS, &mut config)?;
     config.validate()?;
     Ok(config)
 }

@@ -1,17 +1,22 @@
 //! Systems as data: which structure, which presets, which options. The command, tests and benches loop
 //! over [`SYSTEMS`] and make structures through [`Spec`]; beside it only tests that look into a structure name one.
 
+mod bricks;
 mod brute_force;
 mod bvh;
 mod dirt;
 mod error;
+mod given;
 mod hu;
 mod ldc;
 mod mmrt;
-mod option;
+mod option_row;
+mod options;
 mod selective;
 mod spec;
 mod voxel;
 
 pub use error::SystemsError;
+pub use option_row::{Group, Hits, OptionRow, Values, Word};
+pub use options::{OPTIONS, option};
 pub use spec::{Preset, SYSTEMS, Spec, System};

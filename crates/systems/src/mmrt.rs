@@ -2,17 +2,19 @@
 
 use rasray_abuffer::{ABuffer, Accept, Builder, Config, Coverage, March, Payload, Storage, Views};
 
-use crate::option::Given;
+use crate::given::{Given, Setter, names};
 use crate::{Preset, Spec, System, SystemsError};
 
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "mmrt",
-    structure: |_| "abuffer",
+    doc: "A-buffers on the faces of a cube and on the camera's view",
+    structure: "abuffer",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: Some("normal"),
     camera_views: Some("cube+camera"),
-    options: &OPTIONS,
+    without_scene: &[("payload", "index")],
+    options: || names(OPTIONS),
     requirements: |spec| Ok(ABuffer::requirements_of(&config(spec)?)),
     kind: |spec| Ok(ABuffer::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {
@@ -20,29 +22,65 @@ pub(crate) const SYSTEM: System = System {
     },
 };
 
-/// Options by their names on the command line.
-const OPTIONS: [&str; 21] = [
-    "resolution",
-    "buckets",
-    "single-layer",
-    "storage",
-    "inline",
-    "page",
-    "payload",
-    "ids",
-    "march",
-    "samples",
-    "jitter",
-    "accept",
-    "thickness",
-    "coverage",
-    "sort",
-    "skip",
-    "builder",
-    "views",
-    "camera-resolution",
-    "addressing",
-    "capacity",
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
+    ("buckets", |config, given| given.number().map(|value| config.buckets = value)),
+    ("samples", |config, given| given.number().map(|value| config.samples = value)),
+    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
+    ("thickness", |config, given| given.length().map(|value| config.thickness = Some(value))),
+    ("jitter", |config, given| given.switch().map(|value| config.jitter = value)),
+    ("single-layer", |config, given| given.switch().map(|value| config.single_layer = value)),
+    ("sort", |config, given| given.switch().map(|value| config.sort = value)),
+    ("skip", |config, given| given.switch().map(|value| config.skip = value)),
+    ("storage", |config, given| {
+        given
+            .choice(&Storage::ALL.map(|storage| (storage.name(), storage)))
+            .map(|value| config.storage = value)
+    }),
+    ("builder", |config, given| {
+        given
+            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
+            .map(|value| config.builder = value)
+    }),
+    ("inline", |config, given| given.switch().map(|value| config.inline = value)),
+    ("page", |config, given| given.number().map(|value| config.page = value)),
+    ("views", |config, given| {
+        given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
+    }),
+    ("camera-resolution", |config, given| given.cells().map(|value| config.camera_resolution = value)),
+    ("ids", |config, given| given.switch().map(|value| config.ids = value)),
+    ("payload", |config, given| {
+        given
+            .choice(&Payload::ALL.map(|payload| (payload.name(), payload)))
+            .map(|value| config.payload = value)
+    }),
+    ("march", |config, given| {
+        given
+            .choice(&[
+                ("samples", March::Samples),
+                ("dda", March::Dda),
+                ("exact", March::Exact),
+                ("pyramid", March::Pyramid),
+            ])
+            .map(|value| config.march = value)
+    }),
+    ("accept", |config, given| {
+        given
+            .choice(&[
+                ("interval", Accept::Interval),
+                ("thickness", Accept::Thickness),
+                ("slope", Accept::Slope),
+                ("plane", Accept::Plane),
+            ])
+            .map(|value| config.accept = value)
+    }),
+    ("coverage", |config, given| {
+        given
+            .choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))
+            .map(|value| config.coverage = value)
+    }),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
 /// Cells a side where nothing else is asked for.
@@ -56,54 +94,7 @@ pub(crate) fn config(spec: &Spec) -> Result<Config, SystemsError> {
     };
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    for given in Given::all(spec) {
-        match given.name {
-            "resolution" => config.resolution = given.number()?,
-            "buckets" => config.buckets = given.number()?,
-            "samples" => config.samples = given.number()?,
-            "capacity" => config.fragments = Some(given.number()?.into()),
-            "thickness" => config.thickness = Some(given.length()?),
-            "jitter" => config.jitter = given.switch()?,
-            "single-layer" => config.single_layer = given.switch()?,
-            "sort" => config.sort = given.switch()?,
-            "skip" => config.skip = given.switch()?,
-            "storage" => {
-                config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
-            }
-            "builder" => {
-                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
-            }
-            "inline" => config.inline = given.switch()?,
-            "page" => config.page = given.number()?,
-            "views" => config.views = given.choice(&Views::ALL.map(|views| (views.name(), views)))?,
-            "camera-resolution" => config.camera_resolution = given.cells()?,
-            "ids" => config.ids = given.switch()?,
-            "payload" => {
-                config.payload = given.choice(&Payload::ALL.map(|payload| (payload.name(), payload)))?;
-            }
-            "march" => {
-                config.march = given.choice(&[
-                    ("samples", March::Samples),
-                    ("dda", March::Dda),
-                    ("exact", March::Exact),
-                    ("pyramid", March::Pyramid),
-                ])?;
-            }
-            "accept" => {
-                config.accept = given.choice(&[
-                    ("interval", Accept::Interval),
-                    ("thickness", Accept::Thickness),
-                    ("slope", Accept::Slope),
-                    ("plane", Accept::Plane),
-                ])?;
-            }
-            "coverage" => {
-                config.coverage = given.choice(&Coverage::ALL.map(|coverage| (coverage.name(), coverage)))?;
-            }
-            "addressing" => config.addressing = given.addressing()?,
-            _ => return Err(given.unknown()),
-        }
-    }
+    Given::apply_all(spec, OPTIONS, &mut config)?;
     if !spec.options().contains_key("camera-resolution") {
         config.camera_resolution = [config.resolution; 2];
     }

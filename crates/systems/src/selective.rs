@@ -10,11 +10,13 @@ const PUBLISHED_RESOLUTION: u32 = 1024;
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "selective",
-    structure: |_| "voxel",
+    doc: "The same with voxels first, and each fragment in one of the A-buffers",
+    structure: "voxel",
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,
-    options: &voxel::OPTIONS,
+    without_scene: &[("payload", "index")],
+    options: voxel::names,
     requirements: |spec| Ok(Voxels::requirements_of(&config(spec)?)),
     kind: |spec| Ok(Voxels::kind_of(&config(spec)?)),
     create: |spec, device, geometry, scene| {

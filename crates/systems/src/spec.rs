@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use rasray_ads::{Counters, Geometry, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Requirements};
 
-use crate::{SystemsError, brute_force, bvh, dirt, hu, ldc, mmrt, selective};
+use crate::option_row::{Group, OptionRow};
+use crate::options::OPTIONS;
+use crate::{SystemsError, bricks, brute_force, bvh, dirt, hu, ldc, mmrt, selective};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,6 +19,22 @@ pub enum Preset {
 }
 
 impl Preset {
+    /// Every preset.
+    pub const ALL: [Self; 2] = [Self::Robust, Self::Published];
+
+    /// The preset of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
+    /// What it is, for help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Robust => "The same structure with its errors repaired",
+            Self::Published => "The paper's approximations included",
+        }
+    }
+
     /// The word of the command line.
     pub fn name(self) -> &'static str {
         match self {
@@ -33,16 +51,20 @@ pub struct System {
     pub name: &'static str,
     /// Presets it has.
     pub presets: &'static [Preset],
-    /// Options it has, by their names on the command line.
-    pub options: &'static [&'static str],
+    /// What it is, for help.
+    pub doc: &'static str,
     /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
     /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,
     /// The published preset's `views` where a perspective camera looks at the scene, whose view then has a cell a pixel
     /// (`camera-resolution`); absent where the paper draws none.
     pub camera_views: Option<&'static str>,
-    /// The structure that a spec traces, as crates and shaders name it.
-    pub(crate) structure: fn(&Spec) -> &'static str,
+    /// Options with which its published preset needs no scene: by default fragments carry what a scene's materials say.
+    pub without_scene: &'static [(&'static str, &'static str)],
+    /// The structure that it traces, as crates and shaders name it.
+    pub structure: &'static str,
+    /// Names of the options it has.
+    pub(crate) options: fn() -> Vec<&'static str>,
     /// What a device must and may offer for a spec; also where a spec's values are checked.
     pub(crate) requirements: fn(&Spec) -> Result<Requirements, SystemsError>,
     /// What the hits of a spec are.
@@ -51,12 +73,44 @@ pub struct System {
     pub(crate) create: Create,
 }
 
+impl PartialEq for System {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for System {}
+
+impl System {
+    /// The system of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        SYSTEMS.iter().find(|row| row.name == name)
+    }
+
+    /// Options it has, in the order of help.
+    pub fn options(&self) -> Vec<&'static OptionRow> {
+        let names = (self.options)();
+        OPTIONS.iter().filter(|row| names.contains(&row.name)).collect()
+    }
+
+    /// Whether it has an option.
+    pub fn has(&self, option: &str) -> bool {
+        (self.options)().contains(&option)
+    }
+
+    /// The option that says how many cells there are along a side; absent where there are none.
+    pub fn size_option(&self) -> Option<&'static str> {
+        self.options().into_iter().find(|row| row.group == Group::Size).map(|row| row.name)
+    }
+}
+
 /// Makes the structure of a spec for triangles, and for a scene where surfaces or alpha are wanted.
 pub(crate) type Create =
     fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
 
 /// Every system.
 pub static SYSTEMS: &[System] = &[
+    bricks::SYSTEM,
     mmrt::SYSTEM,
     dirt::SYSTEM,
     hu::SYSTEM,
@@ -86,11 +140,10 @@ impl Spec {
         preset: &str,
         options: impl IntoIterator<Item = (String, String)>,
     ) -> Result<Self, SystemsError> {
-        let row =
-            SYSTEMS.iter().find(|row| row.name == system).ok_or_else(|| SystemsError::UnknownSystem {
-                name: system.to_owned(),
-                known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
-            })?;
+        let row = System::named(system).ok_or_else(|| SystemsError::UnknownSystem {
+            name: system.to_owned(),
+            known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
+        })?;
         let preset = row
             .presets
             .iter()
@@ -98,7 +151,7 @@ impl Spec {
             .find(|known| known.name() == preset)
             .ok_or_else(|| SystemsError::UnknownPreset { system: row.name, preset: preset.to_owned() })?;
         let options: BTreeMap<_, _> = options.into_iter().collect();
-        if let Some(option) = options.keys().find(|option| !row.options.contains(&option.as_str())) {
+        if let Some(option) = options.keys().find(|option| !row.has(option)) {
             return Err(SystemsError::UnknownOption { system: row.name, option: option.clone() });
         }
         let spec = Self { system: row, preset, options, counters: Counters::Off, work_budget: None };
@@ -148,7 +201,7 @@ impl Spec {
 
     /// The structure it traces, as crates and shaders name it.
     pub fn structure(&self) -> &'static str {
-        (self.system.structure)(self)
+        self.system.structure
     }
 
     /// The preset.
@@ -224,11 +277,42 @@ mod tests {
     }
 
     #[test]
+    fn every_option_has_a_row_and_every_row_a_system() {
+        for system in SYSTEMS {
+            assert_eq!(system.options().len(), (system.options)().len(), "{}", system.name);
+        }
+        for (place, row) in OPTIONS.iter().enumerate() {
+            assert!(SYSTEMS.iter().any(|system| system.has(row.name)), "no system has --{}", row.name);
+            assert!(OPTIONS[..place].iter().all(|other| other.name != row.name), "--{} twice", row.name);
+            assert!(!row.tried().is_empty(), "no value of --{} is tried", row.name);
+        }
+    }
+
+    #[test]
+    fn sizes_are_set_by_one_option() {
+        let sizes: Vec<_> = SYSTEMS.iter().map(|system| (system.name, system.size_option())).collect();
+        let resolution = Some("resolution");
+        assert_eq!(
+            sizes,
+            [
+                ("bricks", Some("grid")),
+                ("mmrt", resolution),
+                ("dirt", resolution),
+                ("hu", resolution),
+                ("selective", resolution),
+                ("ldc", resolution),
+                ("bvh", None),
+                ("brute-force", None),
+            ]
+        );
+    }
+
+    #[test]
     fn published_has_the_papers_sizes() {
         // Cells a side of a view, and voxels a side where the structure has them.
         let sizes = |spec: &Spec| match spec.system().name {
             "mmrt" => mmrt::config(spec).map(|config| (config.resolution, None)),
-            "dirt" => dirt::config(spec, 0).map(|config| (config.resolution, None)),
+            "dirt" => dirt::config(spec).map(|config| (config.resolution, None)),
             "hu" => hu::config(spec).map(|config| (config.resolution, Some(config.grid()))),
             "selective" => selective::config(spec).map(|config| (config.resolution, Some(config.grid()))),
             "ldc" => ldc::config(spec).map(|config| (config.resolution, None)),

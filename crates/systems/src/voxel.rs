@@ -2,28 +2,70 @@
 
 use rasray_voxel::{Accept, Axes, Builder, Config, Coverage, March, Marking, Payload, Storage};
 
-use crate::option::Given;
+use crate::given::{Given, Setter};
 use crate::{Spec, SystemsError};
 
-/// Options by their names on the command line.
-pub(crate) const OPTIONS: [&str; 16] = [
-    "resolution",
-    "grid",
-    "axes",
-    "voxels",
-    "march",
-    "samples",
-    "accept",
-    "coverage",
-    "builder",
-    "storage",
-    "payload",
-    "ids",
-    "page",
-    "sort",
-    "addressing",
-    "capacity",
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("resolution", |config, given| given.number().map(|value| config.resolution = value)),
+    ("grid", |config, given| given.number().map(|value| config.grid = Some(value))),
+    ("samples", |config, given| given.number().map(|value| config.samples = value)),
+    ("page", |config, given| given.number().map(|value| config.page = value)),
+    ("capacity", |config, given| given.number().map(|value| config.fragments = Some(value.into()))),
+    ("sort", |config, given| given.switch().map(|value| config.sort = value)),
+    ("builder", |config, given| {
+        given
+            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
+            .map(|value| config.builder = value)
+    }),
+    ("axes", |config, given| {
+        given
+            .choice(&[("all", Axes::All), ("voxel", Axes::Voxel), ("triangle", Axes::Triangle)])
+            .map(|value| config.axes = value)
+    }),
+    ("voxels", |config, given| {
+        given
+            .choice(&[("fragments", Marking::Fragments), ("triangles", Marking::Triangles)])
+            .map(|value| config.voxels = Some(value))
+    }),
+    ("march", |config, given| {
+        given
+            .choice(&[("samples", March::Samples), ("exact", March::Exact)])
+            .map(|value| config.march = value)
+    }),
+    ("accept", |config, given| {
+        given
+            .choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])
+            .map(|value| config.accept = value)
+    }),
+    ("ids", |config, given| given.switch().map(|value| config.ids = value)),
+    // Attributes are those of the system's paper, which the configuration is made with.
+    ("payload", |config, given| {
+        given
+            .choice(&[("index", Payload::Index), ("attributes", Payload::Material)])
+            .map(|value| config.payload = value)
+    }),
+    ("coverage", |config, given| {
+        given
+            .choice(&[
+                ("exact", Coverage::Exact),
+                ("hardware", Coverage::Hardware),
+                ("conservative", Coverage::Conservative),
+            ])
+            .map(|value| config.coverage = value)
+    }),
+    ("storage", |config, given| {
+        given
+            .choice(&Storage::ALL.map(|storage| (storage.name(), storage)))
+            .map(|value| config.storage = value)
+    }),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
+
+/// Their names.
+pub(crate) fn names() -> Vec<&'static str> {
+    crate::given::names(OPTIONS)
+}
 
 /// Cells a side of a view of the repaired structure where nothing else is asked for.
 pub(crate) const RESOLUTION: u32 = 512;
@@ -42,52 +84,9 @@ pub(crate) fn config(spec: &Spec, preset: Config, attributes: Payload) -> Result
     let mut config = preset;
     config.counters = spec.counters();
     config.work_budget = spec.work_budget();
-    for given in Given::all(spec) {
-        match given.name {
-            "resolution" => config.resolution = given.number()?,
-            "grid" => config.grid = Some(given.number()?),
-            "samples" => config.samples = given.number()?,
-            "page" => config.page = given.number()?,
-            "capacity" => config.fragments = Some(given.number()?.into()),
-            "sort" => config.sort = given.switch()?,
-            "builder" => {
-                config.builder = given.choice(&Builder::ALL.map(|builder| (builder.name(), builder)))?;
-            }
-            "axes" => {
-                config.axes = given.choice(&[
-                    ("all", Axes::All),
-                    ("voxel", Axes::Voxel),
-                    ("triangle", Axes::Triangle),
-                ])?;
-            }
-            "voxels" => {
-                config.voxels = Some(
-                    given.choice(&[("fragments", Marking::Fragments), ("triangles", Marking::Triangles)])?,
-                );
-            }
-            "march" => {
-                config.march = given.choice(&[("samples", March::Samples), ("exact", March::Exact)])?;
-            }
-            "accept" => {
-                config.accept = given.choice(&[("parity", Accept::Parity), ("plane", Accept::Plane)])?;
-            }
-            "ids" => config.ids = given.switch()?,
-            "payload" => {
-                config.payload = given.choice(&[("index", Payload::Index), ("attributes", attributes)])?;
-            }
-            "coverage" => {
-                config.coverage = given.choice(&[
-                    ("exact", Coverage::Exact),
-                    ("hardware", Coverage::Hardware),
-                    ("conservative", Coverage::Conservative),
-                ])?;
-            }
-            "storage" => {
-                config.storage = given.choice(&Storage::ALL.map(|storage| (storage.name(), storage)))?;
-            }
-            "addressing" => config.addressing = given.addressing()?,
-            _ => return Err(given.unknown()),
-        }
+    Given::apply_all(spec, OPTIONS, &mut config)?;
+    if config.payload != Payload::Index {
+        config.payload = attributes;
     }
     config.validate()?;
     Ok(config)

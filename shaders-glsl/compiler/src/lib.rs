@@ -2,7 +2,7 @@
 //!
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
 //! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
-//! `#include` resolved from one root folder. Drivers optimise a module once more whatever it comes as: optimised here
+//! `#include` resolved from one root folder, by way of folders that macros name. Drivers optimise a module once more whatever it comes as: optimised here
 //! it takes seven times as long to compile, and drivers as long to make a pipeline of it.
 
 mod reduce;
@@ -107,15 +107,27 @@ fn options(root: &Path, module: &Module<'_>) -> Result<CompileOptions<'static>, 
         options.add_macro_definition(name, (!value.is_empty()).then_some(value.as_str()));
     }
     let include_root = root.to_owned();
+    let defines = module.defines.to_owned();
     options.set_include_callback(move |requested, kind, from, _depth| {
         if kind == IncludeType::Standard {
             return Err(format!("{from}: write #include \"{requested}\" with quotes"));
         }
-        let content = std::fs::read_to_string(include_root.join(requested))
-            .map_err(|error| format!("{from}: cannot include {requested}: {error}"))?;
-        Ok(ResolvedInclude { resolved_name: requested.to_owned(), content })
+        let resolved_name = resolved(requested, &defines);
+        let content = std::fs::read_to_string(include_root.join(&resolved_name))
+            .map_err(|error| format!("{from}: cannot include {resolved_name}: {error}"))?;
+        Ok(ResolvedInclude { resolved_name, content })
     });
     Ok(options)
+}
+
+/// The file that an include names: one whose first folder is a macro's name in lower case is in the folder of its value.
+/// `structure/trace.glsl` with `STRUCTURE=bvh` is `bvh/trace.glsl`.
+fn resolved(requested: &str, defines: &[(String, String)]) -> String {
+    let (folder, file) = requested.split_once('/').unwrap_or(("", requested));
+    match defines.iter().find(|(name, value)| name.to_lowercase() == folder && !value.is_empty()) {
+        Some((_, value)) => format!("{value}/{file}"),
+        None => requested.to_owned(),
+    }
 }
 
 /// A line of the permutation list.
@@ -131,21 +143,60 @@ pub struct Permutation {
     pub features: Vec<String>,
 }
 
-/// Reads the permutation list: `[feature+feature]` heads a section, `name = entry MACRO=value ...` is
-/// a module, `#` starts a comment.
+impl Permutation {
+    /// The same with pools reached by address.
+    fn by_address(&self) -> Self {
+        let mut twin = self.clone();
+        twin.name += ".address";
+        twin.defines.push(("ADDRESSING_ADDRESS".to_owned(), String::new()));
+        twin
+    }
+
+    /// A module for each pair of `words`, where they are the values of a macro `A<B`; in its name A and B stand for them.
+    fn pairs(&self) -> Vec<Self> {
+        let Some((place, first, second)) = self.defines.iter().enumerate().find_map(|(place, (name, _))| {
+            name.split_once('<').map(|(first, second)| (place, first.to_owned(), second.to_owned()))
+        }) else {
+            return vec![self.clone()];
+        };
+        let words: Vec<_> = self.defines[place].1.split(',').collect();
+        let pairs = words
+            .iter()
+            .enumerate()
+            .flat_map(|(k, one)| words[k + 1..].iter().map(move |other| (one, other)));
+        pairs
+            .map(|(one, other)| {
+                let mut pair = self.clone();
+                pair.name = pair.name.replace(&first, one).replace(&second, other);
+                let values = [(first.clone(), (*one).to_owned()), (second.clone(), (*other).to_owned())];
+                pair.defines.splice(place..=place, values);
+                pair
+            })
+            .collect()
+    }
+}
+
+/// Reads the permutation list. `[feature+feature]` heads a section; with `.address` after it each of its modules is there
+/// once more, under its name with that ending and with `ADDRESSING_ADDRESS`. `name = entry MACRO=value ...` is a module;
+/// with `A<B=x,y,z` one for each pair, in whose name A and B stand for the two. `#` starts a comment.
 ///
 /// # Errors
-/// Names the line that is neither.
+/// Names the line that is none of these.
 pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
-    let mut features = Vec::new();
+    let (mut features, mut by_address) = (Vec::new(), false);
     let mut permutations = Vec::new();
     for (number, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or("").trim();
         if line.is_empty() {
             continue;
         }
-        if let Some(section) = line.strip_prefix('[').and_then(|l| l.strip_suffix(']')) {
+        if let Some((section, ending)) = line.strip_prefix('[').and_then(|line| line.split_once(']')) {
             features = section.split('+').map(|f| f.trim().to_owned()).collect();
+            by_address = match ending.trim() {
+                "" => false,
+                ".address" => true,
+                _ => return Err(format!("line {}: only `.address` may stand after a section", number + 1)),
+            };
             continue;
         }
         let (name, rest) = line
@@ -157,12 +208,54 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
             .map(|word| word.split_once('=').unwrap_or((word, "")))
             .map(|(macro_name, value)| (macro_name.to_owned(), value.to_owned()))
             .collect();
-        permutations.push(Permutation {
+        let line = Permutation {
             name: name.trim().to_owned(),
             entry: entry.to_owned(),
             defines,
             features: features.clone(),
-        });
+        };
+        for module in line.pairs() {
+            let twin = by_address.then(|| module.by_address());
+            permutations.extend([Some(module), twin].into_iter().flatten());
+        }
     }
     Ok(permutations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(text: &str) -> Vec<String> {
+        let list = read_permutations(text).expect("the list is well formed");
+        list.into_iter()
+            .map(|module| {
+                let defines = module.defines.iter().map(|(name, value)| format!(" {name}={value}"));
+                module.name + &defines.collect::<String>()
+            })
+            .collect()
+    }
+
+    #[test]
+    fn sections_and_pairs_stand_for_several_modules() {
+        assert_eq!(names("[a]\nx = x.comp M=1 # why\n"), ["x M=1"]);
+        assert_eq!(
+            names("[a+b] .address\nx = x.comp M=1\n[c]\ny = y.comp"),
+            ["x M=1", "x.address M=1 ADDRESSING_ADDRESS=", "y"]
+        );
+        assert_eq!(
+            names("[a]\nt.FIRST.SECOND = t.comp FIRST<SECOND=p,q,r"),
+            ["t.p.q FIRST=p SECOND=q", "t.p.r FIRST=p SECOND=r", "t.q.r FIRST=q SECOND=r"]
+        );
+        assert!(read_permutations("[a] .else\n").is_err());
+        assert!(read_permutations("[a]\nx x.comp\n").is_err());
+    }
+
+    #[test]
+    fn includes_are_read_from_the_folder_that_a_macro_names() {
+        let defines = [("STRUCTURE".to_owned(), "bvh".to_owned()), ("FRINGE".to_owned(), String::new())];
+        assert_eq!(resolved("structure/trace.glsl", &defines), "bvh/trace.glsl");
+        assert_eq!(resolved("fringe/trace.glsl", &defines), "fringe/trace.glsl");
+        assert_eq!(resolved("trace.glsl", &defines), "trace.glsl");
+    }
 }

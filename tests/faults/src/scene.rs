@@ -14,7 +14,7 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 use crate::Failure;
 
-/// Cells a side of the systems that have them: enough for lists of several nodes.
+/// Cells along a side of the systems that have them: enough for lists of several nodes.
 const RESOLUTION: u32 = 32;
 
 /// A system and preset of the registry at a small resolution.
@@ -23,10 +23,10 @@ const RESOLUTION: u32 = 32;
 /// The registry has no such system or preset.
 pub fn spec(system: &str, preset: &str) -> Result<Spec, Failure> {
     let spec = Spec::new(system, preset, [])?;
-    if spec.system().options.contains(&"resolution") {
-        return Ok(spec.with_option("resolution", &RESOLUTION.to_string())?);
+    match spec.system().size_option() {
+        Some(size) => Ok(spec.with_option(size, &RESOLUTION.to_string())?),
+        None => Ok(spec),
     }
-    Ok(spec)
 }
 
 /// Every system and preset of the registry.

@@ -25,6 +25,7 @@ mod prepare;
 mod rounds;
 mod row;
 mod rows;
+mod rows_bricks;
 mod rows_bvh;
 mod rows_dirt;
 mod rows_ldc;

@@ -1,11 +1,12 @@
 use std::sync::LazyLock;
 
-use super::{Row, rows_bvh, rows_dirt, rows_ldc, rows_mmrt, rows_voxel};
+use super::{Row, rows_bricks, rows_bvh, rows_dirt, rows_ldc, rows_mmrt, rows_voxel};
 use crate::hard_cases;
 
 /// All rows, system by system.
 pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
-    [rows_bvh::ROWS, rows_dirt::ROWS, rows_mmrt::ROWS, rows_voxel::ROWS, rows_ldc::ROWS].concat()
+    [rows_bvh::ROWS, rows_bricks::ROWS, rows_dirt::ROWS, rows_mmrt::ROWS, rows_voxel::ROWS, rows_ldc::ROWS]
+        .concat()
 });
 
 /// How often a row is judged in all runs together: each law and each end of a deviation is one comparison,

@@ -26,15 +26,6 @@ pub(super) const ROWS: &[Row] = &[
         Cases::All,
     ),
     Row::exact("dirt-lists-128", "dirt", &[("storage", "sb")], Tier::Full, Cases::Shallow),
-    // 16 tiles a side and few slices, then as many as a scene of a hundred thousand triangles gets.
-    Row::exact(
-        "dirt-robust-16",
-        "dirt",
-        &[("resolution", "16"), ("tile", "1"), ("slices", "12")],
-        Tier::Quick,
-        Cases::All,
-    ),
-    Row::exact("dirt-robust-128", "dirt", &[("resolution", "256")], Tier::Quick, Cases::Shallow),
     // Tiles and buckets as the paper advises at least, and as its second table was measured; few tiles where lists
     // are deep.
     Row {

@@ -79,10 +79,6 @@ pub(super) const ROWS: &[Row] = &[
         published_law(128),
         deviations_voxel::HU_128,
     ),
-    // Bricks of cells along the axes keep triangles. As many cells as the rule gives, then few, then many.
-    Row::exact("hu-bricks", "hu", &[("storage", "bricks")], Tier::Quick, Cases::Shallow),
-    Row::exact("hu-bricks-16", "hu", &[("storage", "bricks"), ("grid", "16")], Tier::Full, Cases::All),
-    Row::exact("hu-bricks-128", "hu", &[("storage", "bricks"), ("grid", "128")], Tier::Full, Cases::Shallow),
     voxel(
         "selective-robust-16",
         ("selective", Preset::Robust),

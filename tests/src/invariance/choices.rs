@@ -1,34 +1,29 @@
-use super::{Law, Subject, Value, law};
+use rasray_systems::OptionRow;
+
+use super::Subject;
 
 /// Whether a subject takes an option's value, alone or beside a value of one of `others`.
-pub fn takes<'a>(subject: &Subject, mut others: impl Iterator<Item = &'a Law>, chosen: (&str, &str)) -> bool {
+pub fn takes(
+    subject: &Subject,
+    mut others: impl Iterator<Item = &'static OptionRow>,
+    chosen: (&str, &str),
+) -> bool {
     subject.with(&[chosen]).is_some()
         || others.any(|other| {
-            let beside = |choice: &&str| subject.with(&[(other.option, *choice), chosen]).is_some();
-            other.option != chosen.0 && other.values.iter().any(beside)
+            let beside = |choice: &&str| subject.with(&[(other.name, *choice), chosen]).is_some();
+            other.name != chosen.0 && other.tried().iter().any(beside)
         })
 }
 
 /// The options of a subject that may not change a hit, each with the values that it takes alone or beside one
 /// other choice of these: pages go with paged lists only.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
-    let laws: Vec<_> = subject
-        .spec
-        .system()
-        .options
-        .iter()
-        .filter_map(|option| law(option))
-        .filter(|law| law.of(subject.kind) != Value::MayChange)
-        .collect();
-    let options = laws.iter().filter_map(|law| {
-        let all = laws.iter().copied();
-        let values: Vec<_> = law
-            .values
-            .iter()
-            .copied()
-            .filter(|&value| takes(subject, all.clone(), (law.option, value)))
-            .collect();
-        (!values.is_empty()).then_some((law.option, values))
+    let mut rows = subject.spec.system().options();
+    rows.retain(|row| !row.hits.may_change(subject.kind));
+    let options = rows.iter().filter_map(|row| {
+        let mut values = row.tried();
+        values.retain(|value| takes(subject, rows.iter().copied(), (row.name, *value)));
+        (!values.is_empty()).then_some((row.name, values))
     });
     options.collect()
 }

@@ -1,6 +1,6 @@
 use rasray_ads::{Hit, Ray, StructureKind, TraceMode};
 use rasray_gpu::Timing;
-use rasray_systems::{SYSTEMS, Spec};
+use rasray_systems::{Preset, SYSTEMS, Spec};
 use rasray_tracer::{BatchTracer, build_until_complete};
 
 use crate::harness::Bench;
@@ -10,24 +10,18 @@ use crate::tier::is_full;
 /// A system, a preset, and options over it by name and value.
 pub type Row = (&'static str, &'static str, &'static [(&'static str, &'static str)]);
 
-/// Options that a preset needs to be traced without a scene and in the time of a test. What a system
-/// does not have is left out.
-pub const SUBJECTS: &[Row] = &[
-    ("mmrt", "robust", &[("resolution", "24"), ("capacity", "40000")]),
-    // Attributes come from a scene's materials, which plain triangles lack.
-    ("mmrt", "published", &[("resolution", "24"), ("capacity", "40000"), ("payload", "index")]),
-    ("hu", "published", &[("resolution", "24"), ("payload", "index")]),
-    ("selective", "published", &[("resolution", "24"), ("payload", "index")]),
-    ("ldc", "published", &[("resolution", "24"), ("payload", "index")]),
-    ("selective", "robust", &[("resolution", "24"), ("grid", "12")]),
+/// Cells along a side of views.
+const CELLS: &str = "24";
+
+/// Options of presets beside so many cells and those that need no scene.
+const BESIDE: &[Row] = &[
+    ("mmrt", "robust", &[("capacity", "40000")]),
+    ("mmrt", "published", &[("capacity", "40000")]),
+    ("selective", "robust", &[("grid", "12")]),
 ];
 
 /// Presets with options that make another structure, or one in which other options decide.
-const MORE: &[Row] = &[
-    ("dirt", "robust", &[("views", "axes"), ("grid", "24")]),
-    ("dirt", "robust", &[("storage", "llb"), ("resolution", "24")]),
-    ("hu", "robust", &[("storage", "bricks"), ("grid", "24")]),
-];
+const MORE: &[Row] = &[("bricks", "robust", &[("views", "cube"), ("grid", "24")])];
 
 /// More of them, in the full tier only.
 const LARGE: &[Row] = &[
@@ -41,9 +35,6 @@ const LARGE: &[Row] = &[
 fn more() -> impl Iterator<Item = &'static Row> {
     MORE.iter().chain(if is_full() { LARGE } else { &[] })
 }
-
-/// Options of systems that [`SUBJECTS`] does not name.
-const OTHERS: &[(&str, &str)] = &[("resolution", "24")];
 
 /// A preset of a system with its options for tests.
 #[derive(Clone, Debug)]
@@ -73,10 +64,12 @@ impl Subject {
         let presets =
             SYSTEMS.iter().flat_map(|system| system.presets.iter().map(move |preset| (system, preset)));
         let presets = presets.map(|(system, preset)| {
-            let own = SUBJECTS.iter().find(|row| row.0 == system.name && row.1 == preset.name());
-            let given = own.map_or(OTHERS, |row| row.2);
-            let known = given.iter().filter(|(option, _)| system.options.contains(option));
-            (system.name, preset.name(), known.copied().collect::<Vec<_>>())
+            let size = system.size_option().map(|option| (option, CELLS));
+            let scene = if *preset == Preset::Published { system.without_scene } else { &[] };
+            let own = BESIDE.iter().find(|row| row.0 == system.name && row.1 == preset.name());
+            let own = own.map_or(&[][..], |row| row.2);
+            let given = size.into_iter().chain(scene.iter().copied()).chain(own.iter().copied());
+            (system.name, preset.name(), given.collect::<Vec<_>>())
         });
         let more = more().map(|(system, preset, given)| (*system, *preset, given.to_vec()));
         presets
@@ -105,12 +98,11 @@ impl Subject {
         )
     }
 
-    /// The same with other values of options; absent where the system does not take them, or makes another
-    /// structure of them.
+    /// The same with other values of options; absent where the system does not take them.
     pub fn with(&self, options: &[(&str, &str)]) -> Option<Self> {
         let given = options.iter().map(|(option, value)| ((*option).to_owned(), (*value).to_owned()));
         let spec = self.spec.with_options(given).ok()?;
-        (spec.structure() == self.spec.structure()).then_some(Self { spec, kind: self.kind })
+        Some(Self { spec, kind: self.kind })
     }
 
     /// Builds and traces.

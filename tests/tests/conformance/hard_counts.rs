@@ -17,8 +17,10 @@ const RAYS: usize = 10_000;
 
 /// What finds triangles without loss, with pools beyond what one binding of many devices holds. The tree of
 /// the host is left out, which takes minutes.
-const TRIANGLES: &[(&str, &[(&str, &str)])] =
-    &[("dirt", &[("addressing", "address")]), ("bvh", &[("addressing", "address"), ("builder", "lbvh")])];
+const TRIANGLES: &[(&str, &[(&str, &str)])] = &[
+    ("bricks", &[("views", "cube"), ("addressing", "address")]),
+    ("bvh", &[("addressing", "address"), ("builder", "lbvh")]),
+];
 
 /// Corners without repetition, and indices: what a loader makes of the triangles.
 fn shared(case: &HardCase) -> (Vec<[f32; 3]>, Vec<u32>) {

@@ -204,15 +204,16 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
         let mut judge = judge.create(bench.device(), &geometry, None).expect("pipelines are made");
         let expected = bench.build_and_trace(judge.as_mut(), [0.0; 3], &rays);
         assert!(expected.iter().all(|hit| hit.is_hit()));
-        for system in SYSTEMS.iter().filter(|system| !["brute-force", "bvh"].contains(&system.name)) {
+        for (system, cells) in SYSTEMS.iter().filter_map(|system| Some((system, system.size_option()?))) {
             for &preset in system.presets {
                 let is_voxel = ["hu", "selective"].contains(&system.name);
                 if preset == Preset::Published && is_voxel {
                     continue;
                 }
-                let mut options = vec![("resolution".to_owned(), size.to_string())];
-                if preset == Preset::Published && system.name != "dirt" {
-                    options.push(("payload".to_owned(), "index".to_owned()));
+                let mut options = vec![(cells.to_owned(), size.to_string())];
+                if preset == Preset::Published {
+                    let given = system.without_scene.iter();
+                    options.extend(given.map(|(name, word)| ((*name).to_owned(), (*word).to_owned())));
                 }
                 let spec = Spec::new(system.name, preset.name(), options).expect("the options are valid");
                 let name = format!("{} {}, {size} pixels a side", system.name, preset.name());

@@ -2,7 +2,7 @@
 //! same hits; and, in the full tier, a million triangles through every system.
 
 use rasray_ads::{AdsError, BruteForce, Hit, Ray, Structure, StructureKind};
-use rasray_ads_primitive::{Addressing, Config, PrimitiveLists, Storage};
+use rasray_ads_primitive::{Addressing, Config, PrimitiveLists};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
 use rasray_systems::{SYSTEMS, Spec, SystemsError};
@@ -33,7 +33,7 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     triangles.extend(closed_box([-4.0; 3], [4.0; 3]));
     let geometry = bench.geometry(&triangles);
     // A word a list: 202 million bytes of lists.
-    let config = Config { tile: 1, buckets: 8, storage: Storage::Contiguous, ..Config::robust(1024) };
+    let config = Config { tile: 1, buckets: 8, ..Config::robust(1024) };
     let described = PrimitiveLists::new(bench.device(), config, &geometry, None);
     if limit >= 202 << 20 {
         println!("skipped: one binding of this device holds {limit} bytes");
@@ -58,9 +58,10 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
 }
 
 /// Options with which a pool of the system is larger than what one binding of a software driver holds.
-const LARGE: [(&str, &[(&str, &str)]); 5] = [
+const LARGE: [(&str, &[(&str, &str)]); 6] = [
+    ("bricks", &[("views", "cube"), ("grid", "512"), ("slices", "512")]),
     ("mmrt", &[("resolution", "2400")]),
-    ("dirt", &[("storage", "sb"), ("tile", "1"), ("resolution", "1024"), ("buckets", "8")]),
+    ("dirt", &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")]),
     ("hu", &[("resolution", "3500")]),
     ("selective", &[("resolution", "3500")]),
     ("ldc", &[("resolution", "2400")]),
@@ -128,7 +129,7 @@ fn many_spheres(count: usize) -> Vec<Triangle> {
     triangles
 }
 
-/// Trees grow with triangles alone, and so do bricks where their resolution follows from these: with more of
+/// Trees grow with triangles alone, and so do bricks where their cells follow from these: with more of
 /// them than a binding has room for, both builders and the bricks are refused by name or reached by address,
 /// and find the same.
 #[test]
@@ -150,7 +151,7 @@ fn trees_and_bricks_of_many_triangles_are_reached_by_address() {
     let truth = all_bits(&bench.trace(&brute, few).hits);
     let mut expected: Option<Vec<[u32; 4]>> = None;
     for (system, option, value) in
-        [("bvh", "builder", "sah"), ("bvh", "builder", "lbvh"), ("dirt", "storage", "bricks")]
+        [("bvh", "builder", "sah"), ("bvh", "builder", "lbvh"), ("bricks", "views", "cube")]
     {
         let described = Spec::new(system, "robust", [(option.to_owned(), value.to_owned())]).expect("valid");
         let spec = described.clone().with_option("addressing", "address").expect("every system takes it");
@@ -195,11 +196,7 @@ fn a_million_triangles_are_found_alike() {
         .collect();
     // The tree on the host is what the others are held against.
     specs.sort_by_key(|(system, ..)| *system != "bvh");
-    specs.extend([
-        ("bvh", Some(("builder", "lbvh"))),
-        ("dirt", Some(("storage", "sb"))),
-        ("hu", Some(("storage", "bricks"))),
-    ]);
+    specs.extend([("bvh", Some(("builder", "lbvh"))), ("bricks", Some(("views", "cube")))]);
     let mut expected: Vec<Hit> = Vec::new();
     for (system, option) in specs {
         let options = option.map(|(name, value)| (name.to_owned(), value.to_owned()));

@@ -18,8 +18,7 @@ const RAYS: usize = 1500;
 
 /// Options with which systems promise every hit, beside the presets that do.
 const EXACT: &[(&str, &[(&str, &str)])] = &[
-    ("dirt", &[("resolution", "64"), ("storage", "sb")]),
-    ("hu", &[("storage", "bricks")]),
+    ("dirt", &[("resolution", "64")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative"), ("builder", "binning")]),
     ("mmrt", &[("resolution", "64"), ("coverage", "conservative")]),
@@ -28,7 +27,7 @@ const EXACT: &[(&str, &[(&str, &str)])] = &[
 ];
 
 /// Presets that must be among those found by what they promise.
-const KEEPERS: &[&str] = &["brute-force robust", "bvh robust", "dirt robust"];
+const KEEPERS: &[&str] = &["brute-force robust", "bricks robust", "bvh robust", "dirt robust"];
 
 /// The hall whose banners and plants are cut out by masks.
 fn hall() -> Scene {

@@ -40,9 +40,8 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
 }
 
 /// Storages and coverages beside those of presets, which make other walks of them.
-const MORE: [Row; 7] = [
+const MORE: [Row; 6] = [
     ("bvh", "robust", &[("builder", "lbvh")]),
-    ("dirt", "robust", &[("storage", "sb")]),
     ("dirt", "robust", &[("storage", "llb")]),
     ("mmrt", "robust", &[("coverage", "conservative")]),
     ("mmrt", "robust", &[("march", "pyramid"), ("storage", "sb")]),
@@ -52,7 +51,7 @@ const MORE: [Row; 7] = [
 
 /// Whether rays find what they meet in a few steps.
 fn is_short(structure: &str) -> bool {
-    ["bvh", "ads-primitive"].contains(&structure)
+    ["bricks", "bvh", "ads-primitive"].contains(&structure)
 }
 
 /// Every preset of every system, and more of them; budgets are small, so that rays pause.
@@ -62,11 +61,8 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         Spec::new(system, preset, given).expect("the options are the system's")
     });
     let made = Subject::all().into_iter().map(|subject| subject.spec).chain(more).map(|spec| {
-        // Trees and brute force have no views with cells, and `hu` has none where it keeps bricks.
-        let bricks =
-            spec.system().name == "hu" && spec.options().get("storage").is_some_and(|s| s == "bricks");
-        let has_cells = spec.system().options.contains(&"resolution") && !bricks;
-        let cells = has_cells.then(|| ("resolution".to_owned(), RESOLUTION.to_string()));
+        let size = spec.system().size_option();
+        let cells = size.map(|option| (option.to_owned(), RESOLUTION.to_string()));
         let spec = spec.with_options(cells).expect("so many cells are valid").with_counters(counters);
         // What finds its triangle soon needs less to pause.
         let spec = spec.clone().with_work_budget(if is_short(spec.structure()) { 5 } else { 60 });

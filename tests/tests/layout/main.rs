@@ -4,6 +4,7 @@
 #[macro_use]
 mod reader;
 mod abuffer;
+mod bricks;
 mod bvh;
 mod ldc;
 mod primitive;

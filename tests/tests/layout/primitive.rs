@@ -24,25 +24,13 @@ fn records_of_primitive_lists() {
         &shaders::PRIMITIVE_BUILD_6_STORE_BIN,
         &shaders::PRIMITIVE_BUILD_6_STORE_BIN_MANY,
         &shaders::PRIMITIVE_BUILD_7_STATUS,
-        &shaders::PRIMITIVE_BRICKS_2_SLICES,
-        &shaders::PRIMITIVE_BRICKS_3_DRAW,
-        &shaders::PRIMITIVE_BRICKS_3_BIN,
-        &shaders::PRIMITIVE_BRICKS_3_BIN_MANY,
-        &shaders::PRIMITIVE_BRICKS_4_CELLS,
-        &shaders::PRIMITIVE_BRICKS_6_COUNT,
-        &shaders::PRIMITIVE_BRICKS_8_STORE,
-        &shaders::PRIMITIVE_BRICKS_9_REACH_SLICES,
-        &shaders::PRIMITIVE_BRICKS_9_REACH_COLUMNS,
-        &shaders::PRIMITIVE_BRICKS_9_REACH_ROWS,
-        &shaders::PRIMITIVE_BRICKS_10_TRIANGLES,
         &shaders::PRIMITIVE_TRACE_CLOSEST,
         &shaders::PRIMITIVE_TRACE_OCCLUDED,
     ];
     check_layout!(modules, rasray_ads_primitive::Header as "PrimitiveHeader" {
         status, demand, capacity, near_demand, near_capacity, corrupted, tiles, tile, reach, near_size, rounding,
-        spare_length, centre, spare_centre, lower, spare_lower, upper, spare_upper, bounds_address, lists_address,
-        entries_address, sums_address, near_address, records_address, triangles_address, slices, slice_first, slice_shift, record_demand, record_capacity,
-        cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves, rows, cells_lower, cells_per_metre,
+        centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
+        pairs_address, pair_capacity, pairs, groups,
     });
     let by_address = &read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST_ADDRESS)["PrimitiveHeader"];
     assert_eq!(*by_address, read_by_us(&shaders::PRIMITIVE_TRACE_CLOSEST)["PrimitiveHeader"]);

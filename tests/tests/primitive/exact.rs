@@ -1,10 +1,11 @@
-//! Primitive lists against brute force, bit for bit: at every size of tiles and buckets, from every eye and
-//! origin, with every budget; and lists that cover too little are noticed.
+//! Lists of triangles, per tile and in bricks, against brute force, bit for bit: at every size of cells, from every eye
+//! and origin, with every budget; and lists that cover too little are noticed.
 
 use rasray_ads::{BruteForce, Hit, Ray, Structure, TraceMode};
 use rasray_ads_primitive::{
-    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage, Views,
+    Accept, Addressing, Builder, Config, Coverage, Depths, March, PrimitiveLists, Stop, Storage,
 };
+use rasray_bricks::{Bricks, Config as BricksConfig, Views};
 use rasray_gpu::Timing;
 use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::{Bench, bits};
@@ -20,19 +21,70 @@ fn rays(seed: u64, count: usize, reach: f32) -> Vec<Ray> {
     (0..count).map(|_| Ray::new(random.point(-reach, reach), random.direction())).collect()
 }
 
-/// The exact preset in each storage, and bricks along the axes.
-fn storages(resolution: u32) -> [Config; 4] {
-    let of = |storage| Config { storage, ..Config::robust(resolution) };
-    let axes = Config { views: Views::Axes, grid: Some(resolution / 2), ..of(Storage::Bricks) };
-    [of(Storage::Contiguous), of(Storage::Linked), of(Storage::Bricks), axes]
+/// What is made.
+#[derive(Clone, Copy, Debug)]
+enum Made {
+    Lists(Config),
+    Bricks(BricksConfig),
 }
 
-fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> PrimitiveLists {
-    let geometry = bench.geometry(triangles);
-    let mut structure =
-        PrimitiveLists::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    build_until_complete(bench.device(), &mut structure, eye, Timing::None).expect("the build completes");
-    structure
+impl Made {
+    /// Built from an eye.
+    fn built(self, bench: &Bench, triangles: &[Triangle], eye: [f32; 3]) -> Box<dyn Structure> {
+        let (device, geometry) = (bench.device(), bench.geometry(triangles));
+        let mut structure: Box<dyn Structure> = match self {
+            Self::Lists(config) => {
+                Box::new(PrimitiveLists::new(device, config, &geometry, None).expect("valid options"))
+            }
+            Self::Bricks(config) => {
+                Box::new(Bricks::new(device, config, &geometry, None).expect("valid options"))
+            }
+        };
+        build_until_complete(device, structure.as_mut(), eye, Timing::None).expect("the build completes");
+        structure
+    }
+
+    /// The same in what changes no hit: the other builder, pools by address, leaps over blocks of tiles.
+    fn otherwise(self) -> Self {
+        let other = |builder| match builder {
+            Builder::Raster => Builder::Binning,
+            Builder::Binning => Builder::Raster,
+        };
+        let addressing = Addressing::Address;
+        match self {
+            Self::Lists(config) => {
+                let builder = other(config.builder);
+                Self::Lists(Config { addressing, builder, pyramid: true, ..config })
+            }
+            Self::Bricks(config) => {
+                Self::Bricks(BricksConfig { addressing, builder: other(config.builder), ..config })
+            }
+        }
+    }
+
+    fn with_budget(self, units: u32) -> Self {
+        match self {
+            Self::Lists(config) => Self::Lists(Config { work_budget: Some(units), ..config }),
+            Self::Bricks(config) => Self::Bricks(BricksConfig { work_budget: Some(units), ..config }),
+        }
+    }
+
+    /// Whether triangles around the eye are in a list of their own.
+    fn has_near_list(self) -> bool {
+        !matches!(self, Self::Bricks(BricksConfig { views: Views::Axes, .. }))
+    }
+}
+
+/// Lists in each storage, with two pixels to a tile, and bricks of both views.
+fn all(resolution: u32) -> [Made; 4] {
+    let lists = |storage| Made::Lists(Config { storage, ..Config::robust(resolution) });
+    let bricks =
+        |views| Made::Bricks(BricksConfig { grid: Some(resolution / 2), ..BricksConfig::new(views) });
+    [lists(Storage::Contiguous), lists(Storage::Linked), bricks(Views::Cube), bricks(Views::Axes)]
+}
+
+fn lists(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> Box<dyn Structure> {
+    Made::Lists(config).built(bench, triangles, eye)
 }
 
 fn brute_force(bench: &Bench, triangles: &[Triangle], rays: &[Ray]) -> Vec<Hit> {
@@ -47,7 +99,7 @@ fn differences(found: &[Hit], expected: &[Hit]) -> Vec<usize> {
     (0..found.len()).filter(|&ray| bits(&found[ray]) != bits(&expected[ray])).collect()
 }
 
-fn assert_exact(what: &str, bench: &Bench, structure: &PrimitiveLists, rays: &[Ray], expected: &[Hit]) {
+fn assert_exact(what: &str, bench: &Bench, structure: &dyn Structure, rays: &[Ray], expected: &[Hit]) {
     let hits = bench.trace(structure, rays).hits;
     if let [first, ..] = differences(&hits, expected)[..] {
         let (ray, hit, expected) = (rays[first], hits[first], expected[first]);
@@ -69,10 +121,11 @@ fn hits_are_those_of_brute_force() {
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
-        for config in [0, 2, 3].map(|which| Config { pyramid: true, ..storages(128)[which] }) {
-            let structure = lists(&bench, config, &triangles, EYES[round as usize % 3]);
-            let what = format!("{:?}, {:?}", config.storage, config.views);
-            assert_exact(&what, &bench, &structure, &rays, &expected);
+        let pyramid = Config { pyramid: true, ..Config::robust(128) };
+        let [_, _, cube, axes] = all(128);
+        for made in [Made::Lists(pyramid), cube, axes] {
+            let structure = made.built(&bench, &triangles, EYES[round as usize % 3]);
+            assert_exact(&format!("{made:?}"), &bench, structure.as_ref(), &rays, &expected);
         }
     }
 }
@@ -95,47 +148,35 @@ fn no_size_changes_a_hit() {
     ];
     for (index, (resolution, tile, buckets)) in sizes.into_iter().enumerate() {
         let storage = if index % 2 == 0 { Storage::Linked } else { Storage::Contiguous };
-        let builder = Some(if index % 4 < 2 { Builder::Binning } else { Builder::Raster });
+        let builder = if index % 4 < 2 { Builder::Binning } else { Builder::Raster };
         let (skip, pyramid) = (index % 3 != 0, index % 2 == 0);
         let config = Config { tile, buckets, storage, skip, builder, pyramid, ..Config::robust(resolution) };
         let structure = lists(&bench, config, &triangles, EYES[index % 3]);
-        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+        assert_exact(&format!("{config:?}"), &bench, structure.as_ref(), &rays, &expected);
     }
-    let bricks = [
-        (1, 1, None),
-        (4, 1, Some(1)),
-        (5, 1, Some(30)),
-        (33, 4, Some(64)),
-        (64, 1, Some(7)),
-        (100, 2, Some(200)),
-        (256, 2, Some(1024)),
-        (300, 1, None),
+    let faces = [
+        (1, None),
+        (4, Some(1)),
+        (5, Some(30)),
+        (9, Some(64)),
+        (64, Some(7)),
+        (50, Some(200)),
+        (128, Some(1024)),
+        (300, None),
     ];
-    for (index, (resolution, tile, slices)) in bricks.into_iter().enumerate() {
-        let storage = Storage::Bricks;
+    let faces = faces.map(|(grid, slices)| (Views::Cube, grid, slices));
+    let axes = [1, 5, 16, 77, 256].map(|grid| (Views::Axes, grid, None));
+    for (index, (views, grid, slices)) in faces.into_iter().chain(axes).enumerate() {
         let (skip, corners) = (index % 3 != 0, index % 2 == 0);
-        let builder = Some(if index % 4 < 2 { Builder::Raster } else { Builder::Binning });
-        let config = Config { tile, slices, storage, skip, corners, builder, ..Config::robust(resolution) };
-        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
-        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
+        let builder = if index % 4 < 2 { Builder::Raster } else { Builder::Binning };
+        let own = BricksConfig::new(views);
+        let config = BricksConfig { grid: Some(grid), slices, skip, corners, builder, ..own };
+        let structure = Made::Bricks(config).built(&bench, &triangles, EYES[index % 3]);
+        assert_exact(&format!("{config:?}"), &bench, structure.as_ref(), &rays, &expected);
     }
-    for (grid, index) in [1, 5, 16, 77, 256].into_iter().zip(0..) {
-        let (views, skip, corners) = (Views::Axes, index % 3 != 0, index % 2 == 0);
-        let builder = Some(if index % 2 == 0 { Builder::Raster } else { Builder::Binning });
-        let config = Config { views, grid: Some(grid), skip, corners, builder, ..Config::robust(1) };
-        let structure = lists(&bench, config, &triangles, EYES[index % 3]);
-        assert_exact(&format!("{config:?}"), &bench, &structure, &rays, &expected);
-    }
-    for config in storages(64) {
-        // Each in the way that is not its usual one.
-        let other = match config.builder() {
-            Builder::Raster => Builder::Binning,
-            Builder::Binning => Builder::Raster,
-        };
-        let addressing = Addressing::Address;
-        let config = Config { addressing, builder: Some(other), pyramid: true, ..config };
-        let structure = lists(&bench, config, &triangles, EYES[1]);
-        assert_exact(&format!("{:?} by address", config.storage), &bench, &structure, &rays, &expected);
+    for made in all(64).map(Made::otherwise) {
+        let structure = made.built(&bench, &triangles, EYES[1]);
+        assert_exact(&format!("{made:?}"), &bench, structure.as_ref(), &rays, &expected);
     }
 }
 
@@ -190,7 +231,7 @@ fn every_published_rule_loses_hits() {
     ] {
         assert!(!config.is_exact(), "{rule}");
         let structure = lists(&bench, config, &triangles, EYES[0]);
-        let hits = bench.trace(&structure, &rays).hits;
+        let hits = bench.trace(structure.as_ref(), &rays).hits;
         let lost = differences(&hits, &expected);
         assert!(lost.len() > least, "{rule}: {} of {} hits differ", lost.len(), rays.len());
         println!("{rule}: {} of {} hits differ", lost.len(), rays.len());
@@ -198,7 +239,7 @@ fn every_published_rule_loses_hits() {
     }
     let accept = Config { accept: Accept::Tile, ..fine };
     let structure = lists(&bench, accept, &triangles, EYES[0]);
-    let lost = differences(&bench.trace(&structure, &rays).hits, &expected).len();
+    let lost = differences(&bench.trace(structure.as_ref(), &rays).hits, &expected).len();
     println!("accept: {lost} of {} hits differ", rays.len());
     // Rounding alone moves a hit to another tile. That the rule is there shows beside the jump, where it
     // refuses what a tile passed by would have had.
@@ -207,7 +248,7 @@ fn every_published_rule_loses_hits() {
     let refusing = Config { accept: Accept::Tile, ..jumping };
     let [jumping, refusing] = [jumping, refusing].map(|config| {
         let structure = lists(&bench, config, &triangles, EYES[0]);
-        differences(&bench.trace(&structure, &rays).hits, &expected).len()
+        differences(&bench.trace(structure.as_ref(), &rays).hits, &expected).len()
     });
     assert!(refusing > 10 * jumping, "{refusing} hits differ with the rule, {jumping} without");
 }
@@ -229,12 +270,12 @@ fn distance_changes_no_hit() {
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
         assert!(expected.iter().all(Hit::is_hit));
-        for config in storages(64) {
-            let what = format!("{:?}, {distance} m away", config.storage);
-            let structure = lists(&bench, config, &triangles, EYES[0]);
-            assert_exact(&what, &bench, &structure, &rays, &expected);
-            let structure = lists(&bench, config, &triangles, [0.0, distance, 0.0]);
-            assert_exact(&format!("an eye: {what}"), &bench, &structure, &rays, &expected);
+        for made in all(64) {
+            for eye in [EYES[0], [0.0, distance, 0.0]] {
+                let what = format!("rays from {distance} m away, eye at {eye:?}, {made:?}");
+                let structure = made.built(&bench, &triangles, eye);
+                assert_exact(&what, &bench, structure.as_ref(), &rays, &expected);
+            }
         }
     }
 }
@@ -260,23 +301,15 @@ fn triangles_around_the_eye_are_found() {
             .collect();
         let expected = brute_force(&bench, &triangles, &rays);
         assert!(expected.iter().filter(|hit| hit.primitive as usize >= triangles.len() - 200).count() > 200);
-        for config in storages(64) {
-            let structure = lists(&bench, config, &triangles, eye);
-            let header = structure.header().expect("the header is readable");
-            let near = header.near_demand as usize;
-            let has_near_list = config.views == Views::Cube;
-            assert!(has_near_list || near == 0, "{near} triangles are near the centre");
-            assert!(
-                !has_near_list || near > 20 && near < triangles.len() / 2,
-                "{near} triangles are in the near list"
-            );
-            assert_exact(
-                &format!("{:?}, eye at {eye:?}", config.storage),
-                &bench,
-                &structure,
-                &rays,
-                &expected,
-            );
+        for made in all(64) {
+            let structure = made.built(&bench, &triangles, eye);
+            let status = structure.status().expect("the header is readable");
+            let near = status.demand("near").expect("the pool is counted") as usize;
+            let right =
+                if made.has_near_list() { near > 20 && near < triangles.len() / 2 } else { near == 0 };
+            assert!(right, "{made:?}: {near} triangles are in the near list");
+            let what = format!("eye at {eye:?}, {made:?}");
+            assert_exact(&what, &bench, structure.as_ref(), &rays, &expected);
         }
     }
 }
@@ -301,9 +334,9 @@ fn limits_and_exclusion_are_kept() {
         ]);
     }
     let expected = brute_force(&bench, &triangles, &rays);
-    for config in storages(64) {
-        let structure = lists(&bench, config, &triangles, EYES[1]);
-        assert_exact(&format!("limits, {:?}", config.storage), &bench, &structure, &rays, &expected);
+    for made in all(64) {
+        let structure = made.built(&bench, &triangles, EYES[1]);
+        assert_exact(&format!("limits, {made:?}"), &bench, structure.as_ref(), &rays, &expected);
     }
 }
 
@@ -318,15 +351,15 @@ fn no_budget_changes_a_hit() {
     rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
     let expected = brute_force(&bench, &triangles, &rays);
     for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {
-        for config in storages(32) {
-            let config = Config { work_budget: Some(budget), ..config };
-            let structure = lists(&bench, config, &triangles, EYES[1]);
-            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, rounds);
-            assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{budget} units a dispatch");
-            assert_eq!(differences(&hits, &expected), [0; 0], "{config:?}");
+        for made in all(32).map(|made| made.with_budget(budget)) {
+            let structure = made.built(&bench, &triangles, EYES[1]);
+            let trace =
+                |rounds| trace_in_rounds(&bench, structure.as_ref(), &rays, TraceMode::Closest, rounds);
+            let (hits, counters) = trace(rounds);
+            assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{budget} units per dispatch");
+            assert_eq!(differences(&hits, &expected), [0; 0], "{made:?}");
             // With too few rounds rays are counted, never given half an answer.
-            let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
-            assert!(counters.unfinished > 0);
+            assert!(trace(2).1.unfinished > 0);
         }
     }
 }

@@ -1,5 +1,7 @@
-//! Primitive lists and bricks: exactness, rules that lose hits, pools of every edge capacity.
+//! Lists of triangles, per tile and in bricks: exactness, rules that lose hits, pools of every edge capacity.
 
-mod bricks_axes;
+mod bricks_capacity;
+mod bricks_cells;
 mod capacity;
+mod edges;
 mod exact;

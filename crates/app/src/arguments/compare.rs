@@ -3,8 +3,9 @@
 use super::ray_files::RayFileArguments;
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
 use crate::backend::RaySet;
-use crate::structure::{Preset, StructureOptions, SystemName};
+use crate::structure::{StructureOptions, preset_parser, system_parser};
 use clap::Args;
+use rasray_systems::{Preset, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -37,10 +38,10 @@ pub struct CompareArguments {
     #[arg(value_name = "SYSTEM.OPTION=VALUE")]
     pub assignments: Vec<String>,
     /// What is compared
-    #[arg(long, value_enum, value_delimiter = ',', required = true)]
-    pub systems: Vec<SystemName>,
+    #[arg(long, value_parser = system_parser(), value_delimiter = ',', required = true)]
+    pub systems: Vec<&'static System>,
     /// How closely the systems follow their papers; each takes part with the presets that it has
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "robust")]
+    #[arg(long, value_parser = preset_parser(), value_delimiter = ',', default_value = Preset::Robust.name())]
     pub presets: Vec<Preset>,
     /// Where the rays come from [default: incoherent,camera; none with --rays-file]
     #[arg(long, value_enum, value_delimiter = ',')]

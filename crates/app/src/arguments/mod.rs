@@ -47,7 +47,7 @@ RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps c
 /// The whole command line.
 #[derive(Debug, Parser)]
 #[command(name = "rasray", version = crate::version_text(), about = ABOUT, after_help = AFTER_HELP)]
-#[command(arg_required_else_help = true)]
+#[command(arg_required_else_help = true, disable_help_flag = true)]
 pub struct CommandLine {
     /// What to do.
     #[command(subcommand)]
@@ -136,7 +136,7 @@ pub(crate) fn usage_error(error: &clap::Error, prefix: &str, command: Option<&st
     }
     if help.is_empty() {
         help = match command {
-            Some(command) => format!("'rasray {command} --help' lists what it takes"),
+            Some(command) => format!("'rasray {command} --help' lists what it takes, --help-all everything"),
             None => "'rasray --help' lists what there is".to_owned(),
         };
     }

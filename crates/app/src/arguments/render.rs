@@ -5,9 +5,10 @@ use super::values;
 use crate::backend::AovSelection;
 use crate::error::AppError;
 use crate::output::ImageFormat;
-use crate::structure::{Preset, Storage, StructureOptions, SystemName};
+use crate::structure::{StructureOptions, preset_parser, system_parser};
 use crate::systems::{self, SystemConfig};
 use clap::{Args, ValueEnum};
+use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -36,11 +37,11 @@ pub struct RenderArguments {
     /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
-    /// What rays are traced through [default: hu with --storage bricks, whose hits are exact]
-    #[arg(long, value_enum)]
-    pub system: Option<SystemName>,
+    /// What rays are traced through
+    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name)]
+    pub system: &'static System,
     /// How closely the system follows its paper
-    #[arg(long, value_enum, default_value_t = Preset::Robust)]
+    #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,
     /// Image to write: .png or .exr; - is standard output
     #[arg(long, short, value_name = "FILE", required_unless_present = "report")]
@@ -89,31 +90,12 @@ pub enum Aov {
 }
 
 impl RenderArguments {
-    /// The system with its options: the one that was named, or the exact structure.
+    /// The system with its options.
     ///
     /// # Errors
-    /// What no system takes, and options of a paper's structure without the system that they belong to.
+    /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
-        let Some(name) = self.system else {
-            let help = "name the --system that is meant; without one it is hu with --storage bricks";
-            if self.preset == Preset::Published {
-                return Err(AppError::usage(
-                    "--preset published follows a paper, and no --system is named",
-                    help,
-                ));
-            }
-            let bricks = StructureOptions { storage: Some(Storage::Bricks), ..StructureOptions::default() };
-            let options = bricks.overlaid(&self.structure);
-            if options.storage != bricks.storage {
-                return Err(AppError::usage(
-                    "--storage is an option of several systems, and none is named",
-                    help,
-                ));
-            }
-            return systems::single(SystemName::Hu, self.preset, &options)
-                .map_err(|error| AppError::usage(error.to_string(), help));
-        };
-        systems::single(name, self.preset, &self.structure)
+        systems::single(self.system, self.preset, &self.structure)
     }
 
     /// The images wanted in addition to the colours.

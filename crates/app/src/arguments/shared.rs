@@ -1,10 +1,10 @@
 //! Groups of options that several commands take.
 
 use super::values::{self, Size};
+use crate::arguments::values::Switch;
 use crate::backend::{DeviceChoice, Frame, Integrator, Sampler};
 use crate::error::AppError;
-use crate::structure::Switch;
-use clap::{Args, ValueEnum};
+use clap::{ArgAction, Args, ValueEnum};
 use rasray_scene::Scene;
 use rasray_scene::needs::{Needs, Workload};
 
@@ -43,6 +43,12 @@ pub struct TalkArguments {
     /// Print every number of a run, not the short summary
     #[arg(long, short, global = true, help_heading = "Messages")]
     pub verbose: bool,
+    /// Print what most people need
+    #[arg(long, short, global = true, action = ArgAction::HelpShort, help_heading = "Messages")]
+    pub help: Option<bool>,
+    /// Print everything: methods of papers, tuning, diagnostics
+    #[arg(long, global = true, action = ArgAction::HelpLong, help_heading = "Messages")]
+    pub help_all: Option<bool>,
 }
 
 /// The image and what light does.

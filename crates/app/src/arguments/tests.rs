@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::backend::{Integrator, RaySet};
-use crate::structure::{Preset, StructureOptions, SystemName};
+use crate::structure::StructureOptions;
 use clap::CommandFactory;
+use rasray_systems::Preset;
 
 fn arguments(line: &str) -> Vec<OsString> {
     std::iter::once("rasray").chain(line.split_whitespace()).map(OsString::from).collect()
@@ -40,8 +41,8 @@ fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
     let frame = given.frame.frame().expect("defaults fit together");
     let system = given.system().expect("the exact structure");
-    assert_eq!((system.name, system.preset), (SystemName::Hu, Preset::Robust));
-    assert_eq!(system.spec().expect("known").structure(), "ads-primitive");
+    assert_eq!((system.system.name, system.preset), ("bricks", Preset::Robust));
+    assert_eq!(system.spec().expect("known").structure(), "bricks");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
     assert_eq!(frame.integrator, Integrator::Path { bounces: 8 });
     assert_eq!(given.structure, StructureOptions::default());
@@ -60,7 +61,8 @@ fn a_comparison_takes_lists_and_addressed_options() {
                 mmrt.march=samples --rays 10";
     match parse(arguments(line)) {
         Ok(CommandLine { command: Command::Compare(given), .. }) => {
-            assert_eq!(given.systems, [SystemName::Mmrt, SystemName::BruteForce]);
+            let names: Vec<_> = given.systems.iter().map(|system| system.name).collect();
+            assert_eq!(names, ["mmrt", "brute-force"]);
             assert_eq!(given.ray_set, [RaySet::Eye, RaySet::Bounce]);
             assert_eq!(given.assignments, ["mmrt.march=samples"]);
         }

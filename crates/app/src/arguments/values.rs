@@ -1,5 +1,16 @@
 //! Values that options take, read from text.
 
+use clap::ValueEnum;
+
+/// A switch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Switch {
+    /// Yes
+    On,
+    /// No
+    Off,
+}
+
 /// Pixels of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {

@@ -11,7 +11,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
 use crate::progress::during;
 use crate::report::{Report, Run, origin, table};
-use crate::systems::{SystemConfig, word};
+use crate::systems::SystemConfig;
 use crate::terminal::{self, Talk};
 use crate::texels;
 use std::io::IsTerminal;
@@ -81,8 +81,8 @@ pub(crate) fn render(
     if let Some((place, format)) = &image {
         let metadata = Metadata {
             scene: loaded.scene.name.clone(),
-            system: word(&system.name),
-            preset: word(&system.preset),
+            system: system.system.name.to_owned(),
+            preset: system.preset.name().to_owned(),
             integrator: integrator_name(&frame).to_owned(),
             spp: frame.spp,
             samples: output.samples_done,
@@ -182,9 +182,9 @@ fn write_image(
 /// The record of a render in a report.
 fn run_of(system: &SystemConfig, structure: &str, frame: &Frame, output: &RenderOutput) -> Run {
     Run {
-        system: word(&system.name),
+        system: system.system.name.to_owned(),
         structure: structure.to_owned(),
-        preset: word(&system.preset),
+        preset: system.preset.name().to_owned(),
         options: output.options.clone(),
         paths: output.paths.clone(),
         integrator: Some(integrator_name(frame).to_owned()),

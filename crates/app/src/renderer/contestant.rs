@@ -4,12 +4,11 @@ use rasray_ads::Counters;
 use rasray_gpu::Device;
 use rasray_systems::Spec;
 
-use super::spec_of;
 use super::stage::{Built, Stage};
 use crate::backend::{OnProgress, Progress};
 use crate::error::AppError;
 use crate::report::{Run, Times};
-use crate::systems::{SystemConfig, word};
+use crate::systems::SystemConfig;
 
 /// One system of a comparison.
 pub(super) struct Contestant<'a> {
@@ -33,8 +32,8 @@ impl<'a> Contestant<'a> {
         let mut contestants = Vec::new();
         let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
         for config in systems {
-            says("build", &word(&config.name));
-            let spec = spec_of(config)?.with_counters(Counters::Sums);
+            says("build", config.system.name);
+            let spec = config.spec()?.with_counters(Counters::Sums);
             let built = Built::new(device, &spec, &stage.scene, center)?;
             contestants.push(Self { config, spec, built });
         }
@@ -53,9 +52,9 @@ impl<'a> Contestant<'a> {
         let mut times = Times::default();
         self.built.write_times(&mut times);
         Ok(Run {
-            system: word(&self.config.name),
+            system: self.config.system.name.to_owned(),
             structure: self.spec.structure().to_owned(),
-            preset: word(&self.config.preset),
+            preset: self.config.preset.name().to_owned(),
             variant: self.config.variant.clone(),
             options,
             paths,

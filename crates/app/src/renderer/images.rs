@@ -7,13 +7,11 @@ use rasray_reference::shading::{PosedScene, View};
 use super::compare::Setting;
 use super::contestant::Contestant;
 use super::render::render_pixels;
-use super::spec_of;
 use super::stage::{Built, device_error};
 use crate::backend::{Comparison, Frame, Integrator, OnProgress};
 use crate::error::AppError;
 use crate::report::figures::{Images, SystemImage};
 use crate::report::{ImageError, Run};
-use crate::systems::word;
 
 /// The reference image of a frame; absent for integrators that it does not have.
 fn reference_image(scene: &PosedScene<'_>, view: &View, frame: &Frame) -> Result<Option<Image>, AppError> {
@@ -95,12 +93,12 @@ pub(super) fn compare_images(
     };
     for contestant in contestants {
         // Images are taken as renders are: from a structure built around the camera.
-        let spec = spec_of(contestant.config)?;
+        let spec = contestant.config.spec()?;
         let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
         for _ in 0..job.repetitions {
             built.build_again(device)?;
         }
-        let task = format!("image {}", word(&contestant.config.name));
+        let task = format!("image {}", contestant.config.system.name);
         let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());

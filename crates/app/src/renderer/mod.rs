@@ -17,7 +17,6 @@ mod work_maps;
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc, Feature, Requirements};
 use rasray_gpu_scene::TexelRuns;
-use rasray_systems::Spec;
 
 use crate::backend::{
     Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, HardJob, OnProgress, RenderJob,
@@ -25,7 +24,6 @@ use crate::backend::{
 };
 use crate::error::AppError;
 use crate::report::Device;
-use crate::systems::{SystemConfig, word};
 
 /// A device and nothing else: everything made for a job goes with the job.
 pub(crate) struct Renderer {
@@ -67,17 +65,6 @@ impl Renderer {
             _ => Ok(()),
         }
     }
-}
-
-/// The registry's entry for what the command line asked for.
-fn spec_of(config: &SystemConfig) -> Result<Spec, AppError> {
-    let text = |value: serde_json::Value| match value {
-        serde_json::Value::String(text) => text,
-        other => other.to_string(),
-    };
-    let options = config.options.given().into_iter().map(|(name, value)| (name, text(value)));
-    Spec::new(&word(&config.name), &word(&config.preset), options)
-        .map_err(|error| AppError::usage(error.to_string(), "see `rasray render --help`"))
 }
 
 impl Backend for Renderer {

@@ -11,7 +11,6 @@ use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
 use super::passes::Passes;
-use super::spec_of;
 use super::stage::{Built, Stage, device_error, tracer_error};
 use crate::backend::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
 use crate::error::AppError;
@@ -166,7 +165,7 @@ pub(super) fn render(
 ) -> Result<RenderOutput, AppError> {
     let started = Instant::now();
     let frame = job.frame;
-    let spec = spec_of(&job.system)?;
+    let spec = job.system.spec()?;
     _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
     let mut stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;

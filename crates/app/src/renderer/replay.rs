@@ -10,7 +10,6 @@ use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, Replay};
 
 use super::rays::oracle_ray;
-use super::spec_of;
 use super::stage::{Built, Stage, device_error, tracer_error};
 use crate::backend::Comparison;
 use crate::error::AppError;
@@ -70,7 +69,7 @@ pub(super) fn replay_sets(
     sets: impl Iterator<Item = (String, Vec<Ray>)>,
     index: u32,
 ) -> Result<Comparison, AppError> {
-    let specs = systems.iter().map(spec_of).collect::<Result<Vec<_>, _>>()?;
+    let specs = systems.iter().map(SystemConfig::spec).collect::<Result<Vec<_>, _>>()?;
     let mut text = String::new();
     for (name, rays) in sets {
         text.push_str(&setting.replay(&specs, &name, &rays, index)?);

@@ -128,7 +128,7 @@ impl From<FirstBuild> for AppError {
 
 /// Whether addressing was left open, and the device has addresses.
 fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
-    let has_option = spec.system().options.contains(&"addressing");
+    let has_option = spec.system().has("addressing");
     has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
 }
 

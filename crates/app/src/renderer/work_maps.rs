@@ -11,7 +11,6 @@ use super::stage::{Built, Stage, tracer_error};
 use crate::error::AppError;
 use crate::report::Run;
 use crate::report::figures::WorkMap;
-use crate::systems::word;
 
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;
@@ -60,7 +59,7 @@ fn centres(source: &RaySource<'_>) -> Vec<Ray> {
 }
 
 fn run_of(contestant: &Contestant<'_>, runs: &[Run]) -> Option<usize> {
-    let (system, preset) = (word(&contestant.config.name), word(&contestant.config.preset));
+    let (system, preset) = (contestant.config.system.name, contestant.config.preset.name());
     let own = |run: &&Run| run.system == system && run.preset == preset && run.ray_set.is_some();
     let of = |set: Option<&str>| {
         runs.iter()

@@ -1,14 +1,15 @@
 //! Options that address one of the systems of a comparison.
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
+use rasray_systems::{Preset, SYSTEMS, System};
 
-use super::{entry, who_has, words};
+use super::{names, who_has};
 use crate::error::AppError;
-use crate::structure::{Preset, StructureOptions, SystemName};
+use crate::structure::StructureOptions;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
-    pub(super) name: SystemName,
+    pub(super) system: &'static System,
     pub(super) preset: Option<Preset>,
     /// The option with each value, and how both were written.
     pub(super) values: Vec<(StructureOptions, String)>,
@@ -33,20 +34,20 @@ impl Assigned {
         let (target, values) = text.split_once('=').ok_or_else(shape)?;
         let (system, option) = target.split_once('.').ok_or_else(shape)?;
         // Names of systems may have a hyphen of their own.
-        let whole = SystemName::from_str(system, false).map(|name| (name, None));
         let with_preset = || {
-            let (system, preset) = system.rsplit_once('-').ok_or_else(String::new)?;
-            Ok((SystemName::from_str(system, false)?, Some(Preset::from_str(preset, false)?)))
+            let (system, preset) = system.rsplit_once('-')?;
+            Some((System::named(system)?, Some(Preset::named(preset)?)))
         };
-        let (name, preset) = whole.or_else(|_: String| with_preset()).map_err(|_: String| {
+        let known = System::named(system).map(|system| (system, None)).or_else(with_preset);
+        let (system, preset) = known.ok_or_else(|| {
             AppError::usage(
                 format!("'{text}': there is no system {system}"),
-                format!("the systems: {}", words(SystemName::value_variants())),
+                format!("the systems: {}", names(&SYSTEMS.iter().collect::<Vec<_>>())),
             )
         })?;
-        if !entry(name).options.contains(&option) {
+        if !system.has(option) {
             return Err(AppError::usage(
-                format!("'{text}': system {system} has no option {option}"),
+                format!("'{text}': system {} has no option {option}", system.name),
                 who_has(option),
             ));
         }
@@ -57,7 +58,7 @@ impl Assigned {
                     crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare"))
                 })
         };
-        Ok(Self { name, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
+        Ok(Self { system, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
     }
 }
 
@@ -70,29 +71,29 @@ mod tests {
     fn an_option_may_address_one_preset() {
         let assigned = |text: &str| {
             let presets = [Preset::Robust, Preset::Published];
-            let names = [SystemName::Dirt, SystemName::BruteForce];
+            let names = ["mmrt", "brute-force"].map(|name| System::named(name).expect("a system"));
             several(&names, &presets, &StructureOptions::default(), &[text.to_owned()])
         };
-        let configs =
-            assigned("dirt-robust.views=cube,axes").expect("published has no bricks and is left alone");
-        let shape: Vec<_> = configs.iter().map(|c| (c.name, c.preset, c.variant.as_deref())).collect();
+        let configs = assigned("mmrt-robust.accept=interval,plane")
+            .expect("published keeps no plane and is left alone");
+        let shape: Vec<_> = configs.iter().map(|c| (c.system.name, c.preset, c.variant.as_deref())).collect();
         assert_eq!(
             shape,
             [
-                (SystemName::Dirt, Preset::Robust, Some("views=cube")),
-                (SystemName::Dirt, Preset::Robust, Some("views=axes")),
-                (SystemName::Dirt, Preset::Published, None),
-                (SystemName::BruteForce, Preset::Robust, None),
+                ("mmrt", Preset::Robust, Some("accept=interval")),
+                ("mmrt", Preset::Robust, Some("accept=plane")),
+                ("mmrt", Preset::Published, None),
+                ("brute-force", Preset::Robust, None),
             ]
         );
-        assert!(assigned("dirt.views=cube,axes").is_err(), "published has no bricks");
+        assert!(assigned("mmrt.accept=interval,plane").is_err(), "published keeps no plane");
         assert_eq!(assigned("brute-force-robust.buckets=4").expect_err("not its option").exit_code(), 2);
-        assert_eq!(assigned("dirt-other.tile=4").expect_err("no preset").exit_code(), 2);
+        assert_eq!(assigned("mmrt-other.samples=4").expect_err("no preset").exit_code(), 2);
         let one = several(
-            &[SystemName::Dirt],
+            &[System::named("mmrt").expect("a system")],
             &[Preset::Robust],
             &StructureOptions::default(),
-            &["dirt-published.tile=4".to_owned()],
+            &["mmrt-published.samples=4".to_owned()],
         );
         assert!(one.expect_err("not compared").to_string().contains("published"));
     }

@@ -49,7 +49,7 @@ fn a_report_follows_the_schema_and_leaves_out_what_was_not_measured() {
     let run = &made.runs[0];
     assert_eq!(
         (run.system.as_str(), run.structure.as_str(), run.preset.as_str()),
-        ("hu", "ads-primitive", "robust")
+        ("bricks", "bricks", "robust")
     );
     assert_eq!((run.seed, run.bounces, run.width, run.spp), (Some(9), Some(2), Some(4), Some(16)));
     assert_eq!((run.times.build_ms, run.memory.is_none(), run.accuracy.is_none()), (None, true, true));

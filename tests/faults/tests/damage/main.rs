@@ -4,6 +4,7 @@
 //! runs in a process of its own, which may crash or hang without taking the tests along.
 
 mod abuffer;
+mod bricks;
 mod bvh;
 mod ldc;
 mod primitive;

@@ -1,6 +1,6 @@
-//! Damaged primitive lists: linked, contiguous, and in bricks.
+//! Damaged primitive lists, linked and contiguous.
 
-use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage, Views, well_formed};
+use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage, well_formed};
 use rasray_faults::{in_child, scrambled};
 
 use crate::survive::{self, Flag, damageable, survive};
@@ -67,30 +67,6 @@ const OF_ANY: [Damage; 4] = [
     ),
 ];
 
-/// Damage to the words and masks of bricks.
-const OF_BRICKS: [Damage; 3] = [
-    // Every cell lists something, and the numbers of most lists are beyond the last.
-    ("bricks with full masks", |c| c.bounds.fill(u32::MAX >> 8), Flag::Corrupted),
-    (
-        "the lists of every brick are those of the first",
-        |c| {
-            c.bounds
-                .chunks_exact_mut(3)
-                .filter(|brick| brick[1] | brick[2] != 0)
-                .for_each(|brick| brick[0] = 0)
-        },
-        Flag::Contents,
-    ),
-    (
-        "bricks at random",
-        |c| {
-            let mut next = scrambled(0x9E37_79B9);
-            c.bounds.fill_with(&mut next);
-        },
-        Flag::Corrupted,
-    ),
-];
-
 fn check(config: Config, damages: &[Damage]) {
     survive(
         |device, geometry, scene| {
@@ -113,24 +89,9 @@ fn damaged_links_of_primitives_are_survived_and_told() {
 #[test]
 fn damaged_lists_of_primitives_of_every_storage_are_survived_and_told() {
     if in_child("primitive::damaged_lists_of_primitives_of_every_storage_are_survived_and_told") {
-        for (storage, corners) in [
-            (Storage::Linked, true),
-            (Storage::Contiguous, true),
-            (Storage::Bricks, true),
-            (Storage::Bricks, false),
-        ] {
-            println!("{storage:?}, corners kept: {corners}");
-            check(Config { storage, corners, ..Config::robust(32) }, &OF_ANY);
+        for storage in [Storage::Linked, Storage::Contiguous] {
+            println!("{storage:?}");
+            check(Config { storage, ..Config::robust(32) }, &OF_ANY);
         }
-    }
-}
-
-#[test]
-fn damaged_bricks_are_survived_and_told() {
-    if in_child("primitive::damaged_bricks_are_survived_and_told") {
-        for addressing in [Addressing::Descriptor, Addressing::Address] {
-            check(Config { addressing, ..Config::robust(32) }, &OF_BRICKS);
-        }
-        check(Config { views: Views::Axes, ..Config::robust(32) }, &OF_BRICKS);
     }
 }

@@ -93,10 +93,10 @@ impl Backend for Scripted {
                     std::thread::sleep(Duration::from_millis(300));
                 }
                 runs.push(Run {
-                    system: rasray_app::systems::word(&system.name),
-                    preset: rasray_app::systems::word(&system.preset),
+                    system: system.system.name.to_owned(),
+                    preset: system.preset.name().to_owned(),
                     ray_set: Some(rasray_app::systems::word(set)),
-                    options: system.options.given().into_iter().collect(),
+                    options: system.options.given().clone().into_iter().collect(),
                     ..Default::default()
                 });
             }
@@ -111,8 +111,8 @@ impl Backend for Scripted {
         }
         // The first system meets its target, the others do not.
         let run = |(place, system): (usize, &rasray_app::systems::SystemConfig)| Run {
-            system: rasray_app::systems::word(&system.name),
-            preset: rasray_app::systems::word(&system.preset),
+            system: system.system.name.to_owned(),
+            preset: system.preset.name().to_owned(),
             ray_set: Some(job.case.id.to_owned()),
             seed: Some(job.seed),
             hard: Some(HardRecord {

@@ -1,0 +1,109 @@
+//! The build of bricks: pipelines, and the passes in the order they are recorded.
+
+use std::mem::offset_of;
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, Scan, ViewDraw, Visit};
+use rasray_gpu::{Access, ComputePipeline, Recorder};
+use rasray_shaders_glsl::constants::bricks::BRICK_GROUP_SIZE;
+
+use crate::layout::bricks_of;
+use crate::{Config, Header, Views};
+
+/// What the steps of the scan run over.
+const SCAN_LISTS: u32 = 0;
+const SCAN_BRICKS: u32 = 1;
+
+/// Pipelines of the build.
+#[derive(Debug)]
+pub(crate) struct Build {
+    /// The near box and the slices of a cube's faces, from depths; views along axes have neither.
+    depths: Option<[(&'static str, ComputePipeline); 2]>,
+    records: Visit,
+    cells: ComputePipeline,
+    scan: Scan,
+    count: ComputePipeline,
+    store: ComputePipeline,
+    reaches: Option<[(&'static str, ComputePipeline); 3]>,
+    triangles: Option<ComputePipeline>,
+    status: ComputePipeline,
+}
+
+impl Build {
+    pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
+        let named = |label: &'static str| -> Result<_, AdsError> {
+            let name = label.trim_start_matches("bricks/");
+            Ok((label, pipelines.compute(name)?))
+        };
+        let depths = || -> Result<_, AdsError> {
+            Ok([named("bricks/build_1_near")?, named("bricks/build_2_slices")?])
+        };
+        let reaches = || -> Result<_, AdsError> {
+            Ok([
+                named("bricks/build_9_reach_slices")?,
+                named("bricks/build_9_reach_columns")?,
+                named("bricks/build_9_reach_rows")?,
+            ])
+        };
+        Ok(Self {
+            depths: (config.views == Views::Cube).then(depths).transpose()?,
+            records: match config.builder {
+                Builder::Raster => {
+                    Visit::drawn(pipelines, "bricks/build_3_draw", "build_raster", "build_3_draw")?
+                }
+                Builder::Binning => {
+                    let groups = offset_of!(Header, groups);
+                    Visit::binned(pipelines, "bricks/build_3", "build_3_bin", "build_3_bin_many", groups)?
+                }
+            },
+            cells: pipelines.compute("build_4_cells")?,
+            scan: Scan::new(pipelines, "build_5_scan")?,
+            count: pipelines.compute("build_6_count")?,
+            store: pipelines.compute("build_8_store")?,
+            reaches: config.skip.then(reaches).transpose()?,
+            triangles: config.corners.then(|| pipelines.compute("build_10_triangles")).transpose()?,
+            status: pipelines.compute("build_11_status")?,
+        })
+    }
+
+    /// Records all passes; `cells` are those of a view.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        config: &Config,
+        cells: [u32; 3],
+        target: BuildTarget<'_>,
+    ) {
+        let sizes = target.pools.sizes();
+        let triangles = u64::from(target.geometry.triangle_count());
+        let (records, lists) = (sizes.elements("records"), sizes.elements("lists"));
+        let (along, bricks) = bricks_of(config.views, cells);
+        let pass = |recorder: &mut Recorder<'_>, label, pipeline, invocations: u64, readers| {
+            let groups = invocations.div_ceil(BRICK_GROUP_SIZE.into());
+            target.compute_pass(recorder, label, pipeline, groups, 0, readers);
+        };
+        let compute = Access::COMPUTE;
+
+        let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
+        target.record_header(recorder, "bricks/build_0_clear", &["lists", "bricks"], readers);
+        if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
+            pass(recorder, near_label, near, triangles, compute);
+            pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);
+        }
+        let views = ViewDraw { side: cells[0].max(cells[1]) + 2, views: config.views.count(), first: 0 };
+        self.records.record(recorder, target, &[views]);
+        pass(recorder, "bricks/build_4_cells", &self.cells, bricks, compute);
+        self.scan.record(recorder, target, "bricks/build_5_scan", bricks, SCAN_BRICKS, compute);
+        pass(recorder, "bricks/build_6_count", &self.count, records, compute);
+        self.scan.record(recorder, target, "bricks/build_7_scan", lists, SCAN_LISTS, compute);
+        pass(recorder, "bricks/build_8_store", &self.store, records, compute);
+        for (axis, (label, reach)) in self.reaches.iter().flatten().enumerate() {
+            // Along slices, then columns, then rows.
+            let bricks_of_line = [along[2], along[0], along[1]][axis];
+            pass(recorder, label, reach, bricks / bricks_of_line, compute);
+        }
+        if let Some(copy) = &self.triangles {
+            pass(recorder, "bricks/build_10_triangles", copy, triangles, compute);
+        }
+        target.status_pass(recorder, "bricks/build_11_status", &self.status);
+    }
+}

@@ -1,0 +1,159 @@
+//! Sizes of the pools: plain arithmetic, no device.
+
+use rasray_ads::{AdsError, Geometry, PoolSize, Scan, Sizes};
+use rasray_shaders_glsl::constants::bricks as numbers;
+
+use crate::config::BRICK_SIDE;
+use crate::{Config, Header, Views};
+
+/// Words of a brick: its own and two of the mask.
+const BRICK_WORDS: u64 = 3;
+
+/// Words of a record: a triangle in a column.
+const RECORD_WORDS: u64 = 3;
+
+/// What a build asks for, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Entries of all lists.
+    pub entries: u64,
+    /// Triangles around the centre of a cube's faces.
+    pub near: u64,
+    /// Triangles in columns.
+    pub records: u64,
+    /// Cells that list something.
+    pub cells: u64,
+    /// Triangles of the geometry.
+    pub triangles: u64,
+    /// Columns, rows and slices of a view, [`Config::cells`] of the geometry.
+    pub grid: [u32; 3],
+}
+
+/// Bricks along each side of a view, and in all views; `cells` are those of a view.
+pub(crate) fn bricks_of(views: Views, cells: [u32; 3]) -> ([u64; 3], u64) {
+    let along = cells.map(|cells| u64::from(cells / BRICK_SIDE));
+    (along, u64::from(views.count()) * along.iter().product::<u64>())
+}
+
+/// Words per triangle: its corners, or the pairs of a triangle and a view that cover many columns, which binning needs
+/// while it builds.
+fn triangle_words(config: &Config) -> u64 {
+    if config.corners { 9 } else { numbers::BRICK_PAIR_LIMIT.into() }
+}
+
+/// What bricks of this configuration allocate to hold `demand`.
+///
+/// # Errors
+/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    // A brick at least, so that a build can say what it needs.
+    let (_, bricks) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
+    // The distances of bricks are found where the sums were.
+    let distances = if config.skip { bricks } else { 0 };
+    let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
+    let pools = vec![
+        PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
+        pool("bricks", bricks, BRICK_WORDS),
+        pool("lists", demand.cells, 1),
+        pool("entries", demand.entries, 1),
+        pool("sums", Scan::sums(bricks.max(demand.cells)).max(distances), 1),
+        pool("near", demand.near, 1),
+        pool("records", demand.records, RECORD_WORDS),
+        pool("triangles", demand.triangles, triangle_words(config)),
+    ];
+    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
+    if let Some(pool) =
+        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
+    {
+        return Err(AdsError::PoolTooLarge { structure: "bricks", pool: pool.name, elements: pool.elements });
+    }
+    Ok(Sizes { pools })
+}
+
+/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, half of which stand
+/// alone in theirs.
+pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    let triangles = u64::from(geometry.triangle_count());
+    let entries = config.entries.unwrap_or(16 * triangles);
+    let near = if config.views == Views::Axes { 0 } else { 64 };
+    let (records, cells) = (entries / 2, entries / 2);
+    plan(config, &Demand { entries, near, records, cells, triangles, grid: config.cells(geometry) })
+}
+
+/// Bytes for counted bricks, cells and entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FormulaBytes {
+    /// 12 per brick, and 4 per cell that lists something.
+    pub cells: u64,
+    /// 4 per entry.
+    pub entries: u64,
+    /// 4 per brick where distances of empty ones are found; else 4 per 1024 numbers that are scanned.
+    pub scan: u64,
+    /// Header, 4 per triangle of the near list, 12 per triangle in a column, and per triangle 36 for its corners or 24
+    /// while it is stored.
+    pub rest: u64,
+}
+
+impl FormulaBytes {
+    /// Sum of all parts.
+    pub fn total(&self) -> u64 {
+        self.cells + self.entries + self.scan + self.rest
+    }
+}
+
+/// The page's formula. It does not look at [`plan`], so that the two check each other.
+pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
+    let of_view = demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64;
+    let bricks = if config.views == Views::Cube { 6 * of_view } else { of_view };
+    FormulaBytes {
+        cells: 12 * bricks + 4 * demand.cells,
+        entries: 4 * demand.entries,
+        scan: if config.skip { 4 * bricks } else { bricks.max(demand.cells).div_ceil(1024) * 4 },
+        rest: 336
+            + 4 * demand.near
+            + 12 * demand.records
+            + demand.triangles * if config.corners { 36 } else { 24 },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plan_equals_formula() {
+        // No brick has more than 64 cells.
+        let demand =
+            Demand { entries: 12_345, near: 7, records: 2_345, cells: 60, triangles: 99, grid: [0; 3] };
+        for views in Views::ALL {
+            for (skip, corners) in [(true, true), (false, true), (true, false)] {
+                let config = Config { skip, corners, ..Config::new(views) };
+                let bytes = [[0, 0, 0], [4, 4, 8], [64, 12, 128]].map(|grid| {
+                    let demand = Demand { grid, ..demand };
+                    let sizes = plan(&config, &demand).expect("options are in range");
+                    assert_eq!(sizes.bytes(), formula_bytes(&config, &demand).total(), "{config:?}");
+                    let more = Demand { entries: demand.entries + 1, ..demand };
+                    assert_ne!(sizes.bytes(), formula_bytes(&config, &more).total());
+                    sizes.bytes()
+                });
+                assert!(bytes[0] < bytes[1] && bytes[1] < bytes[2]);
+            }
+        }
+    }
+
+    #[test]
+    fn out_of_range_options_are_named() {
+        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
+        let cube = Config::new(Views::Cube);
+        assert!(message(Config { grid: Some(1025), ..cube }).contains("grid is 1025"));
+        assert!(message(Config { grid: Some(0), ..cube }).contains("grid is 0"));
+        assert!(message(Config { slices: Some(1025), ..cube }).contains("slices is 1025"));
+        assert!(message(Config { work_budget: Some(0), ..cube }).contains("work budget is 0"));
+        let axes = Config::new(Views::Axes);
+        assert!(message(Config { slices: Some(8), ..axes }).contains("take grid"));
+        let demand = Demand { entries: 1 << 32, ..Demand::default() };
+        assert!(plan(&cube, &demand).unwrap_err().to_string().contains("entries"));
+    }
+}

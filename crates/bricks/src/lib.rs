@@ -1,0 +1,24 @@
+//! Bricks: cells with lists of the triangles that reach into them, 4x4x4 cells in a brick with a mask, and bricks that
+//! say how far around them everything is empty. Hits are those of the triangles, and rays cross empty space by many
+//! cells at a time.
+//!
+//! No paper has this structure; what it keeps of DIRT and of Hu et al., and passes, bytes, options and limits are on
+//! `docs/systems/bricks.md`.
+//!
+//! [`Bricks`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
+
+mod build;
+mod config;
+mod grid;
+mod header;
+mod layout;
+mod structure;
+mod validate;
+
+pub use config::Config;
+pub use grid::Views;
+pub use header::Header;
+pub use layout::{Demand, FormulaBytes, formula_bytes, plan};
+pub use rasray_ads::{Addressing, Builder};
+pub use structure::{Bricks, Passes};
+pub use validate::{Contents, Fault, well_formed};

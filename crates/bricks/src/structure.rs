@@ -1,0 +1,232 @@
+//! Bricks as a structure.
+
+use bytemuck::cast_slice;
+use rasray_ads::{
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolSize, Pooled, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::ads::NEAR_BOX;
+use rasray_shaders_glsl::constants::bricks::BRICK_ROUNDING;
+use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
+
+use crate::build::Build;
+use crate::config::BRICK_SIDE;
+use crate::grid::placed;
+use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
+use crate::{Config, Contents, Header, Views};
+
+/// Lists of triangles in bricks of cells; made from a [`Config`].
+pub type Bricks = Pooled<Passes>;
+
+/// Pipelines of the build: the design of [`Bricks`].
+#[derive(Debug)]
+pub struct Passes(Build);
+
+/// Columns, rows and slices of each view, one brick where there is no room for those that the geometry
+/// asks for; and whether there is.
+fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
+    let Parts { config, geometry, .. } = parts;
+    let wanted = config.cells(geometry);
+    let fits = bricks_of(config.views, wanted).1 <= parts.elements("bricks");
+    (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
+}
+
+/// The header that the next build starts from.
+fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
+    let Parts { config, geometry, pools } = parts;
+    let bounds = geometry.bounds();
+    let (cells, fits) = cells(parts);
+    let along_axes = (config.views == Views::Axes).then(|| placed(eye, bounds, cells));
+    let centre = along_axes.map_or_else(|| centre_within(eye, bounds), |at| at.centre);
+    let [lower, upper] =
+        bounds.map(|corner| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]));
+    let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
+    let reach = along_axes.map_or(farthest, |at| at.reach);
+    // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
+    // centre is from the frame origin.
+    let rounding = BRICK_ROUNDING * reach;
+    // What a ray outside of the near box meets is not behind the centre, also where columns are few.
+    let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
+    Header {
+        capacity: parts.elements("entries") as u32,
+        near_capacity: parts.elements("near") as u32,
+        columns: cells[0],
+        rows: cells[1],
+        slices: cells[2],
+        reach,
+        // Depths are positive, also where all geometry is at the centre.
+        near_size: near_size.max(1.0e-30),
+        rounding,
+        centre,
+        lower: lower.map(|x| x - rounding),
+        upper: upper.map(|x| x + rounding),
+        cells_lower: along_axes.map_or([0.0; 3], |at| at.lower),
+        cells_per_metre: along_axes.map_or([0.0; 3], |at| at.per_metre),
+        bricks_address: pools.address_of("bricks"),
+        lists_address: pools.address_of("lists"),
+        entries_address: pools.address_of("entries"),
+        sums_address: pools.address_of("sums"),
+        near_address: pools.address_of("near"),
+        records_address: pools.address_of("records"),
+        triangles_address: pools.address_of("triangles"),
+        record_capacity: parts.elements("records") as u32,
+        cell_capacity: parts.elements("lists") as u32,
+        // None where bricks do not fit, so that the build is not complete.
+        triangle_capacity: if fits { parts.elements("triangles") as u32 } else { 0 },
+        groups: [0, 0, 1],
+        ..Header::default()
+    }
+}
+
+impl rasray_ads::Demand for Demand {
+    fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
+        Self {
+            entries: with("entries", self.entries, other.entries),
+            near: with("near", self.near, other.near),
+            records: with("records", self.records, other.records),
+            cells: with("lists", self.cells, other.cells),
+            ..self
+        }
+    }
+}
+
+impl Design for Passes {
+    type Config = Config;
+    type Header = Header;
+    type Demand = Demand;
+    type Contents = Contents;
+
+    const NAME: &'static str = "bricks";
+    const PREFIX: &'static str = "bricks";
+    const TITLE: &'static str = "the bricks";
+    const BUILD_READS_SCENE: bool = false;
+
+    fn common(config: &Config) -> Common {
+        let Config { addressing, counters, work_budget, .. } = *config;
+        Common { addressing, counters, work_budget }
+    }
+
+    fn kind(_config: &Config) -> StructureKind {
+        StructureKind::Primitive
+    }
+
+    fn requirements(config: &Config) -> Requirements {
+        config.builder.requirements()
+    }
+
+    fn constants(config: &Config) -> Vec<(u32, u32)> {
+        config.constants()
+    }
+
+    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+        first_plan(config, geometry)
+    }
+
+    fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+        plan(config, demand)
+    }
+
+    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+        let now = Self::room(parts);
+        let triangles = u64::from(geometry.triangle_count()).max(parts.elements("triangles"));
+        let grid = parts.config.cells(geometry);
+        let sizes = plan(&parts.config, &Demand { triangles, grid, ..now })?;
+        let grows = |pool: &PoolSize| pool.elements > parts.elements(pool.name);
+        Ok(sizes.pools.iter().any(grows).then_some(sizes))
+    }
+
+    fn make(
+        pipelines: &BuildPipelines<'_>,
+        config: &Config,
+        _scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        Build::new(pipelines, config).map(Self)
+    }
+
+    fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        Ok(first_header(parts, viewpoint.eye))
+    }
+
+    fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
+        self.0.record(recorder, &parts.config, cells(parts).0, parts.target(scene));
+    }
+
+    fn outcome(header: &Header) -> Outcome {
+        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
+    }
+
+    fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
+        // Cells are marked by records that were stored. Where some were not, none has more cells than entries.
+        let all = header.record_demand <= header.record_capacity;
+        Demand {
+            entries: header.demand.into(),
+            near: header.near_demand.into(),
+            records: header.record_demand.into(),
+            cells: if all { header.cell_demand } else { header.demand }.into(),
+            triangles: parts.geometry.triangle_count().into(),
+            grid: parts.config.cells(&parts.geometry),
+        }
+    }
+
+    fn room(parts: &Parts<Config>) -> Demand {
+        Demand {
+            entries: parts.elements("entries"),
+            near: parts.elements("near"),
+            records: parts.elements("records"),
+            cells: parts.elements("lists"),
+            triangles: parts.elements("triangles").max(parts.geometry.triangle_count().into()),
+            grid: parts.config.cells(&parts.geometry),
+        }
+    }
+
+    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+        // Rays from far outside are tested against every triangle, others against what a few cells list.
+        let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
+    }
+
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+        match pool {
+            "entries" => Some(asked.entries),
+            "near" => Some(asked.near),
+            "records" => Some(asked.records),
+            "lists" => Some(asked.cells),
+            "bricks" | "sums" => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements(pool))),
+            "triangles" => Some(asked.triangles),
+            _ => None,
+        }
+    }
+
+    fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
+        StructureReport {
+            options: parts.config.options(asked.grid),
+            paths: parts.config.paths(),
+            formula_bytes: formula_bytes(&parts.config, asked).total(),
+            stored: Some(asked.entries),
+            ..StructureReport::default()
+        }
+    }
+
+    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
+        let words = |name| parts.pools.download_words(device, name);
+        Ok(Contents {
+            config: parts.config,
+            header,
+            bricks: words("bricks")?,
+            lists: words("lists")?,
+            entries: words("entries")?,
+            near: words("near")?,
+        })
+    }
+
+    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+        let pools = vec![
+            ("bricks", cast_slice(&contents.bricks)),
+            ("lists", cast_slice(&contents.lists)),
+            ("entries", cast_slice(&contents.entries)),
+            ("near", cast_slice(&contents.near)),
+        ];
+        (contents.header, pools)
+    }
+}

@@ -1,0 +1,51 @@
+//! Bricks: the structure that is no paper's, and the default.
+
+use rasray_bricks::{Bricks, Builder, Config, Views};
+
+use crate::given::{Given, Setter, names};
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "bricks",
+    doc: "Cells with lists of triangles, in bricks that say where nothing is: hits are those of the triangles",
+    structure: "bricks",
+    presets: &[Preset::Robust],
+    occlusion_payload: None,
+    camera_views: None,
+    without_scene: &[],
+    options: || names(OPTIONS),
+    requirements: |spec| Ok(Bricks::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(Bricks::kind_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| {
+        Ok(Box::new(Bricks::new(device, config(spec)?, geometry, scene)?))
+    },
+};
+
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("views", |config, given| {
+        given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
+    }),
+    ("grid", |config, given| given.number().map(|value| config.grid = Some(value))),
+    ("slices", |config, given| given.number().map(|value| config.slices = Some(value))),
+    ("corners", |config, given| given.switch().map(|value| config.corners = value)),
+    ("skip", |config, given| given.switch().map(|value| config.skip = value)),
+    ("builder", |config, given| {
+        given
+            .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
+            .map(|value| config.builder = value)
+    }),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+];
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let mut config = Config::new(Views::Axes);
+    config.counters = spec.counters();
+    config.work_budget = spec.work_budget();
+    Given::apply_all(spec, OPTIONS, &mut config)?;
+    config.validate()?;
+    Ok(config)
+}

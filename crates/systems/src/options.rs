@@ -1,0 +1,382 @@
+//! Every option that a system may have, as data: what it is for, what it takes, and whether it may change a hit. The
+//! command line, its help, the page of options and the tests of invariance are made from these rows; each system says in
+//! its own file which of them it has and what they set.
+
+use crate::option_row::{Group, Hits, OptionRow, Values, Word};
+
+const fn row(
+    name: &'static str,
+    group: Group,
+    hits: Hits,
+    values: Values,
+    tried: &'static [&'static str],
+    doc: &'static str,
+) -> OptionRow {
+    OptionRow { name, group, values, off_name: None, hits, tried, doc }
+}
+
+const fn words(
+    name: &'static str,
+    group: Group,
+    hits: Hits,
+    words: &'static [Word],
+    doc: &'static str,
+) -> OptionRow {
+    row(name, group, hits, Values::Words(words), &[], doc)
+}
+
+const SWITCH: &[Word] = &[("on", "Yes"), ("off", "No")];
+
+const fn switch(name: &'static str, group: Group, hits: Hits, doc: &'static str) -> OptionRow {
+    words(name, group, hits, SWITCH, doc)
+}
+
+use Group::{Diagnostic, Limit, Method, Size, Speed};
+use Hits::{MayChange, Same, SameForTriangles, SameWithoutLoss};
+
+/// Every option, in the order of help.
+pub const OPTIONS: &[OptionRow] = &[
+    row(
+        "resolution",
+        Size,
+        SameForTriangles,
+        Values::Whole(1, 8192),
+        &["12", "37"],
+        "Cells along each side of a view, 1 to 8192",
+    ),
+    row(
+        "camera-resolution",
+        Size,
+        SameForTriangles,
+        Values::Cells,
+        &["12", "37"],
+        "With a camera among --views: columns and rows of its view, 1 to 8192 each, or one number for both; as \
+         --resolution if not given",
+    ),
+    row(
+        "grid",
+        Size,
+        SameForTriangles,
+        Values::Whole(1, 1024),
+        &["8", "24"],
+        "Voxels along each side of the scene's cube, balanced with --resolution if not given; of bricks, cells along \
+         the longest side of the scene or columns along each side of a face, by its triangles if not given; 1 to 1024",
+    ),
+    row(
+        "tile",
+        Size,
+        SameForTriangles,
+        Values::Whole(1, 64),
+        &["1", "2", "4", "8"],
+        "Pixels along each side of a tile: lists are kept per tile, 1 to 64",
+    ),
+    row(
+        "buckets",
+        Size,
+        SameWithoutLoss,
+        Values::Whole(1, 64),
+        &["1", "2", "8", "12", "32", "64"],
+        "Depth buckets per cell, 1 to 64",
+    ),
+    row(
+        "slices",
+        Size,
+        SameForTriangles,
+        Values::Whole(1, 1024),
+        &["8", "64"],
+        "With --views cube of bricks: depth slices, the same for all columns, 1 to 1024",
+    ),
+    row(
+        "block",
+        Size,
+        Same,
+        Values::Whole(1, 64),
+        &["1", "4", "64"],
+        "Cells along each side of a block of cells, a power of two, 1 to 64",
+    ),
+    row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells, 1 or 2"),
+    OptionRow {
+        // A camera's view needs a camera, which the scenes of these tests lack.
+        tried: &["cube", "axes"],
+        ..words(
+            "views",
+            Method,
+            SameForTriangles,
+            &[
+                ("cube", "Six faces around the centre"),
+                ("cube+camera", "The same, and what the camera sees, with cells of its own"),
+                ("camera", "What the camera sees and nothing else"),
+                (
+                    "axes",
+                    "Three along the axes, which do not depend on the eye; of bricks one box of cells that serves all three",
+                ),
+            ],
+            "Which projections are drawn",
+        )
+    },
+    words(
+        "storage",
+        Method,
+        Same,
+        &[
+            ("ll", "One linked list per cell"),
+            ("dll", "One doubly linked list per cell"),
+            ("llb", "Linked list per depth bucket"),
+            ("dllb", "Doubly linked list per depth bucket"),
+            ("sb", "One behind the other, counted first"),
+            ("paged", "Linked pages of several"),
+        ],
+        "How a cell's fragments or triangles are kept",
+    ),
+    OptionRow {
+        off_name: Some("decoupled"),
+        ..switch(
+            "inline",
+            Method,
+            Same,
+            "Keep what a fragment carries within its list [the other word: --decoupled]",
+        )
+    },
+    row(
+        "page",
+        Method,
+        Same,
+        Values::Whole(1, 8),
+        &["1", "2", "4", "8"],
+        "With --storage paged: fragments per page, 1 to 8; of mmrt 1, 2, 4 or 8",
+    ),
+    OptionRow {
+        // Attributes and normals are those of a scene, which plain triangles lack.
+        tried: &["index", "plane"],
+        ..words(
+            "payload",
+            Method,
+            SameForTriangles,
+            &[
+                ("index", "The primitive's index"),
+                ("attributes", "Surface attributes, quantised as published"),
+                ("normal", "The shading normal alone, quantised as published for ambient occlusion"),
+                ("plane", "The plane of its triangle in full, and nothing to shade by"),
+            ],
+            "What a fragment carries",
+        )
+    },
+    words(
+        "coverage",
+        Method,
+        MayChange,
+        &[
+            ("exact", "Centre of the cell inside, decided by the shared function"),
+            ("conservative", "Every cell it reaches into; of fragments, where nothing else stands for it"),
+            ("edge-on", "The same of triangles that no cell keeps or that are seen edge-on"),
+            ("hardware", "Whatever the rasterizer covers"),
+        ],
+        "Which cells a triangle is kept in",
+    ),
+    words(
+        "accept",
+        Method,
+        MayChange,
+        &[
+            ("interval", "Its depth lies in the ray's half-open depth interval in the cell"),
+            ("thickness", "The same with a thickness behind the fragment"),
+            ("tolerance", "Its depth is within a fixed tolerance of the ray's depths in the cell"),
+            (
+                "slope",
+                "The depths that its triangle takes within the cell overlap those of the ray; needs the payload index",
+            ),
+            (
+                "plane",
+                "The ray intersects the plane of its triangle within the cell; needs the payload index or plane",
+            ),
+            (
+                "parity",
+                "An odd number of fragments lies before one point of the ray, and an even number before the next",
+            ),
+            ("t", "Triangles: by t alone"),
+            ("tile", "Triangles: where the point lies in the tile that listed it"),
+        ],
+        "What counts as a hit",
+    ),
+    row(
+        "thickness",
+        Method,
+        MayChange,
+        Values::Metres,
+        &["0.5"],
+        "With --accept thickness: metres behind a fragment that count as its inside",
+    ),
+    row(
+        "tolerance",
+        Method,
+        MayChange,
+        Values::Share,
+        &["0.01"],
+        "With --accept tolerance: how far along a view a fragment may be from the ray, a share of the cube's side",
+    ),
+    words(
+        "march",
+        Method,
+        MayChange,
+        &[
+            ("samples", "A fixed number of samples along the ray"),
+            ("dda", "A step for each cell of the longer axis"),
+            ("exact", "Every cell that the ray crosses"),
+            ("pyramid", "The same, skipping blocks of cells that hold nothing at the ray's depths"),
+            ("jump", "From where the ray leaves a tile half a pixel on"),
+        ],
+        "How a ray steps through cells",
+    ),
+    row(
+        "samples",
+        Method,
+        MayChange,
+        Values::Whole(1, 65_535),
+        &["5"],
+        "With --march samples: maximum samples per face, or steps per voxel, 1 to 65535",
+    ),
+    switch(
+        "jitter",
+        Method,
+        MayChange,
+        "With --march samples: where steps are longer than a cell, each ray looks at a place of its own in them",
+    ),
+    words(
+        "stop",
+        Method,
+        MayChange,
+        &[("best", "At buckets behind the best hit"), ("bucket", "After the first bucket with a hit")],
+        "Lists of triangles: where the search of a tile ends",
+    ),
+    words(
+        "depths",
+        Method,
+        MayChange,
+        &[
+            ("clipped", "Those of all of it that lies in the tile"),
+            ("corners", "Those of its plane at the corners of the tile"),
+        ],
+        "Lists of triangles: what the depths of a triangle in a tile are",
+    ),
+    words(
+        "depth",
+        Method,
+        MayChange,
+        &[("16", "A half, as a share of the cube's side"), ("32", "A float")],
+        "How a fragment keeps its depth",
+    ),
+    words(
+        "centre",
+        Method,
+        SameWithoutLoss,
+        &[
+            ("eye", "At the eye"),
+            ("scene", "At the eye within the scene; for an eye outside, within the middle of the scene"),
+        ],
+        "Lists of triangles: where the faces of the cube meet",
+    ),
+    words(
+        "axes",
+        Method,
+        SameForTriangles,
+        &[
+            ("all", "In all; a voxel is searched along the axis of its averaged normal"),
+            ("voxel", "In that of its voxel's averaged normal"),
+            (
+                "triangle",
+                "In the one that its triangle faces most; a voxel is searched along the axes of all its triangles",
+            ),
+        ],
+        "In which of the views along the axes a fragment is kept",
+    ),
+    words(
+        "voxels",
+        Method,
+        SameForTriangles,
+        &[("fragments", "The fragments in it"), ("triangles", "The triangles that reach into it")],
+        "What makes a voxel occupied; by default fragments with --axes all, else triangles",
+    ),
+    words(
+        "build",
+        Method,
+        Same,
+        &[("single", "All in one pass, then sorted"), ("peel", "One after the other, by depth peeling")],
+        "How the layers of a depth cube are made",
+    ),
+    switch("single-layer", Method, MayChange, "Keep the nearest fragments of each cell alone"),
+    words(
+        "builder",
+        Speed,
+        Same,
+        &[
+            ("sah", "A tree by the surface area heuristic, on the host"),
+            ("lbvh", "A tree by Morton codes, on the device"),
+            ("raster", "Cells, by drawing"),
+            ("binning", "Cells, by computing"),
+        ],
+        "Who makes the structure, and how",
+    ),
+    row(
+        "leaf",
+        Speed,
+        Same,
+        Values::Whole(1, 16),
+        &["1", "16"],
+        "With --builder sah: maximum triangles of a leaf, 1 to 16",
+    ),
+    switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
+    switch("skip", Speed, SameWithoutLoss, "Skip empty space"),
+    switch(
+        "pyramid",
+        Speed,
+        SameWithoutLoss,
+        "Lists of triangles: skip blocks of tiles by their depth bounds",
+    ),
+    words(
+        "occupancy",
+        Speed,
+        Same,
+        &[
+            ("bounds", "The smallest and the largest"),
+            ("slices", "The same, and which of 64 slices of depth hold something"),
+        ],
+        "What a block of cells says of the depths in it",
+    ),
+    switch("corners", Speed, Same, "Keep triangles' corners once more, one behind the other"),
+    words(
+        "addressing",
+        Speed,
+        Same,
+        &[("descriptor", "Storage buffers in a descriptor set"), ("address", "64-bit device addresses")],
+        "How shaders reach the structure's memory",
+    ),
+    row(
+        "layers",
+        Limit,
+        Same,
+        Values::Whole(1, 1024),
+        &["256", "1024"],
+        "With --build peel: maximum layers, a scene with more is refused, 1 to 1024",
+    ),
+    row(
+        "capacity",
+        Limit,
+        // It says how much room there is, not what is stored: too little is grown.
+        Same,
+        Values::Whole(0, u32::MAX),
+        &["0", "1", "1000"],
+        "Capacity at first, fragments or list entries; it grows when it is too small",
+    ),
+    switch(
+        "ids",
+        Diagnostic,
+        // What a hit names, and nothing else of it.
+        MayChange,
+        "Keep triangles next to payloads without them, so that hits name them",
+    ),
+];
+
+/// The row of an option.
+pub fn option(name: &str) -> Option<&'static OptionRow> {
+    OPTIONS.iter().find(|row| row.name == name)
+}

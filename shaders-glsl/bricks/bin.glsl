@@ -1,0 +1,106 @@
+// What: which columns of cells a triangle reaches into, and between which slices, for both builders.
+// Reads: header, geometry. Writes: records, bricks (masks), header.record_demand, header.demand.
+// Source: DIRT section 3.2 lists a primitive by tile and depth; here by slices that all tiles share.
+#ifndef BRICKS_BIN_GLSL
+#define BRICKS_BIN_GLSL
+
+#include "ads/bin_triangle.glsl"
+#include "ads/overlap.glsl"
+#include "bricks/accessors.glsl"
+#include "bricks/clip.glsl"
+#include "bricks/margin.glsl"
+
+// Where columns and slices are.
+struct BrickSpace {
+    BrickGrid grid;   // these two of the faces of a cube
+    BrickSlices slices;
+    BrickAxes axes;       // these two of views along axes
+    uvec3 cells;
+};
+
+BrickSpace brick_space(BrickRef s) {
+    return BrickSpace(brick_grid(s), brick_slices(s), brick_axes(s), brick_cells(s));
+}
+
+// A triangle in a view.
+struct BrickBin {
+    uint primitive;
+    uint face;
+    BrickSpace space;
+    Overlap overlap;
+    float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
+    BrickClip clip;       // of views along axes
+    ivec2 lower;          // first and last column and row that may hold any of it
+    ivec2 upper;
+};
+
+// a, b, c relative to the centre. False where the triangle reaches into no column of the view.
+bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b, vec3 c, out BrickBin bin) {
+    bin.primitive = primitive;
+    bin.face = face;
+    bin.space = space;
+    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+        bin.clip = brick_clip_begin(space.axes, space.cells, a, b, c);
+        ivec2 last = ivec2(space.cells.xy) - 1;
+        bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
+        bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
+        return true;
+    }
+    a = face_from_world(a, face);
+    b = face_from_world(b, face);
+    c = face_from_world(c, face);
+    if (max(a.z, max(b.z, c.z)) < 0.5 * space.grid.near_size) {
+        return false;
+    }
+    float nearest = min(a.z, min(b.z, c.z));
+    bin.margin = brick_margin(space.grid, nearest);
+    if (!bin_bounds(space.grid.columns, space.grid.near_size, a, b, c, bin.margin, 0, bin.lower, bin.upper)) {
+        return false;
+    }
+    bin.overlap = overlap_begin(a, b, c);
+    return true;
+}
+
+// The depths of the triangle within a square of `side` columns; false where it does not reach into it.
+bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
+    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+        return brick_clip_depths(bin.clip, column, side, depths);
+    }
+    float columns = float(bin.space.grid.columns);
+    precise vec2 place = vec2(2 * column + side) / columns - 1.0;
+    precise float half_side = float(side) / columns;
+    precise float widest = half_side + bin.margin;
+    if (!overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), widest, depths)) {
+        return false;
+    }
+    // The margin is that of the depth at which the triangle is met there, not of its nearest corner.
+    precise float narrow = half_side + brick_margin(bin.space.grid, depths.x);
+    return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
+}
+
+// The first and last slice of depths that a triangle has in a column.
+uvec2 brick_bin_slices(BrickBin bin, vec2 depths) {
+    if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+        return uvec2(clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.space.cells.z) - 1));
+    }
+    float rounding = bin.space.grid.rounding;
+    return uvec2(brick_slice_of(depths.x - rounding, bin.space.slices), brick_slice_of(depths.y + rounding, bin.space.slices));
+}
+
+// Stores the triangle in the columns from `lower` to `upper` that it reaches into. Returns how many entries that makes.
+uint brick_bin_columns(BrickRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
+    uint entries = 0u;
+    for (int y = lower.y; y <= upper.y; y++) {
+        for (int x = lower.x; x <= upper.x; x++) {
+            vec2 depths;
+            if (brick_bin_depths(bin, ivec2(x, y), 1, depths)) {
+                uvec2 slices = brick_bin_slices(bin, depths);
+                brick_store_record(s, BrickRecord(bin.primitive, uint(x), uint(y), bin.face, slices.x, slices.y));
+                entries += slices.y - slices.x + 1u;
+            }
+        }
+    }
+    return entries;
+}
+
+#endif

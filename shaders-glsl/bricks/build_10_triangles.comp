@@ -1,0 +1,26 @@
+// What: copies the corners of each triangle, so that a test reads one run of memory; one invocation a triangle.
+// Reads: geometry. Writes: triangles.
+#version 460
+#include "contract/extensions.glsl"
+#include "bricks/accessors.glsl"
+#include "ads/geometry.glsl"
+
+layout(local_size_x = BRICK_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+void main() {
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (primitive >= min(geometry_triangle_count(), BRICK_HEADER(brick_built).triangle_capacity)) {
+        return;
+    }
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    BRICK_CORNERS(brick_built)[3u * primitive] = a;
+    BRICK_CORNERS(brick_built)[3u * primitive + 1u] = b;
+    BRICK_CORNERS(brick_built)[3u * primitive + 2u] = c;
+}

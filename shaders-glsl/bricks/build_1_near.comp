@@ -1,0 +1,36 @@
+// What: lists the triangles that meet the near box, where the faces cannot be told apart, and counts triangles by the
+// octave of depth in which they begin. Views of a cube only.
+// Reads: geometry, header. Writes: near list, header.near_demand, header.octaves.
+// Source: none; see docs/core.md for the near box.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/bin_triangle.glsl"
+#include "bricks/accessors.glsl"
+
+layout(local_size_x = BRICK_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+void main() {
+    uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
+    if (primitive >= geometry_triangle_count()) {
+        return;
+    }
+    vec3 lower;
+    vec3 upper;
+    bin_box(BRICK_HEADER(brick_built).centre, primitive, lower, upper);
+    vec3 away = max(max(lower, -upper), vec3(0.0));
+    float nearest = max(away.x, max(away.y, away.z));
+    int before = (floatBitsToInt(BRICK_HEADER(brick_built).reach) - floatBitsToInt(nearest)) >> 23;
+    atomicAdd(BRICK_HEADER(brick_built).octaves[clamp(before, 0, int(BRICK_OCTAVES) - 1)], 1u);
+    float size = BRICK_HEADER(brick_built).near_size + BRICK_HEADER(brick_built).rounding;
+    if (!bin_box_is_near(lower, upper, size)) {
+        return;
+    }
+    uint place = atomicAdd(BRICK_HEADER(brick_built).near_demand, 1u);
+    if (place < BRICK_HEADER(brick_built).near_capacity) {
+        BRICK_NEAR_LIST(brick_built)[place] = primitive;
+    }
+}

@@ -1,0 +1,29 @@
+// What: stores each triangle in the columns of each face that it reaches into, by drawing; the rasterizer proposes.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand.
+// Source: DIRT section 4.1; the same function decides as in the binning builder.
+#version 460
+#include "contract/extensions.glsl"
+#include "bricks/bin.glsl"
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+layout(location = 0) flat in uvec2 primitive_and_view;
+
+void main() {
+    ivec2 column = ivec2(gl_FragCoord.xy) - 1;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    BrickBin bin;
+    if (!bin_corners(BRICK_HEADER(brick_built).centre, primitive_and_view.x, a, b, c)
+        || !brick_bin_begin(brick_space(brick_built), primitive_and_view.x, primitive_and_view.y, a, b, c, bin)
+        || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
+        return;
+    }
+    uint entries = brick_bin_columns(brick_built, bin, column, column);
+    if (entries > 0u) {
+        atomicAdd(BRICK_HEADER(brick_built).demand, entries);
+    }
+}

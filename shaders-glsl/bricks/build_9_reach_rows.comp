@@ -1,0 +1,54 @@
+// What: how far empty bricks reach towards all octants; one invocation a line of bricks along rows.
+// Reads: distances. Writes: bricks, of empty ones.
+// Source: not in the paper; bricks/distance.glsl.
+#version 460
+#include "contract/extensions.glsl"
+#include "bricks/accessors.glsl"
+#include "bricks/distance.glsl"
+
+layout(local_size_x = BRICK_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+// The runs of four octants with what a brick reaches towards each.
+void lengthen(inout uint runs[4], uint reaches) {
+    for (uint q = 0u; q < 4u; q++) {
+        runs[q] = brick_runs_with(runs[q], reaches >> (4u * q) & 15u);
+    }
+}
+
+uint reaches_of(uint runs[4]) {
+    return brick_reach_of(runs[0]) | brick_reach_of(runs[1]) << 4 | brick_reach_of(runs[2]) << 8 | brick_reach_of(runs[3]) << 12;
+}
+
+void main() {
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uvec3 bricks = brick_cells(brick_built) >> 2;
+    uint stride = bricks.x * bricks.z;
+    if (line >= brick_view_count() * stride) {
+        return;
+    }
+    uint first = line / stride * bricks.y * stride + line % stride;
+    uint runs[4] = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    for (uint y = 0u; y < bricks.y; y++) {
+        uint brick = first + y * stride;
+        uint reaches = BRICK_DISTANCES(brick_built)[brick];
+        lengthen(runs, reaches);
+        if (reaches != 0u) {
+            // Until the way back, the reaches towards lower rows.
+            BRICK_WORDS(brick_built)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
+        }
+    }
+    runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
+    for (uint y = bricks.y; y-- > 0u;) {
+        uint brick = first + y * stride;
+        uint reaches = BRICK_DISTANCES(brick_built)[brick];
+        lengthen(runs, reaches);
+        if (reaches != 0u) {
+            uint lower = BRICK_WORDS(brick_built)[brick_at(brick)] & 0xFFFFu;
+            BRICK_WORDS(brick_built)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
+        }
+    }
+}

@@ -1,0 +1,40 @@
+// What: how far empty bricks reach towards lower and higher slices; one invocation a line of bricks along slices.
+// Reads: bricks (masks). Writes: bricks, of empty ones.
+// Source: not in the paper; bricks/distance.glsl.
+#version 460
+#include "contract/extensions.glsl"
+#include "bricks/accessors.glsl"
+#include "bricks/distance.glsl"
+
+layout(local_size_x = BRICK_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+void main() {
+    uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uvec3 bricks = brick_cells(brick_built) >> 2;
+    uint deep = bricks.z;
+    if (line >= brick_view_count() * bricks.x * bricks.y) {
+        return;
+    }
+    uint first = line * deep;
+    uint run = BRICK_REACH;
+    for (uint z = 0u; z < deep; z++) {
+        uint brick = first + z;
+        run = brick_has_nothing(brick_built, brick) ? min(run + 1u, BRICK_REACH) : 0u;
+        if (run != 0u) {
+            BRICK_WORDS(brick_built)[brick_at(brick)] = BRICK_EMPTY | run;
+        }
+    }
+    run = BRICK_REACH;
+    for (uint z = deep; z-- > 0u;) {
+        uint brick = first + z;
+        uint word = BRICK_WORDS(brick_built)[brick_at(brick)];
+        run = brick_is_empty(word) ? min(run + 1u, BRICK_REACH) : 0u;
+        if (run != 0u) {
+            BRICK_WORDS(brick_built)[brick_at(brick)] = word | run << 4;
+        }
+    }
+}

@@ -1,0 +1,61 @@
+// What: proposes, for each triangle and view, the columns that the triangle may reach into.
+// Reads: geometry, header. Writes: nothing.
+// Source: DIRT section 3.2; instances replace the paper's geometry-shader amplification, a dilated triangle
+// its conservative rasterization.
+#version 460
+#include "contract/extensions.glsl"
+#define BRICK_READ_ONLY
+#include "ads/bin_triangle.glsl"
+#include "ads/coverage.glsl"
+#include "ads/views.glsl"
+#include "bricks/header.glsl"
+#include "bricks/margin.glsl"
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+layout(location = 0) flat out uvec2 primitive_and_view;
+
+// Columns of a view along z: a square viewport of as many columns along a side as the longer side has, with a border
+// of one. a, b, c relative to the centre.
+vec4 propose_columns(vec3 a, vec3 b, vec3 c, uint corner) {
+    vec3 lower = BRICK_HEADER(brick_built).cells_lower;
+    vec3 per_metre = BRICK_HEADER(brick_built).cells_per_metre;
+    float rounding = BRICK_HEADER(brick_built).rounding;
+    uint side = max(BRICK_HEADER(brick_built).columns, BRICK_HEADER(brick_built).rows);
+    vec3 p[3] = vec3[3](a, b, c);
+    for (int k = 0; k < 3; k++) {
+        p[k] = vec3((p[k] - lower).xy * per_metre.xy * (2.0 / float(side)) - 1.0, 1.0);
+    }
+    // Half a column and how far columns reach beyond their sides, with 1/32 of a column for the hardware's
+    // grid and as much for rounding.
+    float margin = 0.5 + rounding * max(per_metre.x, per_metre.y) + 1.0 / 16.0;
+    return coverage_proposal_within(p[0], p[1], p[2], corner, side, margin * 2.0 / float(side));
+}
+
+// Columns of a face.
+vec4 propose_face_columns(vec3 a, vec3 b, vec3 c, uint corner) {
+    BrickGrid grid = brick_grid(brick_built);
+    float nearest = min(a.z, min(b.z, c.z));
+    // The centre of every column that the triangle reaches into, with 1/32 of a column for the hardware's grid.
+    float margin = 1.0 / float(grid.columns) + brick_margin(grid, nearest) + 1.0 / (16.0 * float(grid.columns));
+    return coverage_proposal_within(a, b, c, corner, grid.columns, margin);
+}
+
+void main() {
+    uint primitive = uint(gl_VertexIndex) / 3u;
+    uint corner = uint(gl_VertexIndex) % 3u;
+    uint view = uint(gl_InstanceIndex);
+    primitive_and_view = uvec2(primitive, view);
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    if (!bin_corners(BRICK_HEADER(brick_built).centre, primitive, a, b, c)) {
+        gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    } else if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
+        gl_Position = propose_columns(a, b, c, corner);
+    } else {
+        gl_Position = propose_face_columns(face_from_world(a, view), face_from_world(b, view), face_from_world(c, view), corner);
+    }
+}

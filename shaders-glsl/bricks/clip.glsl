@@ -1,0 +1,127 @@
+// What: between which depths a triangle lies within columns of cells along an axis; views along axes only.
+// This function decides for every builder; it may accept more than is exact, never less.
+// Reads, writes: nothing.
+// What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices
+// between its ends are all met: one view lists exactly the cells that a triangle reaches into, however steep
+// it stands. The ends lie at edges of the triangle within the square, or at corners of the square within the
+// triangle.
+#ifndef BRICKS_CLIP_GLSL
+#define BRICKS_CLIP_GLSL
+
+#include "bricks/axes.glsl"
+
+// A triangle, in cells.
+struct BrickClip {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    vec3 lower;           // of its bounds
+    vec3 upper;
+    vec3 normal;
+    vec3 normal_error;
+    vec3 margin;          // how far a cell reaches beyond its sides
+    float slack;          // how far rounding moves a place in what follows, 32 units of the longest side
+};
+
+// a, b, c in metres from the centre.
+BrickClip brick_clip_begin(BrickAxes axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
+    BrickClip clip;
+    precise vec3 pa = (a - axes.lower) * axes.per_metre;
+    precise vec3 pb = (b - axes.lower) * axes.per_metre;
+    precise vec3 pc = (c - axes.lower) * axes.per_metre;
+    precise vec3 ab = pb - pa;
+    precise vec3 ac = pc - pa;
+    precise vec3 left = ab.yzx * ac.zxy;
+    precise vec3 right = ab.zxy * ac.yzx;
+    precise vec3 normal = left - right;
+    precise float slack = 2.0e-6 * float(max(cells.x, max(cells.y, cells.z)));
+    precise vec3 margin = axes.rounding * axes.per_metre + slack;
+    clip.a = pa;
+    clip.b = pb;
+    clip.c = pc;
+    clip.lower = min(pa, min(pb, pc));
+    clip.upper = max(pa, max(pb, pc));
+    clip.normal = normal;
+    clip.normal_error = 3.0e-7 * (abs(left) + abs(right));
+    clip.margin = margin;
+    clip.slack = slack;
+    return clip;
+}
+
+// Widens depths by those of the edge pq within the square between two corners.
+void brick_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
+    precise vec3 span = q - p;
+    vec2 range = vec2(0.0, 1.0);
+    for (int axis = 0; axis < 2; axis++) {
+        if (span[axis] == 0.0) {
+            range.y = p[axis] < lower[axis] || p[axis] > upper[axis] ? -1.0 : range.y;
+            continue;
+        }
+        precise float at_lower = (lower[axis] - p[axis]) / span[axis];
+        precise float at_upper = (upper[axis] - p[axis]) / span[axis];
+        range.x = max(range.x, min(at_lower, at_upper));
+        range.y = min(range.y, max(at_lower, at_upper));
+    }
+    if (range.x <= range.y) {
+        precise float first = p.z + range.x * span.z;
+        precise float last = p.z + range.y * span.z;
+        depths = vec2(min(depths.x, min(first, last)), max(depths.y, max(first, last)));
+    }
+}
+
+// Which of four points lie on the inner side of the edge pq, or within rounding of it; `winding` is 1 or -1.
+bvec4 brick_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
+    precise vec2 span = q.xy - p.xy;
+    precise vec4 value = winding * (span.x * (y - p.y) - span.y * (x - p.x));
+    return greaterThanEqual(value, vec4(-slack * (abs(span.x) + abs(span.y))));
+}
+
+// Widens depths by those of the triangle at the corners of the square that lie in it.
+void brick_clip_corners(BrickClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
+    // A triangle so thin that its winding is lost has an edge within the slack of any such corner.
+    if (!(abs(clip.normal.z) > clip.normal_error.z)) {
+        return;
+    }
+    vec4 x = vec4(lower.x, upper.x, lower.x, upper.x);
+    vec4 y = vec4(lower.y, lower.y, upper.y, upper.y);
+    float winding = clip.normal.z < 0.0 ? -1.0 : 1.0;
+    bvec4 ab = brick_clip_inside(clip.a, clip.b, x, y, winding, clip.slack);
+    bvec4 bc = brick_clip_inside(clip.b, clip.c, x, y, winding, clip.slack);
+    bvec4 ca = brick_clip_inside(clip.c, clip.a, x, y, winding, clip.slack);
+    precise vec4 along_x = clip.normal.x * (x - clip.a.x);
+    precise vec4 along_y = clip.normal.y * (y - clip.a.y);
+    precise vec4 fall = (along_x + along_y) / clip.normal.z;
+    precise vec4 error = clip.normal_error.x * abs(x - clip.a.x) + clip.normal_error.y * abs(y - clip.a.y)
+        + 3.0e-7 * (abs(along_x) + abs(along_y)) + clip.normal_error.z * abs(fall);
+    precise vec4 reach = error / (abs(clip.normal.z) - clip.normal_error.z) + clip.slack;
+    for (int corner = 0; corner < 4; corner++) {
+        if (ab[corner] && bc[corner] && ca[corner]) {
+            // What lies beyond the triangle's own corners is rounding.
+            precise float nearest = clip.a.z - fall[corner] - reach[corner];
+            precise float farthest = clip.a.z - fall[corner] + reach[corner];
+            depths = vec2(min(depths.x, max(nearest, clip.lower.z)), max(depths.y, min(farthest, clip.upper.z)));
+        }
+    }
+}
+
+// The depths of the triangle within a square of `side` columns, margins included; false where it does not
+// reach into it.
+bool brick_clip_depths(BrickClip clip, ivec2 column, int side, out vec2 depths) {
+    precise vec2 lower = vec2(column) - clip.margin.xy;
+    precise vec2 upper = vec2(column + side) + clip.margin.xy;
+    depths = vec2(clip.lower.z, clip.upper.z);
+    if (any(greaterThan(clip.lower.xy, upper)) || any(lessThan(clip.upper.xy, lower))) {
+        return false;
+    }
+    if (!(all(greaterThanEqual(clip.lower.xy, lower)) && all(lessThanEqual(clip.upper.xy, upper)))) {
+        depths = vec2(3.0e38, -3.0e38);
+        brick_clip_edge(clip.a, clip.b, lower, upper, depths);
+        brick_clip_edge(clip.b, clip.c, lower, upper, depths);
+        brick_clip_edge(clip.c, clip.a, lower, upper, depths);
+        brick_clip_corners(clip, lower, upper, depths);
+    }
+    depths += vec2(-clip.margin.z, clip.margin.z);
+    return depths.x <= depths.y;
+}
+
+#endif

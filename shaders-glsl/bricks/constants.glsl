@@ -1,0 +1,39 @@
+// Numbers that the bricks' shaders and crate share. Only `#define NAME number` may stand here.
+#ifndef BRICKS_CONSTANTS_GLSL
+#define BRICKS_CONSTANTS_GLSL
+
+// What columns of bricks are: of the faces of a cube around a centre, or of one box along the axes of the world.
+#define BRICK_VIEWS_CUBE 0u
+#define BRICK_VIEWS_AXES 1u
+
+// In the word of a brick: it lists nothing.
+#define BRICK_EMPTY 0x80000000u
+// Bricks that one step over empty ones crosses at most, its own included.
+#define BRICK_REACH 8u
+
+// Cells list what lies within the rounding of the test in two coordinates (240 units) and that of the march (96), over
+// the distance of the geometry.
+#define BRICK_ROUNDING 2.0e-5
+
+// How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
+#define BRICK_PLACE 9.6e-7
+
+// Maximum columns along a side of a view and maximum slices: loops over them stay far below the iterations that drivers
+// allow an invocation.
+#define BRICK_SIDE_LIMIT 1024u
+#define BRICK_SLICE_LIMIT 1024u
+
+// Octaves of depth in which triangles are counted, and the share of the triangles, one in so many, that may begin
+// nearer than the first slice that is cut finely.
+#define BRICK_OCTAVES 32u
+#define BRICK_OCTAVE_SHARE 256u
+
+// Columns along a side of the blocks that an invocation of the workgroups for large triangles looks at in turn.
+#define BRICK_BIN_BLOCK 4
+// Words per triangle of the large-triangle queue: one per view.
+#define BRICK_PAIR_LIMIT 6u
+
+// Threads in a workgroup of the build's compute passes.
+#define BRICK_GROUP_SIZE 64u
+
+#endif

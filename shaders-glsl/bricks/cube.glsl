@@ -1,0 +1,72 @@
+// What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
+// meet in the centre, slices are parallel. bricks/axes.glsl has those of a view along an axis.
+// Reads, writes: nothing.
+// Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is
+// right to 96 u R metres and to 32 u in x/z; cells list what lies within that.
+#ifndef BRICKS_CUBE_GLSL
+#define BRICKS_CUBE_GLSL
+
+#include "bricks/slices.glsl"
+#include "ads/views.glsl"
+
+#define BRICK_INFINITY uintBitsToFloat(0x7F800000u)
+
+// A ray in one face.
+struct BrickRay {
+    vec3 origin;          // face space, metres from the centre
+    vec3 direction;
+    vec3 heading;         // in which order cells are met along each axis: 1, -1, or 0 where x/z never changes
+    vec2 still;           // x/z and y/z, used where the heading is 0
+    float z_inverse;      // of the direction's z
+};
+
+// origin is relative to the centre, in world axes.
+BrickRay brick_ray(vec3 origin, vec3 direction, uint face) {
+    BrickRay ray;
+    ray.origin = face_from_world(origin, face);
+    ray.direction = face_from_world(direction, face);
+    // Products are compared, so two faces agree on the direction in which their seam is crossed.
+    precise vec2 ahead = ray.direction.xy * ray.origin.z;
+    precise vec2 behind = ray.origin.xy * ray.direction.z;
+    ray.heading = vec3(ahead.x > behind.x ? 1.0 : (ahead.x < behind.x ? -1.0 : 0.0),
+        ahead.y > behind.y ? 1.0 : (ahead.y < behind.y ? -1.0 : 0.0), ray.direction.z >= 0.0 ? 1.0 : -1.0);
+    bool moves = abs(ray.direction.z) >= 1.1754944e-38;
+    ray.still = moves ? ray.direction.xy / ray.direction.z : ray.origin.xy / ray.origin.z;
+    ray.z_inverse = moves ? 1.0 / ray.direction.z : 0.0;
+    return ray;
+}
+
+// t at which the boundary x/z = c is crossed in the direction of the heading, else infinite.
+float brick_crossing(float c, float o, float d, float oz, float dz, float heading) {
+    float denominator = d - c * dz;
+    return denominator * heading > 0.0 ? (c * oz - o) / denominator : BRICK_INFINITY;
+}
+
+// t at which each of three planes is met: below column planes.x, row planes.y, slice planes.z.
+vec3 brick_exits(BrickRay ray, ivec3 planes, float column, BrickSlices slices) {
+    vec2 c = vec2(planes.xy) * column - 1.0;
+    float tz = planes.z > 0 && planes.z < slices.count && ray.z_inverse != 0.0
+        ? (brick_slice_boundary(planes.z, slices) - ray.origin.z) * ray.z_inverse : BRICK_INFINITY;
+    return vec3(brick_crossing(c.x, ray.origin.x, ray.direction.x, ray.origin.z, ray.direction.z, ray.heading.x),
+        brick_crossing(c.y, ray.origin.y, ray.direction.y, ray.origin.z, ray.direction.z, ray.heading.y), tz);
+}
+
+// The cell that the ray is in at t. Where rounding does not tell, the column and row that are met first: a boundary
+// behind the ray is crossed at once, but one that is never crossed could not be stepped back over.
+ivec3 brick_cell_at(BrickRay ray, float t, float half_side, float rounding, BrickSlices slices) {
+    vec3 p = ray.origin + t * ray.direction;
+    float inverse = 1.0 / max(p.z, 1.0e-37);
+    vec2 place = p.xy * inverse - ray.heading.xy * (rounding * inverse + 1.0e-6);
+    place = vec2(ray.heading.x == 0.0 ? ray.still.x : place.x, ray.heading.y == 0.0 ? ray.still.y : place.y);
+    // Clamped before it becomes an integer, which holds no more than 2^31.
+    vec2 cell = clamp(place * half_side + half_side, vec2(-1.0), vec2(2.0 * half_side));
+    return ivec3(ivec2(floor(cell)), brick_slice_of(p.z, slices));
+}
+
+// The face beyond a side of a face: that of columns or that of rows, lower or upper.
+uint brick_face_beyond(uint face, bool columns, bool lower) {
+    uint axis = ((face >> 1) + (columns ? 1u : 2u)) % 3u;
+    return 2u * axis + (lower ? 1u : 0u);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// What: how far columns of a cube's faces reach beyond their sides.
+// Reads: header. Writes: nothing.
+#ifndef BRICKS_MARGIN_GLSL
+#define BRICKS_MARGIN_GLSL
+
+#include "bricks/header.glsl"
+
+// What of the header decides which columns of a face list a triangle. Precise expressions take values from here: with
+// addresses, glslang does not end where they follow a reference.
+struct BrickGrid {
+    uint columns;
+    float near_size;
+    float rounding;
+};
+
+BrickGrid brick_grid(BrickRef s) {
+    return BrickGrid(BRICK_HEADER(s).columns, BRICK_HEADER(s).near_size, BRICK_HEADER(s).rounding);
+}
+
+// How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor
+// that of the march takes a ray past a triangle it meets.
+float brick_margin(BrickGrid grid, float depth) {
+    precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;
+    return margin;
+}
+
+#endif

@@ -1,0 +1,31 @@
+// What: cuts depths into slices by the bits of the float: quasi-logarithmic, monotone and invertible without rounding.
+// Reads, writes: nothing.
+// A positive float grows with its bits, so taking a first value from the bits and shifting right is monotone, and the
+// boundary below slice k is the float whose bits are first + (k << shift). Within an octave slices are equally thick.
+#ifndef BRICKS_SLICES_GLSL
+#define BRICKS_SLICES_GLSL
+
+struct BrickSlices {
+    int count;            // what lies before the first slice counts to it, what lies behind the last one as well
+    int first;            // bits of the depth at which slice 0 begins
+    int shift;            // 23 less the logarithm of the slices an octave
+};
+
+int brick_slice_of(float z, BrickSlices slices) {
+    return clamp((floatBitsToInt(max(z, 0.0)) - slices.first) >> slices.shift, 0, slices.count - 1);
+}
+
+// Depth of the boundary below slice k, for 0 < k < count.
+float brick_slice_boundary(int k, BrickSlices slices) {
+    return intBitsToFloat(slices.first + (k << slices.shift));
+}
+
+// The slices whose last one ends behind `farthest` and that leave at most `octaves` octaves before the first.
+BrickSlices brick_slices_over(float farthest, uint octaves, uint count) {
+    uint an_octave = 1u << uint(findMSB(max(count / max(octaves, 1u), 1u)));
+    int shift = 23 - findMSB(an_octave);
+    int first = floatBitsToInt(farthest) - (int(count - 1u) << shift);
+    return BrickSlices(int(count), max(first, 0), shift);
+}
+
+#endif

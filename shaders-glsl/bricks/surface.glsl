@@ -1,0 +1,13 @@
+// What: the surface at a hit of bricks: a triangle with barycentrics.
+// Reads: the scene. Writes: nothing.
+#ifndef BRICKS_SURFACE_GLSL
+#define BRICKS_SURFACE_GLSL
+
+#include "scene/surface.glsl"
+#include "bricks/header.glsl"
+
+Surface brick_surface_at(BrickRef s, Ray ray, Hit hit) {
+    return scene_surface(ray, hit.t, hit.primitive, vec2(hit.a, hit.b));
+}
+
+#endif

@@ -1,0 +1,230 @@
+// What: follows a ray through bricks of cells and tests the triangles that each cell lists.
+// Reads: all pools, geometry. Writes: header.corrupted.
+// Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
+// between them, and bricks/axes.glsl those of views along axes (BRICK_VIEWS), which have one view and
+// no near box. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
+// axis of that exit gets the next index exactly, the others are found from the point there and kept between
+// where they were and the end of what was empty. So indices only go forwards, and a cell is missed by no more
+// than rounding, which what it lists allows for.
+//
+// cursor: 0 flags and face
+//         1 t
+//         3 column and row
+//         4 slice
+//         6 next entry
+//         7 place in what is tested one by one
+#ifndef BRICKS_TRACE_GLSL
+#define BRICKS_TRACE_GLSL
+
+#include "bricks/cell.glsl"
+#include "bricks/cube.glsl"
+#include "ads/bounds_interval.glsl"
+#include "ads/constants.glsl"
+#include "ads/march_cube.glsl"
+
+#define ListedRef BrickRef
+#define LISTED_HEADER(s) BRICK_HEADER(s)
+#define LISTED_NEAR(s) BRICK_NEAR_LIST(s)
+#include "ads/listed.glsl"
+
+#define BRICK_CURSOR_STARTED 1u
+#define BRICK_CURSOR_LISTED 2u
+// The list of the cell has not been begun.
+#define BRICK_LIST_BEGIN 0xFFFFFFFFu
+
+// Follows the ray from `t` to `t_last`, over the near box if it meets that. `resumed`: as the cursor says. True if the
+// budget ended first.
+bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
+    bool resumed, inout TraceState state, inout uint work) {
+    BrickWalk walk;
+    const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
+    walk.cells = ivec3(brick_cells(s));
+    walk.slices = brick_slices(s);
+    walk.half_side = 0.5 * float(walk.cells.x);
+    walk.column = 2.0 / float(walk.cells.x);
+    walk.rounding = BRICK_PLACE * BRICK_HEADER(s).reach;
+    walk.stored = min(BRICK_HEADER(s).capacity, BRICK_HEADER(s).demand);
+    walk.listed = brick_listed_cells(s);
+    // A finite end, also where the geometry ends beyond what numbers hold.
+    t_last = min(t_last, 3.0e38);
+    bool crosses_near = near.x <= near.y && near.y < t_last;
+    if (near.x <= near.y && !crosses_near) {
+        // A ray that ends in the near box needs no cell of it.
+        t_last = min(t_last, near.x);
+    }
+    uint face = 0u;
+    ivec3 cell = ivec3(0);
+    uint entry = BRICK_LIST_BEGIN;
+    bool begins = !resumed;
+    if (resumed) {
+        face = state.cursor[0] >> 2;
+        t = uintBitsToFloat(state.cursor[1]);
+        cell = ivec3(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16, state.cursor[4]);
+        entry = state.cursor[6];
+    } else if (near.x <= t && t <= near.y) {
+        t = near.y;
+    }
+    if (begins && !axes) {
+        face = face_of(origin + t * ray.direction);
+    }
+    bool turns = true;
+    bool paused = false;
+    BrickRay r;
+    BrickLine line;
+    bvec3 up;
+    // The two triangles tested last: large ones stand in many cells in a row.
+    uvec2 tested = uvec2(PRIMITIVE_NONE);
+    // Each turn crosses a cell or what is empty around it, and stays below the budget.
+    while (t <= t_last && !(t > state.best.t + slack)) {
+        if (turns) {
+            if (axes) {
+                line = brick_line(brick_axes(s), origin, ray.direction);
+                up = greaterThanEqual(line.direction, vec3(0.0));
+            } else {
+                r = brick_ray(origin, ray.direction, face);
+                up = greaterThanEqual(r.heading, vec3(0.0));
+            }
+            trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
+            if (begins) {
+                cell = axes ? brick_line_cell_at(line, t, walk.cells)
+                    : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+                cell = clamp(cell, ivec3(0), walk.cells - 1);
+            }
+            turns = false;
+            begins = false;
+        }
+        // A list that was being read when the ray paused goes on without a unit for its cell.
+        bool enters = entry == BRICK_LIST_BEGIN;
+        if (enters) {
+            if (work >= work_budget) {
+                paused = true;
+                break;
+            }
+            work++;
+        }
+        BrickBox box = brick_box(s, walk, face, cell, up);
+        ivec3 planes = mix(box.first, box.last + 1, up);
+        vec3 exits = axes ? brick_line_exits(line, planes) : brick_exits(r, planes, walk.column, walk.slices);
+        float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
+        if (enters) {
+            state.cells++;
+            trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
+        }
+        if (box.listed) {
+            uvec2 entries = brick_entries(s, walk, box.list);
+            if (enters) {
+                entry = entries.x;
+                trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
+            }
+            for (; entry < entries.y; entry++) {
+                if (work >= work_budget) {
+                    paused = true;
+                    break;
+                }
+                work++;
+                state.entries++;
+                uint primitive = BRICK_ENTRIES(s)[entry];
+                trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+                if (primitive != tested.x && primitive != tested.y) {
+                    brick_test(s, primitive, ray, state);
+                    tested = uvec2(primitive, tested.x);
+                }
+            }
+            if (paused || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+                break;
+            }
+            entry = BRICK_LIST_BEGIN;
+        }
+        // Where the ray goes into the near box it comes out on the other side; what is in there is tested one by one.
+        if (crosses_near && t < near.x && t_out >= near.x) {
+            t = near.y;
+            face = face_of(origin + t * ray.direction);
+            turns = true;
+            begins = true;
+            continue;
+        }
+        t = t_out;
+        bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
+        bool leaves_y = !leaves_x && exits.y <= exits.z;
+        ivec3 next = axes ? brick_line_cell_at(line, t, walk.cells)
+            : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+        next = clamp(next, mix(box.first, cell, up), mix(cell, box.last, up));
+        ivec3 over = mix(box.first - 1, box.last + 1, up);
+        if (leaves_x) {
+            next.x = over.x;
+        } else if (leaves_y) {
+            next.y = over.y;
+        } else {
+            next.z = over.z;
+        }
+        cell = next;
+        if (axes && (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, walk.cells)))) {
+            break;
+        }
+        int beside = leaves_x ? cell.x : cell.y;
+        if (!axes && (leaves_x || leaves_y) && (beside < 0 || beside >= walk.cells.x)) {
+            face = brick_face_beyond(face, leaves_x, beside < 0);
+            turns = true;
+            begins = true;
+        }
+    }
+    if (paused) {
+        state.cursor[0] = BRICK_CURSOR_STARTED | face << 2;
+        state.cursor[1] = floatBitsToUint(t);
+        state.cursor[3] = uint(cell.x) | uint(cell.y) << 16;
+        state.cursor[4] = uint(cell.z);
+        state.cursor[6] = entry;
+    }
+    return paused;
+}
+
+// The whole ray.
+uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
+    if ((BRICK_HEADER(s).status & STATUS_COMPLETE) == 0u) {
+        return TRACE_NOT_READY;
+    }
+    vec3 origin = ray.origin - BRICK_HEADER(s).centre;
+    float reach = BRICK_HEADER(s).reach;
+    float slack = hit_slack(origin, ray.direction, reach);
+    // Views along axes meet nowhere, so that no near box stands between them.
+    vec2 near = BRICK_VIEWS == BRICK_VIEWS_AXES ? vec2(1.0, 0.0)
+        : near_box_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
+    vec2 clip = bounds_interval(BRICK_HEADER(s).lower, BRICK_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,
+        ray.t_max + slack);
+    if (!(clip.x < clip.y)) {
+        return TRACE_MISS;
+    }
+    bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
+    uint work = 0u;
+    bool resumed = (state.cursor[0] & BRICK_CURSOR_STARTED) != 0u;
+    bool listed = (state.cursor[0] & BRICK_CURSOR_LISTED) != 0u;
+    bool meets_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
+    if ((!resumed || listed) && (distant || meets_near)) {
+        if (!resumed) {
+            trace_log(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
+        }
+        uint place = state.cursor[7];
+        if (listed_test(s, ray, distant, any_hit, place, state, work)) {
+            state.cursor[7] = place;
+            state.cursor[0] = BRICK_CURSOR_STARTED | BRICK_CURSOR_LISTED;
+            return TRACE_PAUSED;
+        }
+    }
+    bool done = distant || (any_hit && state.best.primitive != PRIMITIVE_NONE);
+    if (!done && brick_trace_cells(s, ray, origin, clip.x, clip.y, near, slack, any_hit, resumed && !listed, state, work)) {
+        return TRACE_PAUSED;
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+
+uint brick_trace_closest(BrickRef s, Ray ray, inout TraceState state, out Hit hit) {
+    uint result = brick_trace(s, ray, state, false);
+    hit = state.best;
+    return result;
+}
+
+uint brick_trace_occluded(BrickRef s, Ray ray, inout TraceState state) {
+    return brick_trace(s, ray, state, true);
+}
+
+#endif

@@ -1,0 +1,275 @@
+//! Bricks of cells along the axes: they list exactly the cells that a triangle reaches into, hits are those
+//! of brute force on every shape of a scene and from everywhere, and too little room for them is noticed.
+
+use std::collections::HashMap;
+
+use rasray_ads::{BruteForce, Check, Hit, Ray, Structure};
+use rasray_bricks::{Bricks, Builder, Config, Contents, Demand, Views, plan, well_formed};
+use rasray_gpu::Timing;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tracer::build_until_complete;
+
+fn axes(grid: Option<u32>) -> Config {
+    Config { grid, ..Config::new(Views::Axes) }
+}
+
+fn built(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> Bricks {
+    let geometry = bench.geometry(triangles);
+    let mut structure = Bricks::new(bench.device(), config, &geometry, None).expect("the options are valid");
+    build_until_complete(bench.device(), &mut structure, eye, Timing::None).expect("the build completes");
+    structure
+}
+
+/// Triangles of all sizes and slopes, and some along the axes.
+fn mixed(random: &mut Random) -> Vec<Triangle> {
+    let mut triangles: Vec<Triangle> = (0..300)
+        .map(|index| {
+            let size = [0.02, 0.2, 1.5, 8.0][index % 4];
+            let at = random.point(-5.0, 5.0);
+            std::array::from_fn(|_| {
+                let away = random.point(-size, size);
+                std::array::from_fn(|axis| at[axis] + away[axis])
+            })
+        })
+        .collect();
+    for index in 0..60 {
+        // In a plane across an axis.
+        let at = random.point(-5.0, 5.0);
+        triangles.push(std::array::from_fn(|_| {
+            let mut corner = random.point(-5.0, 5.0);
+            corner[index % 3] = at[index % 3];
+            corner
+        }));
+    }
+    triangles
+}
+
+/// The triangles of each cell that lists some.
+fn listed(contents: &Contents) -> HashMap<[u32; 3], Vec<u32>> {
+    let [columns, rows, deep] =
+        [contents.header.columns, contents.header.rows, contents.header.slices].map(|n| n / 4);
+    let mut cells = HashMap::new();
+    for brick in 0..columns * rows * deep {
+        let place = [brick / deep % columns, brick / (deep * columns) % rows, brick % deep];
+        for z in 0..4 {
+            let mask = contents.bricks[(3 * brick + 1 + z / 2) as usize];
+            for (y, x) in (0..16).map(|cell| (cell / 4, cell % 4)) {
+                if mask >> (x + 4 * y + 16 * (z % 2)) & 1 != 0 {
+                    let list = contents.list(cells.len()).expect("lists are well formed").to_vec();
+                    cells.insert([4 * place[0] + x, 4 * place[1] + y, 4 * place[2] + z], list);
+                }
+            }
+        }
+    }
+    cells
+}
+
+/// Whether a triangle reaches into the box between two corners; in double precision, by cutting it at the six sides.
+fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> bool {
+    let mut polygon = triangle.to_vec();
+    for axis in 0..3 {
+        for (side, sign) in [(lower[axis], 1.0), (upper[axis], -1.0)] {
+            let inside = |p: &[f64; 3]| sign * (p[axis] - side);
+            let mut kept = Vec::new();
+            for (from, to) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
+                if inside(from) >= 0.0 {
+                    kept.push(*from);
+                }
+                if (inside(from) < 0.0) != (inside(to) < 0.0) {
+                    let share = inside(from) / (inside(from) - inside(to));
+                    kept.push(std::array::from_fn(|axis| from[axis] + share * (to[axis] - from[axis])));
+                }
+            }
+            polygon = kept;
+        }
+    }
+    !polygon.is_empty()
+}
+
+/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins.
+#[test]
+fn cells_list_what_reaches_into_them_and_nothing_else() {
+    let bench = Bench::new();
+    let mut random = Random::new(41);
+    let triangles = mixed(&mut random);
+    for (grid, builder) in [(24, Builder::Binning), (61, Builder::Binning), (24, Builder::Raster)] {
+        let structure = built(&bench, Config { builder, ..axes(Some(grid)) }, &triangles, [0.0; 3]);
+        let contents = structure.download(bench.device()).expect("the device works");
+        well_formed(&contents, triangles.len() as u32).expect("bricks are well formed");
+        let cells = listed(&contents);
+        let header = &contents.header;
+        let count = [header.columns, header.rows, header.slices];
+        let margin: [f64; 3] = std::array::from_fn(|axis| {
+            f64::from(header.rounding * header.cells_per_metre[axis]) + 2.0e-6 * f64::from(grid)
+        });
+        let (mut reached, mut entries) = (0, 0);
+        for (primitive, triangle) in triangles.iter().enumerate() {
+            let in_cells = triangle.map(|p| {
+                std::array::from_fn::<f64, 3, _>(|axis| {
+                    let from_centre = f64::from(p[axis]) - f64::from(header.centre[axis]);
+                    (from_centre - f64::from(header.cells_lower[axis]))
+                        * f64::from(header.cells_per_metre[axis])
+                })
+            });
+            let along = |axis: usize| {
+                let lower = in_cells.iter().map(|p| p[axis]).fold(f64::MAX, f64::min);
+                let upper = in_cells.iter().map(|p| p[axis]).fold(f64::MIN, f64::max);
+                (lower - 1.0).max(0.0) as u32..=((upper + 1.0) as u32).min(count[axis] - 1)
+            };
+            for z in along(2) {
+                for y in along(1) {
+                    for x in along(0) {
+                        let cell = [x, y, z];
+                        let reaches = |share: f64| {
+                            reaches_into(
+                                &in_cells,
+                                std::array::from_fn(|axis| f64::from(cell[axis]) - share * margin[axis]),
+                                std::array::from_fn(|axis| f64::from(cell[axis] + 1) + share * margin[axis]),
+                            )
+                        };
+                        let lists = cells.get(&cell).is_some_and(|list| list.contains(&(primitive as u32)));
+                        entries += usize::from(lists);
+                        reached += usize::from(reaches(0.0));
+                        assert!(lists || !reaches(0.9), "{cell:?} does not list {triangle:?}");
+                        assert!(!lists || reaches(1.5), "{cell:?} lists {triangle:?}");
+                    }
+                }
+            }
+        }
+        println!("{grid} cells: {entries} entries, {reached} of them exactly");
+        assert_eq!(entries, cells.values().map(Vec::len).sum::<usize>());
+        assert!(reached > 5000 && entries < reached + reached / 50, "{entries} entries for {reached}");
+    }
+}
+
+/// Rays from within the bounds and from outside of them, some along an axis and some along the scene's planes.
+fn rays_at(random: &mut Random, [lower, upper]: [[f32; 3]; 2], count: usize) -> Vec<Ray> {
+    let extent: [f32; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
+    let longest = extent.into_iter().fold(0.0, f32::max);
+    let longest = if longest > 0.0 { longest } else { 1.0 };
+    let within = |random: &mut Random| -> [f32; 3] {
+        std::array::from_fn(|axis| lower[axis] + random.between(0.0, 1.0) * extent[axis])
+    };
+    (0..count)
+        .map(|index| {
+            let target = within(random);
+            let distance = [0.5, 2.0, 20.0][index % 3] * longest;
+            let origin = match index % 5 {
+                0 => within(random),
+                1 => {
+                    let mut origin = target;
+                    origin[index / 5 % 3] += if index / 15 % 2 == 0 { distance } else { -distance };
+                    origin
+                }
+                _ => {
+                    let away = random.direction();
+                    std::array::from_fn(|axis| target[axis] + distance * away[axis])
+                }
+            };
+            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+        })
+        .filter(|ray| ray.direction != [0.0; 3])
+        .collect()
+}
+
+/// Scenes without thickness, without an inside, without size, and of many sizes.
+fn shapes(random: &mut Random) -> Vec<(String, Vec<Triangle>)> {
+    let tiny = |random: &mut Random, at: [f32; 3], size: f32| -> Triangle {
+        std::array::from_fn(|_| {
+            let away = random.point(-size, size);
+            std::array::from_fn(|axis| at[axis] + away[axis])
+        })
+    };
+    let mut shapes: Vec<(String, Vec<Triangle>)> = (0..3)
+        .map(|axis| {
+            let mut flat = mixed(random);
+            flat.iter_mut().flatten().for_each(|corner| corner[axis] = 2.0);
+            (format!("flat along axis {axis}"), flat)
+        })
+        .collect();
+    shapes.push(("one triangle".to_owned(), vec![tiny(random, [1.0e3, -5.0, 7.0], 2.0)]));
+    shapes.push(("a point".to_owned(), vec![[[3.0; 3]; 3]; 5]));
+    shapes.push(("a line".to_owned(), vec![[[0.0; 3], [1.0, 2.0, 3.0], [2.0, 4.0, 6.0]]]));
+    let mut needle = closed_box([0.0; 3], [1000.0, 0.1, 0.1]);
+    needle.extend((0..200).map(|k| tiny(random, [5.0 * k as f32, 0.05, 0.05], 0.04)));
+    shapes.push(("a long box".to_owned(), needle));
+    let mut huge = vec![[[-1.0e4, -1.0e4, -1.0e4], [1.0e4, 1.0e4, -1.0e4], [1.0e4, -1.0e4, 1.0e4]]];
+    huge.extend((0..300).map(|_| {
+        let at = random.point(-1.0, 1.0);
+        tiny(random, at, 0.05)
+    }));
+    shapes.push(("a huge triangle among tiny ones".to_owned(), huge));
+    for scale in [1.0e-12_f32, 1.0e12] {
+        let scaled = sphere([0.0, 0.5, 0.0], 1.5, 8).into_iter().map(|t| t.map(|p| p.map(|x| x * scale)));
+        shapes.push((format!("a sphere scaled by {scale:e}"), scaled.collect()));
+    }
+    let mut sizes = closed_box([-10.0; 3], [10.0; 3]);
+    sizes.extend(sphere([-3.0, 0.5, -2.0], 1.5, 10));
+    sizes.extend(sphere([1.0, 0.25, 0.5], 0.003, 8));
+    shapes.push(("a room".to_owned(), sizes));
+    shapes
+}
+
+#[test]
+fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
+    let bench = Bench::new();
+    let mut random = Random::new(43);
+    for (what, triangles) in shapes(&mut random) {
+        let geometry = bench.geometry(&triangles);
+        let rays = rays_at(&mut random, geometry.bounds(), 2000);
+        let judge = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+        let expected = bench.trace(&judge, &rays).hits;
+        let hit = expected.iter().filter(|hit| hit.is_hit()).count();
+        println!("{what}: {hit} of {} rays hit", rays.len());
+        assert!(hit > 100 || what.starts_with("a point") || what.starts_with("a line"), "{what}: {hit}");
+        for config in [axes(None), axes(Some(8)), axes(Some(100)), Config { skip: false, ..axes(Some(33)) }] {
+            for eye in [[0.0; 3], [0.0, 1.0e5, 0.0]] {
+                let structure = built(&bench, config, &triangles, eye);
+                let hits = bench.trace(&structure, &rays).hits;
+                for (ray, (found, expected)) in hits.iter().zip(&expected).enumerate() {
+                    assert_eq!(
+                        bits(found),
+                        bits(expected),
+                        "{what}, {config:?}, eye at {eye:?}: {:?}",
+                        rays[ray]
+                    );
+                }
+                for (ray, occluded) in bench.occluded(&structure, &rays).into_iter().enumerate() {
+                    assert_eq!(occluded, expected[ray].is_hit(), "{what}, {config:?}: {:?}", rays[ray]);
+                }
+                assert_eq!(structure.status().expect("the header is readable").corrupted, 0, "{what}");
+            }
+        }
+    }
+}
+
+/// Another geometry may ask for more bricks; what was given fewer than it asks for makes no half structure.
+#[test]
+fn missing_room_for_bricks_is_noticed() {
+    let bench = Bench::new();
+    let room = closed_box([-10.0; 3], [10.0; 3]);
+    let flat: Vec<Triangle> = vec![[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]];
+    let mut structure = built(&bench, axes(Some(32)), &flat, [0.0; 3]);
+    structure.set_geometry(bench.device(), &bench.geometry(&room)).expect("it fits");
+    build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
+        .expect("the build completes");
+    let mut random = Random::new(5);
+    let rays: Vec<Ray> = (0..500).map(|_| Ray::new(random.point(-9.0, 9.0), random.direction())).collect();
+    let expected = bench.trace(&structure, &rays).hits;
+    assert!(expected.iter().all(Hit::is_hit));
+
+    for grid in [[0; 3], [4; 3], [32, 32, 28]] {
+        let few = Demand { entries: 1 << 16, near: 0, records: 1 << 16, cells: 1 << 16, triangles: 12, grid };
+        structure.resize(bench.device(), &plan(&axes(Some(32)), &few).expect("in range")).expect("it fits");
+        let status = bench.build_once(&mut structure, [0.0; 3]);
+        assert!(!status.complete, "{grid:?}: {status:?}");
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+            panic!("{status:?} does not grow")
+        };
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        assert!(bench.build_once(&mut structure, [0.0; 3]).complete, "{grid:?}");
+        assert_eq!(bench.trace(&structure, &rays).hits, expected);
+    }
+}

@@ -1,0 +1,126 @@
+//! What tests of pools of either structure share: the scene, the rays, and every edge capacity of entries and of the
+//! near list.
+
+use rasray_ads::{BuildStatus, Check, Design, Geometry, Hit, Pooled, Ray, Structure, TraceMode};
+use rasray_tests::conformance::trace_in_rounds;
+use rasray_tests::hard_cases::{self, Scale};
+use rasray_tests::harness::Bench;
+use rasray_tests::random::Random;
+use rasray_tests::shapes::{Triangle, closed_box};
+
+pub const EYE: [f32; 3] = [0.0; 3];
+pub const NEAR_TRIANGLES: u64 = 5;
+
+/// Layers, a room, and triangles around the eye for the near list.
+pub fn scene() -> Vec<Triangle> {
+    let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
+    triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
+    for k in 0..NEAR_TRIANGLES {
+        let z = 1.0e-5 * (k as f32 - 2.0) + 1.0e-6;
+        triangles.push([[-0.02, -0.02, z], [0.02, -0.02, z], [0.0, 0.03, z]]);
+    }
+    triangles
+}
+
+pub fn rays() -> Vec<Ray> {
+    let mut random = Random::new(3);
+    (0..500).map(|_| Ray::new(random.point(-0.5, 0.5), random.direction())).collect()
+}
+
+pub fn trace(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Hit> {
+    let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
+    assert_eq!((counters.not_ready, counters.unfinished), (0, 0));
+    hits
+}
+
+pub fn demand(status: &BuildStatus, name: &str) -> u64 {
+    status.demand(name).expect("the pool is counted")
+}
+
+/// A structure over triangles, not built.
+pub fn made<D: Design>(bench: &Bench, config: D::Config, geometry: &Geometry) -> Pooled<D> {
+    Pooled::new(bench.device(), config, geometry, None).expect("the options are valid")
+}
+
+/// Room for so many entries and near triangles, and ample room for all else.
+pub trait Room: Sized {
+    fn room(entries: u64, near: u64, triangles: &[Triangle]) -> Self;
+}
+
+/// Whatever room there is for entries and near triangles, demands are exact, no answer is partial, and what was grown
+/// from there completes with the same hits. `check` holds lists well formed.
+pub fn every_edge_capacity<D>(config: D::Config, near_triangles: u64, check: impl Fn(&D::Contents, u32))
+where
+    D: Design,
+    D::Demand: Room,
+{
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let geometry = bench.geometry(&triangles);
+    let mut structure = made::<D>(&bench, config, &geometry);
+    let check = |structure: &Pooled<D>| {
+        let contents = structure.download(bench.device()).expect("the device works");
+        check(&contents, triangles.len() as u32);
+    };
+    let plan =
+        |entries, near| D::plan(&config, &D::Demand::room(entries, near, &triangles)).expect("in range");
+
+    // Ample room: what the demand and the hits are.
+    structure.resize(bench.device(), &plan(1 << 20, 1 << 10)).expect("it fits");
+    let status = bench.build_once(&mut structure, EYE);
+    assert!(status.complete);
+    let (entries, near) = (demand(&status, "entries"), demand(&status, "near"));
+    assert!(entries > 1000 && near == near_triangles, "{status:?}");
+    check(&structure);
+    let expected = trace(&bench, &structure, &rays);
+
+    let full = [0, 1, entries / 2, entries - 1, entries].map(|capacity| (capacity, near));
+    let near_full = [0, 1, near / 2, near.saturating_sub(1)].map(|capacity| (entries, capacity.min(near)));
+    for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
+        structure.resize(bench.device(), &plan(room, near_room)).expect("it fits");
+        let status = bench.build_once(&mut structure, EYE);
+        let fits = room >= entries && near_room >= near;
+        assert_eq!(status.complete, fits, "room for {room} and {near_room}");
+        assert_eq!((demand(&status, "entries"), demand(&status, "near")), (entries, near), "room for {room}");
+        if fits {
+            assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
+            assert_eq!(trace(&bench, &structure, &rays), expected);
+            continue;
+        }
+        for mode in [TraceMode::Closest, TraceMode::Occluded] {
+            let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
+            assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {near_room}, {mode:?}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+        }
+        let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+            panic!("room for {room} does not grow")
+        };
+        assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
+        structure.resize(bench.device(), &sizes).expect("it fits");
+        assert!(bench.build_once(&mut structure, EYE).complete, "a build completes with its exact demand");
+        check(&structure);
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {near_room}");
+    }
+}
+
+/// Pools for fewer triangles than there are make no half structure.
+pub fn missing_room_for_triangles<D>(config: D::Config)
+where
+    D: Design,
+    D::Demand: Room,
+{
+    let bench = Bench::new();
+    let (triangles, rays) = (scene(), rays());
+    let geometry = bench.geometry(&triangles);
+    let mut structure = made::<D>(&bench, config, &geometry);
+    let few = D::Demand::room(1 << 20, 1 << 10, &triangles[..3]);
+    structure.resize(bench.device(), &D::plan(&config, &few).expect("in range")).expect("it fits");
+    let status = bench.build_once(&mut structure, EYE);
+    assert!(!status.complete, "{status:?}");
+    let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
+        panic!("{status:?} does not grow")
+    };
+    structure.resize(bench.device(), &sizes).expect("it fits");
+    assert!(bench.build_once(&mut structure, EYE).complete);
+    assert!(trace(&bench, &structure, &rays).iter().all(Hit::is_hit));
+}
