@@ -1,12 +1,12 @@
 //! The seam between the command and what renders: plain data in, plain data out.
 
 use crate::error::AppError;
-use crate::ray_files::{HitsFile, RaysFile};
-use crate::report::figures::Figures;
 use crate::report::{Counters, Device, Memory, Pass, Run, Spread, Times};
 use crate::systems::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
+use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
+use rasray_report_html::figures::Figures;
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
@@ -219,19 +219,6 @@ pub struct KeptSet {
     pub truth: Vec<TrueHit>,
     /// The systems' answers.
     pub answers: Vec<Answers>,
-}
-
-/// The answer of the oracle to a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrueHit {
-    /// In units of the direction's length; infinite for a miss.
-    pub t: f64,
-    /// Global triangle id; `u32::MAX` for a miss.
-    pub primitive: u32,
-    /// Weights of vertices 1 and 2.
-    pub barycentrics: [f64; 2],
-    /// Whether f32 may decide otherwise.
-    pub ambiguous: bool,
 }
 
 /// The answers of a system to a ray set.

@@ -78,6 +78,12 @@ pub enum AppError {
     },
 }
 
+impl From<rasray_ray_files::FileError> for AppError {
+    fn from(error: rasray_ray_files::FileError) -> Self {
+        Self::input(error.path(), error.message(), error.help())
+    }
+}
+
 impl AppError {
     /// A usage error.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {

@@ -10,7 +10,6 @@ mod error;
 mod interrupt;
 pub mod output;
 mod progress;
-pub mod ray_files;
 mod renderer;
 pub mod report;
 mod scene_source;

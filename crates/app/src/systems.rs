@@ -98,6 +98,7 @@ pub fn single(
     options: &StructureOptions,
 ) -> Result<SystemConfig, AppError> {
     if !system.presets.contains(&preset) {
+        let own: Vec<_> = system.presets.iter().map(|preset| preset.name()).collect();
         let having: Vec<_> = SYSTEMS
             .iter()
             .filter(|system| system.presets.contains(&preset))
@@ -105,7 +106,7 @@ pub fn single(
             .collect();
         return Err(AppError::usage(
             format!("system {} has no preset {}", system.name, preset.name()),
-            format!("leave it out or choose a --system that has it: {}", having.join(", ")),
+            format!("its presets: {}; choose another --system for it: {}", own.join(", "), having.join(", ")),
         ));
     }
     for option in options.given().keys() {

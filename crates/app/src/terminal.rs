@@ -2,8 +2,8 @@
 //! that no name in a file can steer a terminal: nothing before this layer escapes them.
 
 use crate::error::AppError;
+use rasray_report::{in_line, shown, shown_but};
 use rasray_scene::Scene;
-use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -32,54 +32,6 @@ pub(crate) fn set_talk(talk: Talk) {
 /// Whether so much is said.
 pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
-}
-
-/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`: controls but
-/// line breaks and tabs, and those that turn the direction of what follows.
-pub(crate) fn shown(text: &str) -> Cow<'_, str> {
-    written_out(text, &['\n', '\t'])
-}
-
-/// The same for a name within a line, whose line breaks and tabs are written out as well.
-pub(crate) fn in_line(text: &str) -> Cow<'_, str> {
-    written_out(text, &[])
-}
-
-fn written_out<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
-    let is_written_out = |character: char| is_obeyed(character) && !kept.contains(&character);
-    if !text.contains(is_written_out) {
-        return Cow::Borrowed(text);
-    }
-    let mut escaped = String::with_capacity(text.len() + 8);
-    for character in text.chars() {
-        if is_written_out(character) {
-            escaped.extend(character.escape_default());
-        } else {
-            escaped.push(character);
-        }
-    }
-    Cow::Owned(escaped)
-}
-
-fn is_obeyed(character: char) -> bool {
-    let turns = matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    let separates = matches!(character, '\u{2028}' | '\u{2029}');
-    character.is_control() || turns || separates
-}
-
-/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`shown`]; in
-/// valid JSON they stand in strings only, but for the line breaks between them.
-pub(crate) fn json_shown(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for character in text.chars() {
-        if is_obeyed(character) && character != '\n' {
-            // None of them is beyond the sixteen bits that one escape holds.
-            escaped += &format!("\\u{:04x}", u32::from(character));
-        } else {
-            escaped.push(character);
-        }
-    }
-    escaped
 }
 
 /// The words of a text, with single spaces between them.
@@ -186,8 +138,8 @@ impl Write for Log {
     fn write(&mut self, line: &[u8]) -> io::Result<usize> {
         let text = String::from_utf8_lossy(line);
         // Colours begin with an escape character; the formatter writes out those of the values itself.
-        let kept: &[char] = if self.colors { &['\n', '\t', '\u{1b}'] } else { &['\n', '\t'] };
-        _ = io::stderr().lock().write_all(written_out(&text, kept).as_bytes());
+        let text = if self.colors { shown_but(&text, &['\u{1b}']) } else { shown(&text) };
+        _ = io::stderr().lock().write_all(text.as_bytes());
         Ok(line.len())
     }
 
@@ -201,13 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_that_a_terminal_obeys_is_shown_as_it_is() {
-        assert_eq!(shown("wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\0"), {
-            "wall\\u{1b}[2J\\r\\u{7}\\u{9b}31m\\u{202e}x\\u{0}"
-        });
-        let plain = "Wände, 壁\n\tand 🧱";
-        assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
-        assert_eq!(in_line("a\nb\tc\u{2028}d"), r"a\nb\tc\u{2028}d");
+    fn words_stand_on_one_line() {
         assert_eq!(one_line(" a\n  b\u{7} "), r"a b\u{7}");
     }
 
@@ -216,13 +162,5 @@ mod tests {
         assert!(colors(true, None) && colors(true, Some(OsStr::new(""))));
         assert!(!colors(true, Some(OsStr::new("1"))) && !colors(true, Some(OsStr::new("0"))));
         assert!(!colors(false, None));
-    }
-
-    #[test]
-    fn json_stays_json() {
-        let name = "a\u{1b}\u{9b}\u{202e}\n\"b\"";
-        let text = json_shown(&serde_json::to_string(name).expect("a string"));
-        assert!(!text.contains(is_obeyed), "{text}");
-        assert_eq!(serde_json::from_str::<String>(&text).expect("a string"), name);
     }
 }

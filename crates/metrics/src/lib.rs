@@ -26,4 +26,4 @@ pub use image::{Image, ImageError};
 pub use rate::{Rate, confidence_of_each};
 pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
-pub use tone::display_values;
+pub use tone::{display_values, tone_map};

@@ -4,12 +4,17 @@ mod accuracy;
 mod schema;
 #[cfg(test)]
 mod tests;
+mod text;
+mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use schema::{
     CameraRecord, Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
     Spread, Statistics, Timer, Times,
 };
+
+pub use text::{in_line, json_shown, shown, shown_but};
+pub use words::{bytes, columns, grouped};
 
 use rasray_metrics::confidence_of_each;
 use serde_json::Value;

@@ -8,13 +8,15 @@ use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
+use crate::output::{self, SaveTargets};
 use crate::progress::during;
-use crate::ray_files::{self, SaveTargets};
-use crate::report::figures::Figures;
-use crate::report::{Report, html, markdown, origin, table};
+use crate::report::{Report, markdown, origin, table};
 use crate::systems;
 use crate::terminal::{self, Talk};
 use crate::texels;
+use rasray_ray_files::{load_hits, load_rays};
+use rasray_report::json_shown;
+use rasray_report_html::figures::Figures;
 use std::ffi::OsStr;
 
 /// Rays per set unless told.
@@ -48,8 +50,9 @@ pub(crate) fn compare(
     let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
-    let rays_file = given.files.rays_file.as_deref().map(ray_files::load_rays).transpose()?;
-    let hits_files = given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path));
+    let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;
+    let hits_files =
+        given.files.hits_file.iter().map(|file| Ok::<_, AppError>(load_hits(&file.name, &file.path)?));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
     let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
@@ -92,7 +95,7 @@ pub(crate) fn compare(
 
     let report =
         Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
-    ray_files::save(&targets.save, &kept, interrupt)?;
+    output::save(&targets.save, &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
     terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     report.runs.iter().try_for_each(check_whole)?;
@@ -168,13 +171,18 @@ impl Targets {
         interrupt: &Interrupt,
     ) -> Result<(), AppError> {
         if let Some(place) = &self.report {
-            place.write(terminal::json_shown(&report.to_json()).as_bytes(), interrupt)?;
+            place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
         }
         if let Some(place) = &self.markdown {
             place.write(markdown(report).as_bytes(), interrupt)?;
         }
         if let Some(place) = &self.html {
-            place.write(&html::page(report, figures)?, interrupt)?;
+            let page = rasray_report_html::page(report, figures).map_err(|error| {
+                let help =
+                    "the page was not written; this is a defect, please report it with the command line";
+                AppError::refused(error.to_string(), help)
+            })?;
+            place.write(&page, interrupt)?;
         }
         Ok(())
     }

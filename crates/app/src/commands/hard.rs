@@ -6,11 +6,12 @@ use crate::arguments::CompareArguments;
 use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::ray_files::{self, HitsFile};
+use crate::output;
 use crate::report::{HardRecord, Report, Run, SceneRecord, columns, origin, table};
 use crate::systems::{self, SystemConfig};
 use crate::terminal::{self, Talk};
 use rasray_hard_cases::{HardFile, Loading, Scale};
+use rasray_ray_files::{HitsFile, load_hits};
 use rasray_scene::LoadOptions;
 use std::ffi::OsStr;
 
@@ -69,7 +70,7 @@ pub(super) fn compare(
             if let Some(text) = &one.replay {
                 terminal::print(text)?;
             }
-            ray_files::save(targets.save(), &one.kept, interrupt)?;
+            output::save(targets.save(), &one.kept, interrupt)?;
             triangles += count;
             append(&mut whole, one);
         }
@@ -160,7 +161,7 @@ fn hits_files(given: &CompareArguments, ids: &[&str]) -> Result<Vec<HitsFile>, A
             "name the case",
         ));
     }
-    given.files.hits_file.iter().map(|file| ray_files::load_hits(&file.name, &file.path)).collect()
+    given.files.hits_file.iter().map(|file| Ok(load_hits(&file.name, &file.path)?)).collect()
 }
 
 /// A case with what it is traced through.

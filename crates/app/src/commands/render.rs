@@ -14,6 +14,7 @@ use crate::report::{Report, Run, origin, table};
 use crate::systems::SystemConfig;
 use crate::terminal::{self, Talk};
 use crate::texels;
+use rasray_report::json_shown;
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -74,7 +75,7 @@ pub(crate) fn render(
     let report =
         Report::new(origin(line), backend.device(), loaded.record(), vec![run]).seen_from(chosen.record());
     if let Some(place) = &report_target {
-        place.write(terminal::json_shown(&report.to_json()).as_bytes(), interrupt)?;
+        place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
     }
     whole?;
     output::check_complete(&output, aovs)?;

@@ -1,14 +1,16 @@
-//! Images on disk: format by extension, encoded in memory, put in place in one step.
+//! Results on disk: images by extension, rays and hits; encoded in memory, put in place in one step.
 
 mod destination;
 mod exr;
 mod levels;
 mod png;
+mod save_rays;
 
 pub use self::exr::{Metadata, encode as encode_exr};
 pub use destination::Destination;
 pub use levels::hint;
-pub use png::{encode as encode_png, tone_map};
+pub use png::encode as encode_png;
+pub(crate) use save_rays::{SaveTargets, save};
 
 use crate::backend::{AovSelection, RenderOutput};
 use crate::error::AppError;

@@ -4,20 +4,7 @@
 use crate::backend::RenderOutput;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
-
-/// The 8-bit value of a linear one in [0, 1] or outside of it; not-a-number becomes 0, as conversion to
-/// an integer makes it.
-fn srgb8(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let curved = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    (curved * 255.0 + 0.5) as u8
-}
-
-/// Three bytes per pixel: colours times 2^`exposure`, clamped, on the sRGB curve.
-pub fn tone_map(beauty: &[[f32; 3]], exposure: f32) -> Vec<u8> {
-    let scale = exposure.exp2();
-    beauty.iter().flatten().map(|value| srgb8(value * scale)).collect()
-}
+use rasray_metrics::tone_map;
 
 /// The bytes of a PNG file of the colours.
 ///
@@ -39,18 +26,6 @@ pub fn encode(output: &RenderOutput, exposure: f32) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_curve_is_srgb() {
-        let values = [f32::NAN, -1.0, 0.0, 0.002, 0.214_041_14, 0.5, 1.0, 2.0, f32::INFINITY];
-        assert_eq!(values.map(srgb8), [0, 0, 0, 7, 128, 188, 255, 255, 255]);
-    }
-
-    #[test]
-    fn a_stop_doubles() {
-        assert_eq!(tone_map(&[[0.25, 0.1, 0.3]], 1.0), tone_map(&[[0.5, 0.2, 0.6]], 0.0));
-        assert_eq!(tone_map(&[[0.5; 3]], -1.0), tone_map(&[[0.25; 3]], 0.0));
-    }
 
     #[test]
     fn a_file_reads_back_row_by_row() {

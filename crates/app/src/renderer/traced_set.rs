@@ -10,10 +10,10 @@ use super::contestant::Contestant;
 use super::judge::{accuracy, depth_errors, device_hits};
 use super::passes::{Passes, median, spread};
 use super::stage::tracer_error;
-use crate::backend::{Answers, Comparison, KeptSet, TrueHit};
+use crate::backend::{Answers, Comparison, KeptSet};
 use crate::error::AppError;
-use crate::ray_files::HitsFile;
 use crate::report::{Run, Times};
+use rasray_ray_files::{HitsFile, TrueHit};
 
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;

@@ -1,7 +1,7 @@
 //! The runs of a report side by side as one Markdown table, for pages that publish them.
 
-use super::words::grouped;
-use crate::terminal::in_line;
+use rasray_report::grouped;
+use rasray_report::in_line;
 use rasray_report::{Accuracy, Report, Run};
 
 /// The system whose rate others are put in relation to, where a report has it.

@@ -1,19 +1,17 @@
-//! What was measured, for people and for machines: the table, the page, and the JSON of `rasray_report`.
+//! What was measured, as text: tables and lines. The page is that of `rasray_report_html`, the JSON that of
+//! `rasray_report`.
 
-pub mod figures;
-pub mod html;
 mod markdown;
 mod run_text;
 mod table;
-mod words;
 
 pub use markdown::markdown;
 pub use rasray_report::{
     Accuracy, Bound, CameraRecord, Counters, Device, HardRecord, ImageError, Memory, Origin, Pass,
     RateRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord, Spread, Statistics, Timer, Times,
+    bytes, columns, grouped,
 };
 pub use table::table;
-pub(crate) use words::{bytes, columns, grouped};
 
 /// This build of the command, and the line that was typed.
 pub fn origin(line: &str) -> Origin {

@@ -1,7 +1,7 @@
 //! A run with every number, as text for people.
 
-use super::words::{bytes, columns, grouped};
 use rasray_report::{Bound, HardRecord, RateRecord, Run};
+use rasray_report::{bytes, columns, grouped};
 use std::fmt::Write;
 
 fn milliseconds(value: f64) -> String {

@@ -1,10 +1,10 @@
 //! The report as text for people.
 
 use super::run_text::{heading, run_text, verdict};
-use super::words::{bytes, columns, grouped};
 use crate::camera::described;
-use crate::terminal::in_line;
+use rasray_report::in_line;
 use rasray_report::{HardRecord, Report, Run, Statistics};
+use rasray_report::{bytes, columns, grouped};
 use std::fmt::Write;
 
 /// One row per run: speed beside error.

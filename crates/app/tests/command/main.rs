@@ -5,8 +5,6 @@ mod faults_driver;
 mod faults_output;
 mod hard;
 mod html_browser;
-mod html_fixture;
-mod html_page;
 mod output;
 mod replay;
 mod results;

@@ -9,6 +9,7 @@ use crate::backend::{Frame, OpenBackend, Sampler};
 use crate::error::AppError;
 use crate::progress::during;
 use crate::{camera, scene_source, terminal};
+use rasray_report::json_shown;
 use serde_json::Value;
 
 use super::open_device;
@@ -56,7 +57,7 @@ fn show(as_json: bool, json: impl Fn() -> Value, text: impl Fn() -> String) -> R
         whole.extend(fields);
     }
     let text = serde_json::to_string_pretty(&whole).expect("names and numbers");
-    terminal::print(&format!("{}\n", terminal::json_shown(&text)))
+    terminal::print(&format!("{}\n", json_shown(&text)))
 }
 
 fn pair(name: &str, value: impl ToString) -> Vec<String> {

@@ -1,11 +1,11 @@
 //! The table with one row a run; a click on a heading sorts it.
 
-use super::super::{bytes, grouped};
 use super::markup::Markup;
 use super::names::workload;
 use super::section::Section;
 use super::sortable::{Heading, table};
 use rasray_report::{Accuracy, Counters, ImageError, RateRecord, Report, Run, Statistics};
+use rasray_report::{bytes, grouped};
 
 /// What a cell says and what it is sorted by.
 struct Cell {

@@ -1,19 +1,19 @@
 //! Images against the reference: a slider between any two, all of them side by side, maps of FLIP.
 
-use super::super::figures::{Figures, Images, SystemImage};
 use super::markup::Markup;
 use super::misfit;
 use super::picture::{MAGMA, address, colour, ramp};
 use super::section::Section;
-use crate::error::AppError;
-use crate::output::tone_map;
+use crate::HtmlError;
+use crate::figures::{Figures, Images, SystemImage};
+use rasray_metrics::tone_map;
 use rasray_report::Report;
 
 /// The images; absent unless images were compared.
 ///
 /// # Errors
 /// An image or a map that lacks pixels.
-pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, AppError> {
+pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, HtmlError> {
     let Some(images) = &figures.images else { return Ok(None) };
     let mut body = Markup::default();
     body.leaf(
@@ -44,7 +44,7 @@ pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Secti
     Ok(Some(Section::new("images", "Images", body)))
 }
 
-fn beauty(images: &Images, pixels: &[[f32; 3]]) -> Result<String, AppError> {
+fn beauty(images: &Images, pixels: &[[f32; 3]]) -> Result<String, HtmlError> {
     address(images.width, images.height, &tone_map(pixels, 0.0))
 }
 
@@ -97,7 +97,7 @@ fn picture(body: &mut Markup, images: &Images, (id, caption, alternative): (&str
     body.fixed("\n");
 }
 
-fn maps(body: &mut Markup, report: &Report, images: &Images) -> Result<(), AppError> {
+fn maps(body: &mut Markup, report: &Report, images: &Images) -> Result<(), HtmlError> {
     body.fixed("<h3>FLIP of each pixel</h3>\n<div class=\"legend\">");
     let words = "From 0 (dark, no visible difference) to 1 (bright)";
     body.empty("img", &[("src", &ramp(MAGMA)?), ("alt", words)]);
@@ -119,7 +119,7 @@ fn maps(body: &mut Markup, report: &Report, images: &Images) -> Result<(), AppEr
     Ok(())
 }
 
-fn map(body: &mut Markup, report: &Report, images: &Images, system: &SystemImage) -> Result<(), AppError> {
+fn map(body: &mut Markup, report: &Report, images: &Images, system: &SystemImage) -> Result<(), HtmlError> {
     if system.flip.len() != system.pixels.len() {
         return Err(misfit(format!("a map of FLIP has {} pixels", system.flip.len())));
     }

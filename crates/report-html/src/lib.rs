@@ -1,4 +1,4 @@
-//! The report as one page that needs nothing else: no other file, no server, no network.
+//! A report as one page that needs nothing else: no other file, no server, no network.
 //!
 //! Every part stands in a module of its own and is absent where its data was not measured. Figures are
 //! computed here; the page's script only draws, sorts and slides.
@@ -20,15 +20,16 @@ mod speed_error;
 mod summary;
 mod work;
 
-use super::figures::Figures;
-use crate::error::AppError;
+pub mod figures;
+
+use figures::Figures;
 use rasray_report::Report;
 
 /// The page as UTF-8 text.
 ///
 /// # Errors
 /// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
-pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
+pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     check(report, figures)?;
     // Of many hard cases the verdicts are the summary, and a row a run is what to look up in.
     let (summary, hard) = (summary::section(report), hard::section(report));
@@ -52,7 +53,7 @@ pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, AppError> {
     Ok(document::document(report, &sections).into_bytes())
 }
 
-fn check(report: &Report, figures: &Figures) -> Result<(), AppError> {
+fn check(report: &Report, figures: &Figures) -> Result<(), HtmlError> {
     let runs = figures.work.iter().map(|map| map.run).chain(figures.depth_errors.iter().map(|one| one.run));
     let images = figures.images.iter().flat_map(|images| &images.systems).map(|system| system.run);
     match runs.chain(images).find(|run| *run >= report.runs.len()) {
@@ -62,9 +63,10 @@ fn check(report: &Report, figures: &Figures) -> Result<(), AppError> {
 }
 
 /// Figures and report contradict each other, which no input of a user can cause.
-fn misfit(what: impl Into<String>) -> AppError {
-    AppError::refused(
-        what,
-        "the page was not written; this is a defect, please report it with the command line",
-    )
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct HtmlError(String);
+
+fn misfit(what: impl Into<String>) -> HtmlError {
+    HtmlError(what.into())
 }

@@ -144,7 +144,7 @@ fn numbers_to_npy(
 }
 
 /// One id a ray as an array of uint32.
-pub(super) fn ids_to_npy(ids: &[u32]) -> Vec<u8> {
+pub fn ids_to_npy(ids: &[u32]) -> Vec<u8> {
     let bytes = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
     Array::plain(Kind::U4, &[ids.len()], bytes).to_bytes()
 }

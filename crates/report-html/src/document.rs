@@ -1,9 +1,9 @@
 //! The frame of the page: head, title, device, navigation, parts, notices and scripts.
 
-use super::super::grouped;
 use super::markup::Markup;
 use super::section::Section;
 use rasray_report::Report;
+use rasray_report::grouped;
 use serde_json::Value;
 use std::borrow::Cow;
 

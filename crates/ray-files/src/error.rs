@@ -1,3 +1,52 @@
+use std::path::{Path, PathBuf};
+
+/// Why a file gave no rays or hits.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}: {why}", path.display())]
+pub struct FileError {
+    path: PathBuf,
+    why: Why,
+}
+
+/// What is wrong with the file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum Why {
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    #[error("is not a file of rays by its name")]
+    NotRays,
+    #[error("is not a file of hits by its name")]
+    NotHits,
+    #[error(transparent)]
+    Format(FormatError),
+}
+
+impl FileError {
+    pub(crate) fn new(path: &Path, why: Why) -> Self {
+        Self { path: path.to_owned(), why }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is wrong with it, without its name.
+    pub fn message(&self) -> String {
+        self.why.to_string()
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> &'static str {
+        match &self.why {
+            Why::Unreadable(_) => "check the name and that you may read the file",
+            Why::NotRays => "name a .rays file or a .npy array of N x 6, 7 or 8 numbers",
+            Why::NotHits => "name a .npy array with fields t and primitive",
+            Why::Format(error) => error.help(),
+        }
+    }
+}
+
 /// Why bytes are not a file of rays or hits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]

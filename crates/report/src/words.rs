@@ -1,10 +1,10 @@
 //! Numbers and columns as people read them.
 
-use crate::terminal::in_line;
+use crate::in_line;
 use std::fmt::Write;
 
 /// Aligned columns: the first `left` to the left, the others to the right.
-pub(crate) fn columns(rows: &[Vec<String>], left: usize) -> String {
+pub fn columns(rows: &[Vec<String>], left: usize) -> String {
     let rows: Vec<Vec<_>> = rows.iter().map(|row| row.iter().map(|cell| in_line(cell)).collect()).collect();
     let count = rows.iter().map(Vec::len).max().unwrap_or(0);
     let mut widths = vec![0; count];
@@ -28,7 +28,7 @@ pub(crate) fn columns(rows: &[Vec<String>], left: usize) -> String {
 }
 
 /// Bytes with a binary unit, exact below 1 KiB.
-pub(crate) fn bytes(value: u64) -> String {
+pub fn bytes(value: u64) -> String {
     const UNITS: [&str; 4] = ["KiB", "MiB", "GiB", "TiB"];
     let mut scaled = value as f64;
     let mut unit = "B";
@@ -43,7 +43,7 @@ pub(crate) fn bytes(value: u64) -> String {
 }
 
 /// A whole number with its thousands apart.
-pub(crate) fn grouped(value: u64) -> String {
+pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
     let mut text = String::new();
     for (position, digit) in digits.chars().enumerate() {

@@ -3,7 +3,7 @@
 use super::markup::Markup;
 use super::names::workload;
 use super::section::Section;
-use crate::error::AppError;
+use crate::HtmlError;
 use rasray_report::Report;
 use serde_json::Value;
 
@@ -17,7 +17,7 @@ const LEFT_OUT: [&str; 3] = ["system", "preset", "passes"];
 ///
 /// # Errors
 /// A run that cannot be written as JSON.
-pub(super) fn section(report: &Report) -> Result<Option<Section>, AppError> {
+pub(super) fn section(report: &Report) -> Result<Option<Section>, HtmlError> {
     if report.runs.is_empty() {
         return Ok(None);
     }

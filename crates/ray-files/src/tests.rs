@@ -2,7 +2,6 @@
 
 use super::error::FormatError;
 use super::*;
-use crate::backend::TrueHit;
 use proptest::prelude::*;
 use rasray_ads::{Hit, PRIMITIVE_NONE, Ray, StructureKind};
 

@@ -1,10 +1,10 @@
 //! Stacked bars, one a run: time per pass and memory per part.
 
-use super::super::bytes;
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, part_colour};
 use super::section::{Plot, Section};
+use rasray_report::bytes;
 use rasray_report::{Memory, Pass, Report, Run};
 use serde_json::{Value, json};
 

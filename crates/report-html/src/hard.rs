@@ -1,10 +1,10 @@
 //! Hard cases: what each demands and which run met it.
 
-use super::super::grouped;
 use super::markup::Markup;
 use super::names::{MOST_HARD_CASES, hard_cases};
 use super::section::Section;
 use super::sortable::{Heading, table};
+use rasray_report::grouped;
 use rasray_report::{HardRecord, Report, Run};
 
 /// The verdict in words, and the name of its look.

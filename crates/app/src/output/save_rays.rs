@@ -1,11 +1,11 @@
 //! Writes what was traced and answered into folders.
 
-use super::{hits_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
+use super::Destination;
 use crate::backend::Kept;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::Destination;
 use rasray_ads::PRIMITIVE_NONE;
+use rasray_ray_files::{hits_to_npy, ids_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
 use std::path::{Path, PathBuf};
 
 /// Folders that were named, and seen to take files.
@@ -51,7 +51,7 @@ pub(crate) fn save(targets: &SaveTargets, kept: &Kept, interrupt: &Interrupt) ->
             write(folder, format!("{}.npy", set.name), rays_to_npy(&set.rays, origin))?;
             if set.rays.iter().any(|ray| ray.exclude_primitive != PRIMITIVE_NONE) {
                 let excluded: Vec<u32> = set.rays.iter().map(|ray| ray.exclude_primitive).collect();
-                write(folder, format!("{}.exclude.npy", set.name), super::rays::ids_to_npy(&excluded))?;
+                write(folder, format!("{}.exclude.npy", set.name), ids_to_npy(&excluded))?;
             }
         }
     }

@@ -1,6 +1,6 @@
 //! HTML text in which everything that does not come from this program's source is escaped.
 
-use crate::terminal::{json_shown, shown};
+use rasray_report::{json_shown, shown};
 use serde_json::Value;
 use std::fmt::{Display, Write};
 

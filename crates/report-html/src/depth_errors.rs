@@ -1,10 +1,10 @@
 //! How |dt|/t is distributed: histograms, and percentiles beside each other.
 
-use super::super::figures::{DepthErrors, Figures};
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, look};
 use super::section::{Plot, Section};
+use crate::figures::{DepthErrors, Figures};
 use rasray_report::{Accuracy, Report};
 use serde_json::{Value, json};
 

@@ -1,13 +1,13 @@
 //! Speed against error, one plot a workload and measure, with the runs that no other beats.
 
-use super::super::figures::DepthErrors;
-use super::super::grouped;
 use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, look};
 use super::pareto::{Point, front};
 use super::section::{Plot, Section};
+use crate::figures::DepthErrors;
 use rasray_metrics::Rate;
+use rasray_report::grouped;
 use rasray_report::{Report, Run};
 use serde_json::{Value, json};
 

@@ -1,12 +1,12 @@
 //! What each pixel's ray cost: heat maps of cells, entries and tests on one scale a quantity.
 
-use super::super::figures::{Figures, WorkMap};
-use super::super::grouped;
 use super::markup::Markup;
 use super::picture::{VIRIDIS, address, colour, ramp};
 use super::section::Section;
-use crate::error::AppError;
+use crate::HtmlError;
+use crate::figures::{Figures, WorkMap};
 use rasray_report::Report;
+use rasray_report::grouped;
 
 /// A quantity that the maps hold.
 struct Quantity {
@@ -59,7 +59,7 @@ fn ticks(most: u32) -> Vec<u32> {
 ///
 /// # Errors
 /// A map that lacks pixels.
-pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, AppError> {
+pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Section>, HtmlError> {
     let mut body = Markup::default();
     let mut shown = false;
     for quantity in &QUANTITIES {
@@ -88,7 +88,7 @@ pub(super) fn section(report: &Report, figures: &Figures) -> Result<Option<Secti
     Ok(shown.then(|| Section::new("work", "Work per ray", body)))
 }
 
-fn legend(body: &mut Markup, quantity: &Quantity, most: u32) -> Result<(), AppError> {
+fn legend(body: &mut Markup, quantity: &Quantity, most: u32) -> Result<(), HtmlError> {
     let source = ramp(VIRIDIS)?;
     let words = format!("From 0 (dark) to {} (bright) {}", grouped(most.into()), quantity.unit);
     body.element("div", &[("class", "legend")], |body| {
@@ -110,7 +110,7 @@ fn picture(
     map: &WorkMap,
     quantity: &Quantity,
     most: u32,
-) -> Result<(), AppError> {
+) -> Result<(), HtmlError> {
     let values = (quantity.values)(map);
     let rgb: Vec<u8> = values.iter().flat_map(|count| colour(VIRIDIS, place(*count, most))).collect();
     let source = address(map.width, map.height, &rgb)?;

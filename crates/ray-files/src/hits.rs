@@ -3,8 +3,20 @@
 use super::LIMIT;
 use super::error::FormatError;
 use super::npy::{self, Array, Kind};
-use crate::backend::TrueHit;
 use rasray_ads::{Hit, PRIMITIVE_NONE, StructureKind};
+
+/// The answer of the oracle to a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrueHit {
+    /// In units of the direction's length; infinite for a miss.
+    pub t: f64,
+    /// Global triangle id; `u32::MAX` for a miss.
+    pub primitive: u32,
+    /// Weights of vertices 1 and 2.
+    pub barycentrics: [f64; 2],
+    /// Whether f32 may decide otherwise.
+    pub ambiguous: bool,
+}
 
 /// Hits that another tracer found, one a ray.
 #[derive(Clone, Debug, PartialEq)]

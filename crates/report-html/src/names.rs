@@ -88,7 +88,7 @@ pub(super) fn part_colour(index: usize) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::HardRecord;
+    use rasray_report::HardRecord;
 
     fn run(system: &str, preset: &str, set: &str) -> Run {
         Run {

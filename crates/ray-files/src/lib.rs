@@ -1,0 +1,59 @@
+//! Rays and hits in files, so that another tracer can be held against the systems here on the same
+//! rays. `docs/ray-files.md` describes the formats.
+//!
+//! Whatever a file holds, reading it gives rays and hits that can be traced and judged, or an error that
+//! names the file, the place and the fix.
+
+mod binary;
+mod error;
+mod hits;
+mod literal;
+mod npy;
+mod rays;
+
+pub use binary::{read_rays, write_rays};
+pub use error::{FileError, FormatError};
+pub use hits::{HitsFile, TrueHit, hits_from_npy, hits_to_npy, truth_to_npy};
+pub use rays::{Place, RaysFile, ids_to_npy, rays_from_npy, rays_to_npy, triangles_to_npy};
+
+use std::path::Path;
+
+/// Maximum rays or hits that a file may hold.
+pub const LIMIT: usize = 100_000_000;
+
+/// Reads rays from a `.rays` or `.npy` file.
+///
+/// # Errors
+/// The file cannot be read, is neither by its name, or is not what its name says.
+pub fn load_rays(path: &Path) -> Result<RaysFile, FileError> {
+    let read = match extension(path).as_deref() {
+        Some("rays") => read_rays,
+        Some("npy") => rays_from_npy,
+        _ => return Err(FileError::new(path, error::Why::NotRays)),
+    };
+    read(&read_file(path)?).map_err(|error| FileError::new(path, error::Why::Format(error)))
+}
+
+/// Reads hits from a `.npy` file; `name` is what a report calls the tracer that found them.
+///
+/// # Errors
+/// The file cannot be read, is no `.npy` by its name, or does not hold hits.
+pub fn load_hits(name: &str, path: &Path) -> Result<HitsFile, FileError> {
+    if extension(path).as_deref() != Some("npy") {
+        return Err(FileError::new(path, error::Why::NotHits));
+    }
+    let hits = hits_from_npy(&read_file(path)?);
+    let hits = hits.map_err(|error| FileError::new(path, error::Why::Format(error)))?;
+    Ok(HitsFile { name: name.to_owned(), hits })
+}
+
+fn extension(path: &Path) -> Option<String> {
+    path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase)
+}
+
+fn read_file(path: &Path) -> Result<Vec<u8>, FileError> {
+    std::fs::read(path).map_err(|error| FileError::new(path, error::Why::Unreadable(error.to_string())))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,79 @@
+//! Names and numbers as people read them.
+
+use std::borrow::Cow;
+
+/// Text of one or several lines with every character that a terminal obeys written out, such as `\u{1b}`: controls but
+/// line breaks and tabs, and those that turn the direction of what follows.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    written_out(text, &['\n', '\t'])
+}
+
+/// The same but for these characters.
+pub fn shown_but<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
+    written_out(text, &[&['\n', '\t'], kept].concat())
+}
+
+/// The same for a name within a line, whose line breaks and tabs are written out as well.
+pub fn in_line(text: &str) -> Cow<'_, str> {
+    written_out(text, &[])
+}
+
+fn written_out<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
+    let is_written_out = |character: char| is_obeyed(character) && !kept.contains(&character);
+    if !text.contains(is_written_out) {
+        return Cow::Borrowed(text);
+    }
+    let mut escaped = String::with_capacity(text.len() + 8);
+    for character in text.chars() {
+        if is_written_out(character) {
+            escaped.extend(character.escape_default());
+        } else {
+            escaped.push(character);
+        }
+    }
+    Cow::Owned(escaped)
+}
+
+fn is_obeyed(character: char) -> bool {
+    let turns = matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let separates = matches!(character, '\u{2028}' | '\u{2029}');
+    character.is_control() || turns || separates
+}
+
+/// JSON text in which every such character is escaped as JSON does it, so that nothing is left for [`shown`]; in
+/// valid JSON they stand in strings only, but for the line breaks between them.
+pub fn json_shown(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for character in text.chars() {
+        if is_obeyed(character) && character != '\n' {
+            // None of them is beyond the sixteen bits that one escape holds.
+            escaped += &format!("\\u{:04x}", u32::from(character));
+        } else {
+            escaped.push(character);
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_a_terminal_obeys_is_shown_as_it_is() {
+        let text = "wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\0";
+        assert_eq!(shown(text), r"wall\u{1b}[2J\r\u{7}\u{9b}31m\u{202e}x\u{0}");
+        assert_eq!(shown_but("a\u{1b}b\u{7}\n", &['\u{1b}']), "a\u{1b}b\\u{7}\n");
+        let plain = "Wände, 壁\n\tand 🧱";
+        assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
+        assert_eq!(in_line("a\nb\tc\u{2028}d"), r"a\nb\tc\u{2028}d");
+    }
+
+    #[test]
+    fn json_stays_json() {
+        let name = "a\u{1b}\u{9b}\u{202e}\n\"b\"";
+        let text = json_shown(&serde_json::to_string(name).expect("a string"));
+        assert!(!text.contains(is_obeyed), "{text}");
+        assert_eq!(serde_json::from_str::<String>(&text).expect("a string"), name);
+    }
+}
