@@ -2,8 +2,7 @@
 
 use ash::vk;
 use rasray_ads::{
-    Addressing, AdsError, Check, Draw, Geometry, GeometryDesc, Hit, PoolSize, Pools, Ray, RayQueue, Sizes,
-    TraceMode,
+    Addressing, AdsError, Check, Draw, Geometry, GeometryDesc, Hit, Pools, Ray, RayQueue, Sizes, TraceMode,
 };
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder, Timing};
 use rasray_systems::Spec;
@@ -11,6 +10,16 @@ use rasray_tests::harness::{Bench, bits};
 use rasray_tests::invariance::Subject;
 use rasray_tests::shapes::{closed_box, sphere};
 use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
+
+rasray_ads::pool_names! {
+    /// Pools of no structure.
+    pub enum Pool {
+        /// What shaders start from.
+        Header = "header",
+        /// Something else.
+        Nodes = "nodes",
+    }
+}
 
 /// Leaves words of ones behind for whoever is given the memory next: every status bit set.
 fn dirty_memory(bench: &Bench) {
@@ -80,12 +89,11 @@ fn structures_that_were_never_built_say_so() {
 fn fresh_headers_are_zero() {
     let bench = Bench::new();
     let device = bench.device();
-    let pool = |name, elements| PoolSize { name, elements, element_bytes: 4 };
-    let sizes = Sizes { pools: vec![pool("header", 64), pool("nodes", 16)] };
+    let sizes = Sizes::of("test", [(Pool::Header, 64, 4), (Pool::Nodes, 16, 4)]).expect("small pools");
     dirty_memory(&bench);
     let mut pools = Pools::new(device, "test", Addressing::Descriptor, &sizes).expect("it fits");
     for _ in 0..2 {
-        assert_eq!(pools.download_words(device, "header").expect("the device works"), [0; 64]);
+        assert_eq!(pools.download_words(device, Pool::Header).expect("the device works"), [0; 64]);
         dirty_memory(&bench);
         pools.resize(device, &sizes).expect("it fits");
     }

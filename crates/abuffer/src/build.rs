@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 
 use crate::layout::{cell_count, draws, long_capacity};
-use crate::{Config, Header, March, Storage};
+use crate::{Config, Header, March, Pool, Storage};
 
 /// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
 #[derive(Debug)]
@@ -103,10 +103,10 @@ impl Build {
 
         // Backward links of new nodes and depths of unused slots are zero; everything else of a node is written.
         let paged = config.storage == Storage::Paged;
-        let cleared: &[&str] = if config.storage.is_doubly_linked() || paged {
-            &["bounds", "lists", "nodes"]
+        let cleared: &[Pool] = if config.storage.is_doubly_linked() || paged {
+            &[Pool::Bounds, Pool::Lists, Pool::Nodes]
         } else {
-            &["bounds", "lists"]
+            &[Pool::Bounds, Pool::Lists]
         };
         let readers = shaders | Access::VERTEX_READ;
         target.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
@@ -138,7 +138,7 @@ impl Build {
             let readers = Access::COMPUTE;
             // A thread for each page, contiguous list, or several linked lists.
             let sorted = match config.storage {
-                Storage::Paged => target.pools.sizes().elements("nodes"),
+                Storage::Paged => target.pools.sizes().elements_of(Pool::Nodes),
                 Storage::Sb => lists,
                 _ => lists.div_ceil(u64::from(NODE_SORT_LISTS)),
             };

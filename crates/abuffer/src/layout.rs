@@ -1,14 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Storage, Views};
-
-/// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 8] =
-    ["header", "bounds", "lists", "nodes", "data", "near", "scratch", "fringe"];
+use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
 
 /// Cells of all views, each with a border of one cell.
 pub fn cell_count(config: &Config) -> u64 {
@@ -131,14 +127,14 @@ fn scan_words(config: &Config) -> u64 {
 
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements("scratch").saturating_sub(scan_words(config)) / 2
+    sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)) / 2
 }
 
 /// Triangles with many cells that such pools have room for.
 pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
-        Builder::Binning => sizes.elements("scratch").saturating_sub(scan_words(config)),
+        Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
     }
 }
 
@@ -151,30 +147,23 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let cells = cell_count(config);
     let lists = cells * u64::from(config.lists());
     let sizes = [
-        (1, size_of::<Header>() as u64),
-        (bounds_and_blocks(config) + config.mark_sets() * demand.triangles.div_ceil(32), 4),
-        (lists, 4 * list_words(config.storage)),
-        (demand.nodes, 4 * node_words(config)),
-        (demand.nodes, if config.inline { 0 } else { 4 * data_words(config) * node_slots(config) }),
-        (demand.near_triangles, 4),
-        (scratch_words(config, demand), 4),
-        (if config.has_fringe() { demand.fringe } else { 0 }, 12),
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        (Pool::Bounds, bounds_and_blocks(config) + config.mark_sets() * demand.triangles.div_ceil(32), 4),
+        (Pool::Lists, lists, 4 * list_words(config.storage)),
+        (Pool::Nodes, demand.nodes, 4 * node_words(config)),
+        (
+            Pool::Data,
+            demand.nodes,
+            if config.inline { 0 } else { 4 * data_words(config) * node_slots(config) },
+        ),
+        (Pool::Near, demand.near_triangles, 4),
+        (Pool::Scratch, scratch_words(config, demand), 4),
+        (Pool::Fringe, if config.has_fringe() { demand.fringe } else { 0 }, 12),
     ];
-    let pools: Vec<PoolSize> = POOLS
-        .iter()
-        .zip(sizes)
-        .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
-        .collect();
     if config.storage == Storage::Paged && demand.nodes > u64::from(PAGE_LIMIT) {
         return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: "nodes", elements: demand.nodes });
     }
-    // Words of a pool are counted in 32 bits by the shaders, and one value is kept to mean "none".
-    if let Some(pool) =
-        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
-    {
-        return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: pool.name, elements: pool.elements });
-    }
-    Ok(Sizes { pools })
+    Sizes::of("mmrt", sizes)
 }
 
 /// The first guess where nothing has been counted: a fragment a cell, and a triangle beside every fourth centre.

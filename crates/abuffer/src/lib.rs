@@ -15,6 +15,7 @@ mod config;
 mod fault;
 mod header;
 mod layout;
+mod pool;
 mod structure;
 mod validate;
 
@@ -24,6 +25,7 @@ pub use config::Config;
 pub use fault::Fault;
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
+pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::ABuffer;
 pub use validate::{Contents, Fragment, well_formed};

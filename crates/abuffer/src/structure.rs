@@ -14,7 +14,7 @@ use crate::layout::{
     Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
     widest_view,
 };
-use crate::{Config, Contents, Header, March, Storage};
+use crate::{Config, Contents, Header, March, Pool, Storage};
 
 /// A multiview, multilayer A-buffer, made from a [`Config`].
 pub type ABuffer = Pooled<Build>;
@@ -79,8 +79,8 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     let [camera_x, camera_y, camera_z] = camera_rows;
     let [columns, rows] = config.camera_cells();
     Ok(Header {
-        capacity: parts.elements("nodes") as u32,
-        near_capacity: parts.elements("near") as u32,
+        capacity: parts.elements(Pool::Nodes) as u32,
+        near_capacity: parts.elements(Pool::Near) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         resolution: config.resolution,
         samples: config.samples,
@@ -96,14 +96,14 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         triangles: (32 * mark_words(parts)).min(u32::MAX.into()) as u32,
         reach: farthest,
         rounding: triangle_rounding,
-        bounds_address: pools.address_of("bounds"),
-        lists_address: pools.address_of("lists"),
-        nodes_address: pools.address_of("nodes"),
-        data_address: pools.address_of("data"),
-        near_address: pools.address_of("near"),
-        scratch_address: pools.address_of("scratch"),
-        fringe_capacity: parts.elements("fringe") as u32,
-        fringe_address: pools.address_of("fringe"),
+        bounds_address: pools.address_of(Pool::Bounds),
+        lists_address: pools.address_of(Pool::Lists),
+        nodes_address: pools.address_of(Pool::Nodes),
+        data_address: pools.address_of(Pool::Data),
+        near_address: pools.address_of(Pool::Near),
+        scratch_address: pools.address_of(Pool::Scratch),
+        fringe_capacity: parts.elements(Pool::Fringe) as u32,
+        fringe_address: pools.address_of(Pool::Fringe),
         pair_capacity: pair_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
@@ -112,7 +112,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
 
 /// Words of a set of marks of triangles.
 fn mark_words(parts: &Parts<Config>) -> u64 {
-    (parts.elements("bounds") - bounds_and_blocks(&parts.config)) / parts.config.mark_sets()
+    (parts.elements(Pool::Bounds) - bounds_and_blocks(&parts.config)) / parts.config.mark_sets()
 }
 
 impl rasray_ads::Demand for Demand {
@@ -132,6 +132,7 @@ impl Design for Build {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = "mmrt";
@@ -203,11 +204,11 @@ impl Design for Build {
     fn room(parts: &Parts<Config>) -> Demand {
         let Parts { config, geometry, pools } = parts;
         Demand {
-            nodes: parts.elements("nodes"),
-            near_triangles: parts.elements("near"),
+            nodes: parts.elements(Pool::Nodes),
+            near_triangles: parts.elements(Pool::Near),
             long_lists: long_capacity(config, pools.sizes()),
             triangles: u64::from(geometry.triangle_count()).max(32 * mark_words(parts)),
-            fringe: parts.elements("fringe"),
+            fringe: parts.elements(Pool::Fringe),
             pairs: pair_capacity(config, pools.sizes()),
         }
     }
@@ -220,17 +221,19 @@ impl Design for Build {
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell may hold all of the fringe: a small object in a large world.
         let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
-        16 + header.fringe_demand.min(parts.elements("fringe") as u32).div_ceil(budget)
+        16 + header.fringe_demand.min(parts.elements(Pool::Fringe) as u32).div_ceil(budget)
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         let config = &parts.config;
         match pool {
-            "nodes" | "data" => Some(asked.nodes),
-            "near" => Some(asked.near_triangles),
-            "scratch" => Some(scratch_words(config, *asked)),
-            "fringe" => Some(asked.fringe),
-            "bounds" => Some(bounds_and_blocks(config) + config.mark_sets() * asked.triangles.div_ceil(32)),
+            Pool::Nodes | Pool::Data => Some(asked.nodes),
+            Pool::Near => Some(asked.near_triangles),
+            Pool::Scratch => Some(scratch_words(config, *asked)),
+            Pool::Fringe => Some(asked.fringe),
+            Pool::Bounds => {
+                Some(bounds_and_blocks(config) + config.mark_sets() * asked.triangles.div_ceil(32))
+            }
             _ => None,
         }
     }
@@ -257,25 +260,25 @@ impl Design for Build {
         Ok(Contents {
             config: parts.config,
             header,
-            bounds: words("bounds")?,
-            lists: words("lists")?,
-            nodes: words("nodes")?,
-            data: words("data")?,
-            near: words("near")?,
-            scratch: words("scratch")?,
-            fringe: words("fringe")?,
+            bounds: words(Pool::Bounds)?,
+            lists: words(Pool::Lists)?,
+            nodes: words(Pool::Nodes)?,
+            data: words(Pool::Data)?,
+            near: words(Pool::Near)?,
+            scratch: words(Pool::Scratch)?,
+            fringe: words(Pool::Fringe)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
         let pools = vec![
-            ("bounds", cast_slice(&contents.bounds)),
-            ("lists", cast_slice(&contents.lists)),
-            ("nodes", cast_slice(&contents.nodes)),
-            ("data", cast_slice(&contents.data)),
-            ("near", cast_slice(&contents.near)),
-            ("scratch", cast_slice(&contents.scratch)),
-            ("fringe", cast_slice(&contents.fringe)),
+            (Pool::Bounds, cast_slice(&contents.bounds)),
+            (Pool::Lists, cast_slice(&contents.lists)),
+            (Pool::Nodes, cast_slice(&contents.nodes)),
+            (Pool::Data, cast_slice(&contents.data)),
+            (Pool::Near, cast_slice(&contents.near)),
+            (Pool::Scratch, cast_slice(&contents.scratch)),
+            (Pool::Fringe, cast_slice(&contents.fringe)),
         ];
         (contents.header, pools)
     }

@@ -1,10 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Geometry, PoolSize, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
-use crate::{Builder, Config, Header, Storage};
+use crate::{Builder, Config, Header, Pool, Storage};
 
 /// What a build asks for, counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,23 +74,17 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.tiles());
     let lists = cells * u64::from(config.buckets);
     let sums = if config.storage == Storage::Contiguous { Scan::sums(lists) } else { 0 };
-    let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
-    let pools = vec![
-        PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
-        pool("bounds", cells * bounds_words(config) + pyramid_words(config), 1),
-        pool("lists", lists, 1),
-        pool("entries", demand.entries, entry_words(config.storage)),
-        pool("sums", sums, 1),
-        pool("near", demand.near, 1),
-        pool("pairs", pair_words(config) * demand.triangles, 1),
+    let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
+    let pools = [
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        pool(Pool::Bounds, cells * bounds_words(config) + pyramid_words(config), 1),
+        pool(Pool::Lists, lists, 1),
+        pool(Pool::Entries, demand.entries, entry_words(config.storage)),
+        pool(Pool::Sums, sums, 1),
+        pool(Pool::Near, demand.near, 1),
+        pool(Pool::Pairs, pair_words(config) * demand.triangles, 1),
     ];
-    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
-    if let Some(pool) =
-        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
-    {
-        return Err(AdsError::PoolTooLarge { structure: "dirt", pool: pool.name, elements: pool.elements });
-    }
-    Ok(Sizes { pools })
+    Sizes::of("dirt", pools)
 }
 
 /// The first guess where nothing has been counted: four entries per cell.

@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolSize, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -11,7 +11,7 @@ use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Centre, Config, Contents, Header};
+use crate::{Centre, Config, Contents, Header, Pool};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -37,8 +37,8 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     // What a ray outside of the near box meets is not behind the centre, also where tiles are few.
     let near_size = (NEAR_BOX * config.tiles() as f32 * farthest).max(2.0 * rounding);
     Header {
-        capacity: parts.elements("entries") as u32,
-        near_capacity: parts.elements("near") as u32,
+        capacity: parts.elements(Pool::Entries) as u32,
+        near_capacity: parts.elements(Pool::Near) as u32,
         tiles: config.tiles(),
         tile: config.tile,
         reach: farthest,
@@ -48,13 +48,13 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         centre,
         lower: lower.map(|x| x - rounding),
         upper: upper.map(|x| x + rounding),
-        bounds_address: pools.address_of("bounds"),
-        lists_address: pools.address_of("lists"),
-        entries_address: pools.address_of("entries"),
-        sums_address: pools.address_of("sums"),
-        near_address: pools.address_of("near"),
-        pairs_address: pools.address_of("pairs"),
-        pair_capacity: parts.elements("pairs") as u32,
+        bounds_address: pools.address_of(Pool::Bounds),
+        lists_address: pools.address_of(Pool::Lists),
+        entries_address: pools.address_of(Pool::Entries),
+        sums_address: pools.address_of(Pool::Sums),
+        near_address: pools.address_of(Pool::Near),
+        pairs_address: pools.address_of(Pool::Pairs),
+        pair_capacity: parts.elements(Pool::Pairs) as u32,
         groups: [0, 0, bin_groups(config)],
         ..Header::default()
     }
@@ -74,6 +74,7 @@ impl Design for Passes {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = "dirt";
@@ -109,8 +110,7 @@ impl Design for Passes {
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
         let triangles = u64::from(geometry.triangle_count());
         let sizes = plan(&parts.config, &Demand { triangles, ..Self::room(parts) })?;
-        let grows = |pool: &PoolSize| pool.elements > parts.elements(pool.name);
-        Ok(sizes.pools.iter().any(grows).then_some(sizes))
+        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
     }
 
     fn make(
@@ -143,8 +143,8 @@ impl Design for Passes {
 
     fn room(parts: &Parts<Config>) -> Demand {
         Demand {
-            entries: parts.elements("entries"),
-            near: parts.elements("near"),
+            entries: parts.elements(Pool::Entries),
+            near: parts.elements(Pool::Near),
             triangles: parts.geometry.triangle_count().into(),
         }
     }
@@ -155,11 +155,11 @@ impl Design for Passes {
         16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
-            "entries" => Some(asked.entries),
-            "near" => Some(asked.near),
-            "pairs" => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements(pool))),
+            Pool::Entries => Some(asked.entries),
+            Pool::Near => Some(asked.near),
+            Pool::Pairs => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
             _ => None,
         }
     }
@@ -179,19 +179,19 @@ impl Design for Passes {
         Ok(Contents {
             config: parts.config,
             header,
-            bounds: words("bounds")?,
-            lists: words("lists")?,
-            entries: words("entries")?,
-            near: words("near")?,
+            bounds: words(Pool::Bounds)?,
+            lists: words(Pool::Lists)?,
+            entries: words(Pool::Entries)?,
+            near: words(Pool::Near)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
         let pools = vec![
-            ("bounds", cast_slice(&contents.bounds)),
-            ("lists", cast_slice(&contents.lists)),
-            ("entries", cast_slice(&contents.entries)),
-            ("near", cast_slice(&contents.near)),
+            (Pool::Bounds, cast_slice(&contents.bounds)),
+            (Pool::Lists, cast_slice(&contents.lists)),
+            (Pool::Entries, cast_slice(&contents.entries)),
+            (Pool::Near, cast_slice(&contents.near)),
         ];
         (contents.header, pools)
     }

@@ -6,8 +6,8 @@ use bytemuck::Pod;
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 
 use crate::{
-    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Geometry, Pools, SceneBinding, Sizes,
-    StructureKind, StructureReport, Viewpoint,
+    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Geometry, PoolName, Pools, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
 /// What every configuration says.
@@ -32,6 +32,9 @@ pub struct Outcome {
     pub corrupted: u32,
 }
 
+/// Pools with their bytes.
+pub type PoolBytes<'a, P> = Vec<(P, &'a [u8])>;
+
 /// Numbers of elements that only a build counts, and what else planning depends on.
 pub trait Demand: Copy {
     /// Calls `with` for each counted number: its name in statuses, this number and that of `other`. The result has what
@@ -53,8 +56,8 @@ pub struct Parts<C> {
 
 impl<C> Parts<C> {
     /// Elements allocated in a pool.
-    pub fn elements(&self, pool: &str) -> u64 {
-        self.pools.sizes().elements(pool)
+    pub fn elements(&self, pool: impl PoolName) -> u64 {
+        self.pools.sizes().elements_of(pool)
     }
 
     /// What passes work on.
@@ -72,6 +75,8 @@ pub trait Design: fmt::Debug + Sized {
     type Header: Pod;
     /// What builds ask for.
     type Demand: Demand;
+    /// Its pools.
+    type Pool: PoolName;
     /// Pools on the host, for checks.
     type Contents;
 
@@ -191,7 +196,7 @@ pub trait Design: fmt::Debug + Sized {
     }
 
     /// Elements of a pool that hold something; absent where all do.
-    fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: &str) -> Option<u64>;
+    fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64>;
 
     /// The report, but for [`StructureReport::bytes_by_part`].
     fn report(parts: &Parts<Self::Config>, header: &Self::Header, asked: &Self::Demand) -> StructureReport;
@@ -207,6 +212,6 @@ pub trait Design: fmt::Debug + Sized {
         header: Self::Header,
     ) -> Result<Self::Contents, GpuError>;
 
-    /// Header and other pools to write back: names and bytes.
-    fn pools_of(contents: &Self::Contents) -> (Self::Header, Vec<(&'static str, &[u8])>);
+    /// Header and other pools to write back, with their bytes.
+    fn pools_of(contents: &Self::Contents) -> (Self::Header, PoolBytes<'_, Self::Pool>);
 }

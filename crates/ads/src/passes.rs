@@ -6,7 +6,7 @@ use rasray_gpu::{
     Recorder, SetLayout,
 };
 
-use crate::{AdsError, Geometry, Modules, Pools, SceneBinding};
+use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
 
 /// Most workgroups along the first dimension; more go to the second, which shaders fold back.
 const MOST_GROUPS: u64 = 32_768;
@@ -127,7 +127,13 @@ impl BuildTarget<'_> {
 
     /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, both
     /// visible to `readers`, and the check of the triangles, whose result the pass of the status looks at.
-    pub fn record_header(&self, recorder: &mut Recorder<'_>, label: &str, cleared: &[&str], readers: Access) {
+    pub fn record_header(
+        &self,
+        recorder: &mut Recorder<'_>,
+        label: &str,
+        cleared: &[impl PoolName],
+        readers: Access,
+    ) {
         recorder.begin_pass(label);
         self.pools.record_header(recorder, self.geometry, cleared, readers);
         recorder.end_pass();

@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGE
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Geometry, InlineTrace,
-    Modules, Outcome, Parts, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure,
+    Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure,
     StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 
@@ -104,7 +104,7 @@ impl<D: Design> Pooled<D> {
     pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
         let (header, pools) = D::pools_of(contents);
         device.upload(self.parts.pools.header_buffer(), 0, bytemuck::bytes_of(&header))?;
-        pools.into_iter().try_for_each(|(name, bytes)| device.upload(self.parts.pools.pool(name), 0, bytes))
+        pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
     }
 
     fn work_budget(&self) -> u32 {
@@ -240,7 +240,10 @@ impl<D: Design> Structure for Pooled<D> {
     fn report(&self) -> Result<StructureReport, GpuError> {
         let header = self.header()?;
         let asked = self.design.asked(&self.parts, &header);
-        let used = |pool: &PoolSize| D::used(&self.parts, &asked, pool.name).unwrap_or(pool.elements);
+        let used = |size: &PoolSize| {
+            let pool = D::Pool::ALL.iter().find(|pool| pool.name() == size.name);
+            pool.and_then(|pool| D::used(&self.parts, &asked, *pool)).unwrap_or(size.elements)
+        };
         let bytes_by_part = self.parts.pools.bytes_by_part(used);
         Ok(StructureReport { bytes_by_part, ..D::report(&self.parts, &header, &asked) })
     }

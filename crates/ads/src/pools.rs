@@ -9,7 +9,7 @@ use rasray_gpu::{
 };
 
 use crate::{
-    Addressing, AdsError, Geometry, InlineTrace, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode,
+    Addressing, AdsError, Geometry, InlineTrace, PoolName, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode,
 };
 
 /// The header's name among the pools; it is the first.
@@ -131,10 +131,10 @@ impl Pools {
     /// The buffer of a pool.
     ///
     /// # Panics
-    /// There is no pool of that name: a structure names its own.
-    pub fn pool(&self, name: &str) -> &Buffer {
-        let index = self.sizes.pools.iter().position(|pool| pool.name == name);
-        &self.pools[index.unwrap_or_else(|| panic!("{} has no pool `{name}`", self.structure))]
+    /// The sizes were those of another structure.
+    pub fn pool(&self, pool: impl PoolName) -> &Buffer {
+        let index = self.sizes.pools.iter().position(|size| size.name == pool.name());
+        &self.pools[index.unwrap_or_else(|| panic!("{} has no pool {pool:?}", self.structure))]
     }
 
     /// The buffer of the header.
@@ -151,10 +151,10 @@ impl Pools {
     }
 
     /// Device address of a pool as a header holds it, low word first; zero with descriptors.
-    pub fn address_of(&self, name: &str) -> [u32; 2] {
+    pub fn address_of(&self, pool: impl PoolName) -> [u32; 2] {
         let address = match self.addressing {
             Addressing::Descriptor => 0,
-            Addressing::Address => self.pool(name).address().unwrap_or(0),
+            Addressing::Address => self.pool(pool).address().unwrap_or(0),
         };
         [address as u32, (address >> 32) as u32]
     }
@@ -173,13 +173,13 @@ impl Pools {
         &self,
         recorder: &mut Recorder<'_>,
         geometry: &Geometry,
-        cleared: &[&str],
+        cleared: &[impl PoolName],
         readers: Access,
     ) {
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
         recorder.update(&self.pools[0], 0, &self.header);
-        for name in cleared {
-            let pool = self.pool(name);
+        for pool in cleared {
+            let pool = self.pool(*pool);
             recorder.fill(pool, 0, pool.size(), 0);
         }
         geometry.record_check(recorder, &self.header_readback, self.header.len() as u64);
@@ -224,8 +224,8 @@ impl Pools {
     ///
     /// # Errors
     /// The device failed.
-    pub fn download_words(&self, device: &Device, name: &str) -> Result<Vec<u32>, GpuError> {
-        device.download_as::<u32>(self.pool(name), 0, (bytes(&self.sizes, name) / 4) as usize)
+    pub fn download_words(&self, device: &Device, pool: impl PoolName) -> Result<Vec<u32>, GpuError> {
+        device.download_as::<u32>(self.pool(pool), 0, (bytes(&self.sizes, pool.name()) / 4) as usize)
     }
 
     /// Bytes by part for a report: `used` gives the elements of a pool that hold something, all others are

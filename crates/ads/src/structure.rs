@@ -2,7 +2,7 @@
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
-use crate::{AdsError, Counters, Geometry, RayQueue, Viewpoint};
+use crate::{AdsError, Counters, Geometry, PoolName, RayQueue, Viewpoint};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +51,38 @@ pub struct Sizes {
 }
 
 impl Sizes {
+    /// Pools of a structure with their elements and the bytes of one, in the order of their bindings.
+    ///
+    /// # Errors
+    /// A pool has so many words that 32 bits do not number them and one value that means "none" or "more".
+    pub fn of<P: PoolName>(
+        structure: &'static str,
+        pools: impl IntoIterator<Item = (P, u64, u64)>,
+    ) -> Result<Self, AdsError> {
+        let named = |(pool, elements, element_bytes): (P, u64, u64)| PoolSize {
+            name: pool.name(),
+            elements,
+            element_bytes,
+        };
+        let pools: Vec<_> = pools.into_iter().map(named).collect();
+        let is_too_large =
+            |pool: &&PoolSize| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX);
+        match pools.iter().find(is_too_large) {
+            Some(pool) => Err(AdsError::PoolTooLarge { structure, pool: pool.name, elements: pool.elements }),
+            None => Ok(Self { pools }),
+        }
+    }
+
+    /// Whether a pool is larger than that of its name in `other`.
+    pub fn exceed(&self, other: &Self) -> bool {
+        self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
+    }
+
+    /// Elements of one of a structure's own pools.
+    pub fn elements_of(&self, pool: impl PoolName) -> u64 {
+        self.elements(pool.name())
+    }
+
     /// Sum over all pools, bytes.
     pub fn bytes(&self) -> u64 {
         self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()

@@ -7,7 +7,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::bricks::BRICK_GROUP_SIZE;
 
 use crate::layout::bricks_of;
-use crate::{Config, Header, Views};
+use crate::{Config, Header, Pool, Views};
 
 /// What the steps of the scan run over.
 const SCAN_LISTS: u32 = 0;
@@ -75,7 +75,7 @@ impl Build {
     ) {
         let sizes = target.pools.sizes();
         let triangles = u64::from(target.geometry.triangle_count());
-        let (records, lists) = (sizes.elements("records"), sizes.elements("lists"));
+        let (records, lists) = (sizes.elements_of(Pool::Records), sizes.elements_of(Pool::Lists));
         let (along, bricks) = bricks_of(config.views, cells);
         let pass = |recorder: &mut Recorder<'_>, label, pipeline, invocations: u64, readers| {
             let groups = invocations.div_ceil(BRICK_GROUP_SIZE.into());
@@ -84,7 +84,7 @@ impl Build {
         let compute = Access::COMPUTE;
 
         let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
-        target.record_header(recorder, "bricks/build_0_clear", &["lists", "bricks"], readers);
+        target.record_header(recorder, "bricks/build_0_clear", &[Pool::Lists, Pool::Bricks], readers);
         if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
             pass(recorder, near_label, near, triangles, compute);
             pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);

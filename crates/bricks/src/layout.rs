@@ -1,10 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Geometry, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, Geometry, Scan, Sizes};
 use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::config::BRICK_SIDE;
-use crate::{Config, Header, Views};
+use crate::{Config, Header, Pool, Views};
 
 /// Words of a brick: its own and two of the mask.
 const BRICK_WORDS: u64 = 3;
@@ -51,24 +51,18 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     let (_, bricks) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
     // The distances of bricks are found where the sums were.
     let distances = if config.skip { bricks } else { 0 };
-    let pool = |name, elements, words| PoolSize { name, elements, element_bytes: 4 * words };
-    let pools = vec![
-        PoolSize { name: "header", elements: 1, element_bytes: size_of::<Header>() as u64 },
-        pool("bricks", bricks, BRICK_WORDS),
-        pool("lists", demand.cells, 1),
-        pool("entries", demand.entries, 1),
-        pool("sums", Scan::sums(bricks.max(demand.cells)).max(distances), 1),
-        pool("near", demand.near, 1),
-        pool("records", demand.records, RECORD_WORDS),
-        pool("triangles", demand.triangles, triangle_words(config)),
+    let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
+    let pools = [
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        pool(Pool::Bricks, bricks, BRICK_WORDS),
+        pool(Pool::Lists, demand.cells, 1),
+        pool(Pool::Entries, demand.entries, 1),
+        pool(Pool::Sums, Scan::sums(bricks.max(demand.cells)).max(distances), 1),
+        pool(Pool::Near, demand.near, 1),
+        pool(Pool::Records, demand.records, RECORD_WORDS),
+        pool(Pool::Triangles, demand.triangles, triangle_words(config)),
     ];
-    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
-    if let Some(pool) =
-        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
-    {
-        return Err(AdsError::PoolTooLarge { structure: "bricks", pool: pool.name, elements: pool.elements });
-    }
-    Ok(Sizes { pools })
+    Sizes::of("bricks", pools)
 }
 
 /// The first guess where nothing has been counted: eight columns per triangle, of two cells each, half of which stand

@@ -12,6 +12,7 @@ mod config;
 mod grid;
 mod header;
 mod layout;
+mod pool;
 mod structure;
 mod validate;
 
@@ -19,6 +20,7 @@ pub use config::Config;
 pub use grid::Views;
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, plan};
+pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::{Bricks, Passes};
 pub use validate::{Contents, Fault, well_formed};

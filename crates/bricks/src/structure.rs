@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolSize, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
+    StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::NEAR_BOX;
@@ -14,7 +14,7 @@ use crate::build::Build;
 use crate::config::BRICK_SIDE;
 use crate::grid::placed;
 use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Views};
+use crate::{Config, Contents, Header, Pool, Views};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
@@ -28,7 +28,7 @@ pub struct Passes(Build);
 fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     let Parts { config, geometry, .. } = parts;
     let wanted = config.cells(geometry);
-    let fits = bricks_of(config.views, wanted).1 <= parts.elements("bricks");
+    let fits = bricks_of(config.views, wanted).1 <= parts.elements(Pool::Bricks);
     (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
 }
 
@@ -49,8 +49,8 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     // What a ray outside of the near box meets is not behind the centre, also where columns are few.
     let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
     Header {
-        capacity: parts.elements("entries") as u32,
-        near_capacity: parts.elements("near") as u32,
+        capacity: parts.elements(Pool::Entries) as u32,
+        near_capacity: parts.elements(Pool::Near) as u32,
         columns: cells[0],
         rows: cells[1],
         slices: cells[2],
@@ -63,17 +63,17 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         upper: upper.map(|x| x + rounding),
         cells_lower: along_axes.map_or([0.0; 3], |at| at.lower),
         cells_per_metre: along_axes.map_or([0.0; 3], |at| at.per_metre),
-        bricks_address: pools.address_of("bricks"),
-        lists_address: pools.address_of("lists"),
-        entries_address: pools.address_of("entries"),
-        sums_address: pools.address_of("sums"),
-        near_address: pools.address_of("near"),
-        records_address: pools.address_of("records"),
-        triangles_address: pools.address_of("triangles"),
-        record_capacity: parts.elements("records") as u32,
-        cell_capacity: parts.elements("lists") as u32,
+        bricks_address: pools.address_of(Pool::Bricks),
+        lists_address: pools.address_of(Pool::Lists),
+        entries_address: pools.address_of(Pool::Entries),
+        sums_address: pools.address_of(Pool::Sums),
+        near_address: pools.address_of(Pool::Near),
+        records_address: pools.address_of(Pool::Records),
+        triangles_address: pools.address_of(Pool::Triangles),
+        record_capacity: parts.elements(Pool::Records) as u32,
+        cell_capacity: parts.elements(Pool::Lists) as u32,
         // None where bricks do not fit, so that the build is not complete.
-        triangle_capacity: if fits { parts.elements("triangles") as u32 } else { 0 },
+        triangle_capacity: if fits { parts.elements(Pool::Triangles) as u32 } else { 0 },
         groups: [0, 0, 1],
         ..Header::default()
     }
@@ -95,6 +95,7 @@ impl Design for Passes {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = "bricks";
@@ -129,11 +130,10 @@ impl Design for Passes {
 
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
         let now = Self::room(parts);
-        let triangles = u64::from(geometry.triangle_count()).max(parts.elements("triangles"));
+        let triangles = u64::from(geometry.triangle_count()).max(parts.elements(Pool::Triangles));
         let grid = parts.config.cells(geometry);
         let sizes = plan(&parts.config, &Demand { triangles, grid, ..now })?;
-        let grows = |pool: &PoolSize| pool.elements > parts.elements(pool.name);
-        Ok(sizes.pools.iter().any(grows).then_some(sizes))
+        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
     }
 
     fn make(
@@ -171,11 +171,11 @@ impl Design for Passes {
 
     fn room(parts: &Parts<Config>) -> Demand {
         Demand {
-            entries: parts.elements("entries"),
-            near: parts.elements("near"),
-            records: parts.elements("records"),
-            cells: parts.elements("lists"),
-            triangles: parts.elements("triangles").max(parts.geometry.triangle_count().into()),
+            entries: parts.elements(Pool::Entries),
+            near: parts.elements(Pool::Near),
+            records: parts.elements(Pool::Records),
+            cells: parts.elements(Pool::Lists),
+            triangles: parts.elements(Pool::Triangles).max(parts.geometry.triangle_count().into()),
             grid: parts.config.cells(&parts.geometry),
         }
     }
@@ -186,14 +186,16 @@ impl Design for Passes {
         16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
-            "entries" => Some(asked.entries),
-            "near" => Some(asked.near),
-            "records" => Some(asked.records),
-            "lists" => Some(asked.cells),
-            "bricks" | "sums" => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements(pool))),
-            "triangles" => Some(asked.triangles),
+            Pool::Entries => Some(asked.entries),
+            Pool::Near => Some(asked.near),
+            Pool::Records => Some(asked.records),
+            Pool::Lists => Some(asked.cells),
+            Pool::Bricks | Pool::Sums => {
+                Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool)))
+            }
+            Pool::Triangles => Some(asked.triangles),
             _ => None,
         }
     }
@@ -213,19 +215,19 @@ impl Design for Passes {
         Ok(Contents {
             config: parts.config,
             header,
-            bricks: words("bricks")?,
-            lists: words("lists")?,
-            entries: words("entries")?,
-            near: words("near")?,
+            bricks: words(Pool::Bricks)?,
+            lists: words(Pool::Lists)?,
+            entries: words(Pool::Entries)?,
+            near: words(Pool::Near)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
         let pools = vec![
-            ("bricks", cast_slice(&contents.bricks)),
-            ("lists", cast_slice(&contents.lists)),
-            ("entries", cast_slice(&contents.entries)),
-            ("near", cast_slice(&contents.near)),
+            (Pool::Bricks, cast_slice(&contents.bricks)),
+            (Pool::Lists, cast_slice(&contents.lists)),
+            (Pool::Entries, cast_slice(&contents.entries)),
+            (Pool::Near, cast_slice(&contents.near)),
         ];
         (contents.header, pools)
     }

@@ -5,7 +5,7 @@ use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_DIGITS, BVH_GROUP_SIZE, BVH_SORT_CHUNK};
 
 use crate::layout::union_levels;
-use crate::{Builder, Config};
+use crate::{Builder, Config, Pool};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -116,5 +116,5 @@ fn pass(
 }
 
 fn record_header(recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
-    target.record_header(recorder, "bvh/build_0_header", &[], Access::COMPUTE);
+    target.record_header(recorder, "bvh/build_0_header", &[] as &[Pool], Access::COMPUTE);
 }

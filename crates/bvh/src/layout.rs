@@ -1,9 +1,9 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, Scan, Sizes};
 use rasray_shaders_glsl::constants::bvh::{BVH_DIGIT_VALUES, BVH_LEAF_SHIFT, BVH_SORT_CHUNK, BVH_UNION};
 
-use crate::{Builder, Config, Header, Node, Record};
+use crate::{Builder, Config, Header, Node, Pool, Record};
 
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
@@ -43,15 +43,16 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     if triangles >= 1 << BVH_LEAF_SHIFT {
         return Err(AdsError::PoolTooLarge { structure: NAME, pool: "records", elements: triangles });
     }
-    let pool = |name, elements, bytes: usize| PoolSize { name, elements, element_bytes: bytes as u64 };
-    Ok(Sizes {
-        pools: vec![
-            pool("header", 1, size_of::<Header>()),
-            pool("nodes", triangles.saturating_sub(1), size_of::<Node>()),
-            pool("records", triangles, size_of::<Record>()),
-            pool("scratch", scratch_words(config.builder, triangles), size_of::<u32>()),
+    let pool = |pool, elements, bytes: usize| (pool, elements, bytes as u64);
+    Sizes::of(
+        NAME,
+        [
+            pool(Pool::Header, 1, size_of::<Header>()),
+            pool(Pool::Nodes, triangles.saturating_sub(1), size_of::<Node>()),
+            pool(Pool::Records, triangles, size_of::<Record>()),
+            pool(Pool::Scratch, scratch_words(config.builder, triangles), size_of::<u32>()),
         ],
-    })
+    )
 }
 
 /// Bytes of the page's formula for counted nodes and triangles.

@@ -13,12 +13,14 @@ mod config;
 mod header;
 mod host;
 mod layout;
+mod pool;
 mod structure;
 mod validate;
 
 pub use config::{Builder, Config};
 pub use header::{Header, Node, Record};
 pub use layout::{FormulaBytes, formula_bytes, plan};
+pub use pool::Pool;
 pub use rasray_ads::Addressing;
 pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};

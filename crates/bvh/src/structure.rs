@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 use crate::build::Build;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
-use crate::{Builder, Config, Contents, Header, Node, Record};
+use crate::{Builder, Config, Contents, Header, Node, Pool, Record};
 
 /// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray on which
 /// hundreds of thousands of boxes lie needs more.
@@ -84,16 +84,16 @@ fn first_header(parts: &Parts<Config>, root: u32) -> Header {
     Header {
         root,
         triangle_count: triangles,
-        node_capacity: capacity("nodes"),
-        record_capacity: capacity("records"),
-        scratch_capacity: capacity("scratch"),
+        node_capacity: capacity(Pool::Nodes),
+        record_capacity: capacity(Pool::Records),
+        scratch_capacity: capacity(Pool::Scratch),
         order_offset,
         order_stride,
         lower,
         cells_per_metre: cells_per_metre([lower, upper]),
-        nodes_address: pools.address_of("nodes"),
-        records_address: pools.address_of("records"),
-        scratch_address: pools.address_of("scratch"),
+        nodes_address: pools.address_of(Pool::Nodes),
+        records_address: pools.address_of(Pool::Records),
+        scratch_address: pools.address_of(Pool::Scratch),
         ..Header::default()
     }
 }
@@ -129,6 +129,7 @@ impl Design for Tree {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = NAME;
@@ -192,11 +193,11 @@ impl Design for Tree {
         }
         parts.pools.set_header(&first_header(parts, BVH_NONE));
         device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
-        let boxes = device.download_as::<Box3>(parts.pools.pool("scratch"), 0, triangles)?;
+        let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles)?;
         let tree = host::build(&boxes, parts.config.leaf);
-        device.upload_slice(parts.pools.pool("nodes"), 0, &tree.nodes)?;
+        device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
         let order_at = size_of::<Box3>() * triangles;
-        device.upload_slice(parts.pools.pool("scratch"), order_at as u64, &tree.order)?;
+        device.upload_slice(parts.pools.pool(Pool::Scratch), order_at as u64, &tree.order)?;
         self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64 });
         Ok(())
     }
@@ -229,17 +230,17 @@ impl Design for Tree {
         let wanted = plan(&parts.config, triangles).unwrap_or_default();
         Demand {
             nodes: self.nodes,
-            records: wanted.elements("records"),
-            scratch: wanted.elements("scratch"),
+            records: wanted.elements_of(Pool::Records),
+            scratch: wanted.elements_of(Pool::Scratch),
             triangles,
         }
     }
 
     fn room(parts: &Parts<Config>) -> Demand {
         Demand {
-            nodes: parts.elements("nodes"),
-            records: parts.elements("records"),
-            scratch: parts.elements("scratch"),
+            nodes: parts.elements(Pool::Nodes),
+            records: parts.elements(Pool::Records),
+            scratch: parts.elements(Pool::Scratch),
             triangles: parts.geometry.triangle_count().into(),
         }
     }
@@ -252,8 +253,8 @@ impl Design for Tree {
         Some(most_rounds(parts))
     }
 
-    fn used(_parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
-        (pool == "nodes").then_some(asked.nodes)
+    fn used(_parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
+        (pool == Pool::Nodes).then_some(asked.nodes)
     }
 
     fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
@@ -271,13 +272,14 @@ impl Design for Tree {
         let triangles = header.triangle_count as usize;
         Ok(Contents {
             header,
-            nodes: device.download_as::<Node>(parts.pools.pool("nodes"), 0, self.nodes as usize)?,
-            records: device.download_as::<Record>(parts.pools.pool("records"), 0, triangles)?,
+            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, self.nodes as usize)?,
+            records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
-        let pools = vec![("nodes", cast_slice(&contents.nodes)), ("records", cast_slice(&contents.records))];
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
+        let pools =
+            vec![(Pool::Nodes, cast_slice(&contents.nodes)), (Pool::Records, cast_slice(&contents.records))];
         (contents.header, pools)
     }
 }

@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, long_capacity};
-use crate::{Config, Coverage, Depth, Header, Making, Payload};
+use crate::{Config, Coverage, Depth, Header, Making, Payload, Pool};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
 const DRAWS: u32 = 1;
@@ -86,10 +86,10 @@ impl Build {
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
         // Depths that share a word are put into it one after the other; layers that are peeled are counted.
-        let cleared: &[&str] = match (config.making, config.depth) {
-            (Making::Single, Depth::Bits16) => &["lists", "blocks", "heads", "depths"],
-            (Making::Single, Depth::Bits32) => &["lists", "blocks", "heads"],
-            (Making::Peel, _) => &["lists", "blocks", "heads", "scratch"],
+        let cleared: &[Pool] = match (config.making, config.depth) {
+            (Making::Single, Depth::Bits16) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Depths],
+            (Making::Single, Depth::Bits32) => &[Pool::Lists, Pool::Blocks, Pool::Heads],
+            (Making::Peel, _) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Scratch],
         };
         target.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
@@ -117,7 +117,7 @@ impl Build {
             target.rounds_pass(recorder, "ldc/build_6_sort_long", sort_long, long, rounds, shaders);
         }
         if let Some(attributes) = &self.attributes {
-            let groups = target.pools.sizes().elements("payload").div_ceil(u64::from(LDC_GROUP_SIZE));
+            let groups = target.pools.sizes().elements_of(Pool::Payload).div_ceil(u64::from(LDC_GROUP_SIZE));
             target.compute_pass(recorder, "ldc/build_7_attributes", attributes, groups, 0, shaders);
         }
         target.status_pass(recorder, "ldc/build_8_status", &self.status);
@@ -136,7 +136,7 @@ fn record_peeling(
     let shaders = Access::COMPUTE | Access::FRAGMENT;
     recorder.begin_pass("ldc/build_3_peel");
     recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
-    for pool in ["depths", "payload"].map(|name| target.pools.pool(name)) {
+    for pool in [Pool::Depths, Pool::Payload].map(|pool| target.pools.pool(pool)) {
         recorder.fill(pool, 0, pool.size(), u32::MAX);
     }
     recorder.barrier(Access::TRANSFER_WRITE, shaders);

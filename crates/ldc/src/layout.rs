@@ -1,14 +1,10 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, Scan, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
-use crate::{Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload};
-
-/// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 8] =
-    ["header", "lists", "depths", "payload", "blocks", "heads", "fringe", "scratch"];
+use crate::{Builder, Config, Coverage, Depth, Header, Making, Occupancy, Payload, Pool};
 
 /// Cells of all three views.
 pub fn cell_count(resolution: u32) -> u64 {
@@ -57,27 +53,16 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         Coverage::Exact | Coverage::Hardware => (0, 0),
     };
     let sizes = [
-        (1, size_of::<Header>() as u64),
-        (cells, 4),
-        (depth_words, 4),
-        (demand.fragments, config.payload_bytes()),
-        (block_count(config), block_bytes),
-        (heads, 4),
-        (fringe, 12),
-        (scratch_words(config, demand), 4),
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        (Pool::Lists, cells, 4),
+        (Pool::Depths, depth_words, 4),
+        (Pool::Payload, demand.fragments, config.payload_bytes()),
+        (Pool::Blocks, block_count(config), block_bytes),
+        (Pool::Heads, heads, 4),
+        (Pool::Fringe, fringe, 12),
+        (Pool::Scratch, scratch_words(config, demand), 4),
     ];
-    let pools: Vec<PoolSize> = POOLS
-        .iter()
-        .zip(sizes)
-        .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
-        .collect();
-    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
-    if let Some(pool) =
-        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
-    {
-        return Err(AdsError::PoolTooLarge { structure: "ldc", pool: pool.name, elements: pool.elements });
-    }
-    Ok(Sizes { pools })
+    Sizes::of("ldc", sizes)
 }
 
 /// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have
@@ -93,7 +78,7 @@ pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
 
 /// Words that such pools have behind the sums.
 fn words_behind_sums(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements("scratch").saturating_sub(scratch_words(config, Demand::default()))
+    sizes.elements_of(Pool::Scratch).saturating_sub(scratch_words(config, Demand::default()))
 }
 
 /// Long lists that such pools have room for.

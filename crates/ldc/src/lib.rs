@@ -11,6 +11,7 @@ mod build;
 mod config;
 mod header;
 mod layout;
+mod pool;
 mod structure;
 mod validate;
 
@@ -18,6 +19,7 @@ pub use build::Build;
 pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
+pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};

@@ -13,7 +13,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, first_plan, formula_bytes, layer_capacity, long_capacity, pair_capacity, plan, scratch_words,
 };
-use crate::{Config, Contents, Header};
+use crate::{Config, Contents, Header, Pool};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
 pub type LayeredDepthCube = Pooled<Build>;
@@ -29,8 +29,8 @@ fn first_header(parts: &Parts<Config>) -> Header {
     // Where all geometry is one point its cells have a size all the same.
     let size = (extent + 4.0 * rounding).max(1.0e-30);
     Header {
-        capacity: parts.elements("payload") as u32,
-        fringe_capacity: parts.elements("fringe") as u32,
+        capacity: parts.elements(Pool::Payload) as u32,
+        fringe_capacity: parts.elements(Pool::Fringe) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         layer_capacity: layer_capacity(config, pools.sizes()) as u32,
         layer_limit: config.layers,
@@ -42,13 +42,13 @@ fn first_header(parts: &Parts<Config>) -> Header {
         origin: lower.map(|x| x - 2.0 * rounding),
         lower: lower.map(|x| x - rounding),
         upper: upper.map(|x| x + rounding),
-        lists_address: pools.address_of("lists"),
-        depths_address: pools.address_of("depths"),
-        payload_address: pools.address_of("payload"),
-        blocks_address: pools.address_of("blocks"),
-        heads_address: pools.address_of("heads"),
-        fringe_address: pools.address_of("fringe"),
-        scratch_address: pools.address_of("scratch"),
+        lists_address: pools.address_of(Pool::Lists),
+        depths_address: pools.address_of(Pool::Depths),
+        payload_address: pools.address_of(Pool::Payload),
+        blocks_address: pools.address_of(Pool::Blocks),
+        heads_address: pools.address_of(Pool::Heads),
+        fringe_address: pools.address_of(Pool::Fringe),
+        scratch_address: pools.address_of(Pool::Scratch),
         pair_capacity: pair_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(u64::from(config.resolution + 2).pow(2))],
         ..Header::default()
@@ -71,6 +71,7 @@ impl Design for Build {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = "ldc";
@@ -149,8 +150,8 @@ impl Design for Build {
     fn room(parts: &Parts<Config>) -> Demand {
         let Parts { config, pools, .. } = parts;
         Demand {
-            fragments: parts.elements("payload"),
-            fringe: parts.elements("fringe"),
+            fragments: parts.elements(Pool::Payload),
+            fringe: parts.elements(Pool::Fringe),
             long_lists: long_capacity(config, pools.sizes()),
             layers: layer_capacity(config, pools.sizes()),
             pairs: pair_capacity(config, pools.sizes()),
@@ -160,16 +161,16 @@ impl Design for Build {
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell may hold all of the fringe: a small object in a large world.
         let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
-        16 + header.fringe_demand.min(parts.elements("fringe") as u32).div_ceil(budget)
+        16 + header.fringe_demand.min(parts.elements(Pool::Fringe) as u32).div_ceil(budget)
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         let config = &parts.config;
         match pool {
-            "depths" => Some(asked.fragments.div_ceil(u64::from(32 / config.depth.bits()))),
-            "payload" => Some(asked.fragments),
-            "fringe" => Some(asked.fringe),
-            "scratch" => Some(scratch_words(config, *asked)),
+            Pool::Depths => Some(asked.fragments.div_ceil(u64::from(32 / config.depth.bits()))),
+            Pool::Payload => Some(asked.fragments),
+            Pool::Fringe => Some(asked.fringe),
+            Pool::Scratch => Some(scratch_words(config, *asked)),
             _ => None,
         }
     }
@@ -191,23 +192,23 @@ impl Design for Build {
         Ok(Contents {
             config: parts.config,
             header,
-            lists: words("lists")?,
-            depths: words("depths")?,
-            payload: words("payload")?,
-            blocks: words("blocks")?,
-            heads: words("heads")?,
-            fringe: words("fringe")?,
+            lists: words(Pool::Lists)?,
+            depths: words(Pool::Depths)?,
+            payload: words(Pool::Payload)?,
+            blocks: words(Pool::Blocks)?,
+            heads: words(Pool::Heads)?,
+            fringe: words(Pool::Fringe)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
         let pools = vec![
-            ("lists", cast_slice(&contents.lists)),
-            ("depths", cast_slice(&contents.depths)),
-            ("payload", cast_slice(&contents.payload)),
-            ("blocks", cast_slice(&contents.blocks)),
-            ("heads", cast_slice(&contents.heads)),
-            ("fringe", cast_slice(&contents.fringe)),
+            (Pool::Lists, cast_slice(&contents.lists)),
+            (Pool::Depths, cast_slice(&contents.depths)),
+            (Pool::Payload, cast_slice(&contents.payload)),
+            (Pool::Blocks, cast_slice(&contents.blocks)),
+            (Pool::Heads, cast_slice(&contents.heads)),
+            (Pool::Fringe, cast_slice(&contents.fringe)),
         ];
         (contents.header, pools)
     }

@@ -10,7 +10,7 @@ use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
-use crate::{Axes, Config, Header, Marking, Payload, Storage};
+use crate::{Axes, Config, Header, Marking, Payload, Pool, Storage};
 
 /// What counts the lengths of contiguous lists and turns them into places.
 #[derive(Debug)]
@@ -86,9 +86,9 @@ impl Build {
         let views = [ViewDraw { side: config.resolution + 2, views, first: 0 }];
         let columns = [ViewDraw { side: config.grid() + 2, views: 1, first: 0 }];
         let shaders = Access::COMPUTE | Access::FRAGMENT;
-        let cleared: &[&str] = match config.axes {
-            Axes::Triangle => &["voxels", "lists"],
-            Axes::All | Axes::Voxel => &["voxels", "normals", "lists"],
+        let cleared: &[Pool] = match config.axes {
+            Axes::Triangle => &[Pool::Voxels, Pool::Lists],
+            Axes::All | Axes::Voxel => &[Pool::Voxels, Pool::Normals, Pool::Lists],
         };
 
         target.record_header(recorder, "voxel/build_0_clear", cleared, shaders | Access::VERTEX_READ);

@@ -1,12 +1,9 @@
 //! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, PoolSize, Scan, Sizes};
+use rasray_ads::{AdsError, Scan, Sizes};
 use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{Axes, Builder, Config, Header, Payload, Storage};
-
-/// Names of the pools in the order of [`Sizes::pools`].
-pub(crate) const POOLS: [&str; 6] = ["header", "voxels", "normals", "lists", "fragments", "scratch"];
+use crate::{Axes, Builder, Config, Header, Payload, Pool, Storage};
 
 /// Lists of all three views: one a cell.
 pub fn list_count(resolution: u32) -> u64 {
@@ -34,18 +31,13 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     let lists = list_count(config.resolution);
     let normals = if config.axes == Axes::Triangle { 0 } else { voxels };
     let sizes = [
-        (1, size_of::<Header>() as u64),
-        (voxels.div_ceil(8), 4),
-        (normals, 12),
-        (lists, 4),
-        (demand.entries, 4 * entry_words(config)),
-        (scratch_words(config, demand), 4),
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        (Pool::Voxels, voxels.div_ceil(8), 4),
+        (Pool::Normals, normals, 12),
+        (Pool::Lists, lists, 4),
+        (Pool::Fragments, demand.entries, 4 * entry_words(config)),
+        (Pool::Scratch, scratch_words(config, demand), 4),
     ];
-    let pools: Vec<PoolSize> = POOLS
-        .iter()
-        .zip(sizes)
-        .map(|(&name, (elements, element_bytes))| PoolSize { name, elements, element_bytes })
-        .collect();
     if config.storage == Storage::Paged && demand.entries > u64::from(PAGE_LIMIT) {
         return Err(AdsError::PoolTooLarge {
             structure: "voxel",
@@ -53,13 +45,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
             elements: demand.entries,
         });
     }
-    // Words of a pool are counted in 32 bits by the shaders, and the largest number means "more".
-    if let Some(pool) =
-        pools.iter().find(|pool| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX))
-    {
-        return Err(AdsError::PoolTooLarge { structure: "voxel", pool: pool.name, elements: pool.elements });
-    }
-    Ok(Sizes { pools })
+    Sizes::of("voxel", sizes)
 }
 
 /// Words of a fragment, with its link where it has one; or of a page of them, with that to the next page.
@@ -90,7 +76,7 @@ fn scan_words(config: &Config) -> u64 {
 
 /// Long lists that such pools have room for.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    let behind = sizes.elements("scratch").saturating_sub(scan_words(config));
+    let behind = sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config));
     if config.sorts() { behind / 2 } else { 0 }
 }
 
@@ -98,7 +84,7 @@ pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
 pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
-        Builder::Binning => sizes.elements("scratch").saturating_sub(scan_words(config)),
+        Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
     }
 }
 

@@ -13,6 +13,7 @@ mod build;
 mod config;
 mod header;
 mod layout;
+mod pool;
 mod structure;
 mod validate;
 
@@ -20,6 +21,7 @@ pub use build::Build;
 pub use config::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
 pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
+pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};

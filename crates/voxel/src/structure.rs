@@ -13,7 +13,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, cube, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
 };
-use crate::{Accept, Config, Contents, Coverage, Header, March, Storage};
+use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage};
 
 /// Lists as long as the longest that a ray is given the rounds to read.
 const LONG_LISTS_A_RAY: u32 = 64;
@@ -27,7 +27,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     let (lower, side) = cube(geometry.bounds());
     let (resolution, grid) = (config.resolution as f32, config.grid() as f32);
     Header {
-        capacity: parts.elements("fragments") as u32,
+        capacity: parts.elements(Pool::Fragments) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         resolution: config.resolution,
         grid: config.grid(),
@@ -37,11 +37,11 @@ fn first_header(parts: &Parts<Config>) -> Header {
         cells_per_metre: resolution / side,
         voxels_per_metre: grid / side,
         lower,
-        voxels_address: pools.address_of("voxels"),
-        normals_address: pools.address_of("normals"),
-        lists_address: pools.address_of("lists"),
-        fragments_address: pools.address_of("fragments"),
-        scratch_address: pools.address_of("scratch"),
+        voxels_address: pools.address_of(Pool::Voxels),
+        normals_address: pools.address_of(Pool::Normals),
+        lists_address: pools.address_of(Pool::Lists),
+        fragments_address: pools.address_of(Pool::Fragments),
+        scratch_address: pools.address_of(Pool::Scratch),
         pair_capacity: pair_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
@@ -62,6 +62,7 @@ impl Design for Build {
     type Config = Config;
     type Header = Header;
     type Demand = Demand;
+    type Pool = Pool;
     type Contents = Contents;
 
     const NAME: &'static str = "voxel";
@@ -129,7 +130,7 @@ impl Design for Build {
     fn room(parts: &Parts<Config>) -> Demand {
         let Parts { config, pools, .. } = parts;
         Demand {
-            entries: parts.elements("fragments"),
+            entries: parts.elements(Pool::Fragments),
             long_lists: long_capacity(config, pools.sizes()),
             pairs: pair_capacity(config, pools.sizes()),
         }
@@ -163,10 +164,10 @@ impl Design for Build {
         16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32
     }
 
-    fn used(parts: &Parts<Config>, asked: &Demand, pool: &str) -> Option<u64> {
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
-            "fragments" => Some(asked.entries),
-            "scratch" => Some(scratch_words(&parts.config, *asked)),
+            Pool::Fragments => Some(asked.entries),
+            Pool::Scratch => Some(scratch_words(&parts.config, *asked)),
             _ => None,
         }
     }
@@ -188,17 +189,17 @@ impl Design for Build {
         Ok(Contents {
             config: parts.config,
             header,
-            voxels: words("voxels")?,
-            lists: words("lists")?,
-            fragments: words("fragments")?,
+            voxels: words(Pool::Voxels)?,
+            lists: words(Pool::Lists)?,
+            fragments: words(Pool::Fragments)?,
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(&'static str, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
         let pools = vec![
-            ("voxels", cast_slice(&contents.voxels)),
-            ("lists", cast_slice(&contents.lists)),
-            ("fragments", cast_slice(&contents.fragments)),
+            (Pool::Voxels, cast_slice(&contents.voxels)),
+            (Pool::Lists, cast_slice(&contents.lists)),
+            (Pool::Fragments, cast_slice(&contents.fragments)),
         ];
         (contents.header, pools)
     }

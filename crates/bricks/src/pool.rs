@@ -1,0 +1,23 @@
+//! The pools.
+
+rasray_ads::pool_names! {
+    /// Pools of bricks, in the order of their bindings.
+    pub enum Pool {
+        /// What shaders start from.
+        Header = "header",
+        /// Words and masks.
+        Bricks = "bricks",
+        /// Where the list of each cell that has one ends.
+        Lists = "lists",
+        /// Triangles of all lists.
+        Entries = "entries",
+        /// Sums of scans, later distances.
+        Sums = "sums",
+        /// Triangles of the near box.
+        Near = "near",
+        /// Triangles in columns.
+        Records = "records",
+        /// Corners; before them triangles with many columns.
+        Triangles = "triangles",
+    }
+}

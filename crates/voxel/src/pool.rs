@@ -1,0 +1,19 @@
+//! The pools.
+
+rasray_ads::pool_names! {
+    /// Pools of voxels, in the order of their bindings.
+    pub enum Pool {
+        /// What shaders start from.
+        Header = "header",
+        /// Axes of voxels.
+        Voxels = "voxels",
+        /// Sums of normals.
+        Normals = "normals",
+        /// Heads or ends of lists.
+        Lists = "lists",
+        /// Fragments, or pages of them.
+        Fragments = "fragments",
+        /// Sums of the scan, and what a build remembers.
+        Scratch = "scratch",
+    }
+}
