@@ -7,7 +7,6 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::layout::{
@@ -24,7 +23,7 @@ pub type ABuffer = Pooled<Build>;
 /// # Errors
 /// A camera's view is asked for and there is no camera.
 fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let eye = viewpoint.eye;
     let camera = viewpoint.camera.filter(|camera| config.views.has_camera() && camera.is_valid());
     if config.views.has_camera() && camera.is_none() {
@@ -202,7 +201,7 @@ impl Design for Build {
     }
 
     fn room(parts: &Parts<Config>) -> Demand {
-        let Parts { config, geometry, pools } = parts;
+        let Parts { config, geometry, pools, .. } = parts;
         Demand {
             nodes: parts.elements(Pool::Nodes),
             near_triangles: parts.elements(Pool::Near),
@@ -220,7 +219,7 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell may hold all of the fringe: a small object in a large world.
-        let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let budget = parts.work_budget;
         16 + header.fringe_demand.min(parts.elements(Pool::Fringe) as u32).div_ceil(budget)
     }
 

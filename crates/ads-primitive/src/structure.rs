@@ -7,7 +7,6 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
@@ -22,7 +21,7 @@ pub struct Passes(Build);
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let [lower, upper] = geometry.bounds();
     let centre = match config.centre {
         Centre::Eye => eye,
@@ -151,7 +150,7 @@ impl Design for Passes {
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
         // Rays from far outside are tested against every triangle, others against what a few cells list.
-        let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let budget = parts.work_budget;
         16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
     }
 

@@ -38,7 +38,7 @@ impl BruteForce {
                 structure_layout: &empty,
                 constants: &[],
                 counters: counters.into(),
-                work_budget: Some(work_budget),
+                work_budget,
                 scene,
             },
         )?;

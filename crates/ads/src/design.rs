@@ -4,6 +4,7 @@ use std::fmt;
 
 use bytemuck::Pod;
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
     Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Geometry, PoolName, Pools, SceneBinding,
@@ -19,6 +20,13 @@ pub struct Common {
     pub counters: Counters,
     /// Work units per dispatch; the shared default where absent.
     pub work_budget: Option<u32>,
+}
+
+impl Common {
+    /// Work units that a ray may spend in a dispatch.
+    pub fn budget(&self) -> u32 {
+        self.work_budget.unwrap_or(TRACE_WORK_BUDGET)
+    }
 }
 
 /// What a build's last pass wrote into the header.
@@ -52,6 +60,8 @@ pub struct Parts<C> {
     pub geometry: Geometry,
     /// The pools.
     pub pools: Pools,
+    /// Work units that a ray may spend in a dispatch: [`Common::budget`].
+    pub work_budget: u32,
 }
 
 impl<C> Parts<C> {

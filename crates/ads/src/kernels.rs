@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
 use rasray_shaders_glsl::Shader;
-use rasray_shaders_glsl::constants::contract::{QUEUE_GROUP_SIZE, TRACE_WORK_BUDGET};
+use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 
 use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
@@ -45,8 +45,8 @@ pub struct TraceKernelsDesc<'a> {
     pub constants: &'a [(u32, u32)],
     /// How much of their work rays record.
     pub counters: Counters,
-    /// Work units a dispatch; the shared default where absent.
-    pub work_budget: Option<u32>,
+    /// Work units that a ray may spend in a dispatch.
+    pub work_budget: u32,
     /// The scene, where surfaces or alpha masks are needed.
     pub scene: Option<&'a SceneBinding>,
 }
@@ -116,7 +116,7 @@ impl TraceKernels {
             next_round,
             scene: desc.scene.map(|scene| scene.set.clone()),
             counters: desc.counters,
-            work_budget: desc.work_budget.unwrap_or(TRACE_WORK_BUDGET),
+            work_budget: desc.work_budget,
         })
     }
 

@@ -1,7 +1,7 @@
 //! A structure of a header, pools and passes: what all of these do alike.
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::contract::{STATUS_COMPLETE, TRACE_WORK_BUDGET};
+use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Geometry, InlineTrace,
@@ -37,7 +37,9 @@ impl<D: Design> Pooled<D> {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let sizes = D::first_plan(&config, geometry)?;
-        let Common { addressing, counters, work_budget } = D::common(&config);
+        let common = D::common(&config);
+        let Common { addressing, counters, .. } = common;
+        let work_budget = common.budget();
         addressing.check(device)?;
         device.require(D::TITLE, &Self::requirements_of(&config))?;
         let pools = Pools::new(device, D::PREFIX, addressing, &sizes)?;
@@ -59,7 +61,12 @@ impl<D: Design> Pooled<D> {
             },
         )?;
         let scene = build_scene.map(|scene| scene.set.clone());
-        Ok(Self { design, parts: Parts { config, geometry: geometry.clone(), pools }, kernels, scene })
+        Ok(Self {
+            design,
+            parts: Parts { config, geometry: geometry.clone(), pools, work_budget },
+            kernels,
+            scene,
+        })
     }
 
     /// What a device must and may offer for a configuration.
@@ -105,10 +112,6 @@ impl<D: Design> Pooled<D> {
         let (header, pools) = D::pools_of(contents);
         device.upload(self.parts.pools.header_buffer(), 0, bytemuck::bytes_of(&header))?;
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
-    }
-
-    fn work_budget(&self) -> u32 {
-        D::common(&self.parts.config).work_budget.unwrap_or(TRACE_WORK_BUDGET)
     }
 
     fn first_rounds(&self) -> u32 {
@@ -207,7 +210,7 @@ impl<D: Design> Structure for Pooled<D> {
         let (pools, first) = (&self.parts.pools, self.first_rounds());
         match D::most_rounds(&self.parts) {
             Some(most) => pools.allow_more_rounds(first, most),
-            None => pools.allow_rounds_to_read_all(first, self.work_budget()),
+            None => pools.allow_rounds_to_read_all(first, self.parts.work_budget),
         }
     }
 

@@ -8,7 +8,6 @@ use rasray_ads::{
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::NEAR_BOX;
 use rasray_shaders_glsl::constants::bricks::BRICK_ROUNDING;
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
@@ -34,7 +33,7 @@ fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let bounds = geometry.bounds();
     let (cells, fits) = cells(parts);
     let along_axes = (config.views == Views::Axes).then(|| placed(eye, bounds, cells));
@@ -182,7 +181,7 @@ impl Design for Passes {
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
         // Rays from far outside are tested against every triangle, others against what a few cells list.
-        let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let budget = parts.work_budget;
         16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
     }
 

@@ -7,7 +7,6 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::build::Build;
 use crate::host::{self, Box3};
@@ -63,7 +62,7 @@ fn on_device(triangles: u64) -> Prepared {
 
 /// Whether there is room for the tree. It has no partial form: without room for all of it nothing is built.
 fn has_room(parts: &Parts<Config>) -> bool {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let sizes = pools.sizes();
     plan(config, geometry.triangle_count().into())
         .is_ok_and(|wanted| wanted.pools.iter().all(|pool| sizes.elements(pool.name) >= pool.elements))
@@ -71,7 +70,7 @@ fn has_room(parts: &Parts<Config>) -> bool {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, root: u32) -> Header {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let [lower, upper] = geometry.bounds();
     let triangles = geometry.triangle_count();
     let has_room = has_room(parts);
@@ -121,7 +120,7 @@ impl rasray_ads::Demand for Demand {
 fn most_rounds(parts: &Parts<Config>) -> u32 {
     // Each triangle is tested once, each node entered once, and after pauses each child left once.
     let units = 4 * u64::from(parts.geometry.triangle_count());
-    let budget = u64::from(parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+    let budget = u64::from(parts.work_budget);
     (units / budget + 2).min(u32::MAX.into()) as u32
 }
 

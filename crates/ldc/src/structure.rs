@@ -6,7 +6,6 @@ use rasray_ads::{
     StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
 
 use crate::build::Build;
@@ -20,7 +19,7 @@ pub type LayeredDepthCube = Pooled<Build>;
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let [lower, upper] = geometry.bounds();
     let largest = lower.iter().chain(&upper).fold(0.0_f32, |largest, x| largest.max(x.abs()));
     let extent = (0..3).fold(0.0_f32, |extent, axis| extent.max(upper[axis] - lower[axis]));
@@ -160,7 +159,7 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell may hold all of the fringe: a small object in a large world.
-        let budget = parts.config.work_budget.unwrap_or(TRACE_WORK_BUDGET);
+        let budget = parts.work_budget;
         16 + header.fringe_demand.min(parts.elements(Pool::Fringe) as u32).div_ceil(budget)
     }
 

@@ -6,7 +6,6 @@ use rasray_ads::{
     StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
@@ -23,7 +22,7 @@ pub type Voxels = Pooled<Build>;
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
-    let Parts { config, geometry, pools } = parts;
+    let Parts { config, geometry, pools, .. } = parts;
     let (lower, side) = cube(geometry.bounds());
     let (resolution, grid) = (config.resolution as f32, config.grid() as f32);
     Header {
@@ -146,7 +145,7 @@ impl Design for Build {
         // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
         // not bisected at most so many as are as long as the longest: there each point of a parity reads one,
         // where a voxel is entered, the steps in it, halvings, and for the nearest.
-        let budget = u64::from(config.work_budget.unwrap_or(TRACE_WORK_BUDGET));
+        let budget = u64::from(parts.work_budget);
         let steps = 12 * u64::from(config.resolution) + 6 * u64::from(config.grid());
         let points = match (config.accept, config.march) {
             (Accept::Plane, _) => 1,
