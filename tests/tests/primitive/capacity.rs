@@ -42,7 +42,7 @@ fn every_edge_capacity_of_linked_lists() {
 #[test]
 fn every_edge_capacity_of_the_binning_builder() {
     let lists = lists(Storage::Contiguous, Addressing::Descriptor);
-    edges_of(Config { builder: Builder::Binning, pyramid: true, ..lists });
+    edges_of(Config { builder: Builder::Binning, pyramid: false, ..lists });
 }
 
 #[test]

@@ -44,7 +44,7 @@ impl Made {
         structure
     }
 
-    /// The same in what changes no hit: the other builder, pools by address, leaps over blocks of tiles.
+    /// The same in what changes no hit: the other builder, pools by address, no blocks of tiles.
     fn otherwise(self) -> Self {
         let other = |builder| match builder {
             Builder::Raster => Builder::Binning,
@@ -54,7 +54,7 @@ impl Made {
         match self {
             Self::Lists(config) => {
                 let builder = other(config.builder);
-                Self::Lists(Config { addressing, builder, pyramid: true, ..config })
+                Self::Lists(Config { addressing, builder, pyramid: false, ..config })
             }
             Self::Bricks(config) => {
                 Self::Bricks(BricksConfig { addressing, builder: other(config.builder), ..config })
@@ -121,9 +121,8 @@ fn hits_are_those_of_brute_force() {
         let expected = brute_force(&bench, &triangles, &rays);
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         assert!(hit > rays.len() * 9 / 10, "{hit} rays hit");
-        let pyramid = Config { pyramid: true, ..Config::robust(128) };
-        let [_, _, cube, axes] = all(128);
-        for made in [Made::Lists(pyramid), cube, axes] {
+        let [contiguous, _, cube, axes] = all(128);
+        for made in [contiguous, cube, axes] {
             let structure = made.built(&bench, &triangles, EYES[round as usize % 3]);
             assert_exact(&format!("{made:?}"), &bench, structure.as_ref(), &rays, &expected);
         }
@@ -218,7 +217,7 @@ fn every_published_rule_loses_hits() {
     let expected = brute_force(&bench, &triangles, &rays);
     let lists_of = |resolution, buckets| {
         let storage = Storage::Contiguous;
-        Config { tile: 1, buckets, storage, ..Config::robust(resolution) }
+        Config { tile: 1, buckets, storage, pyramid: false, ..Config::robust(resolution) }
     };
     let (coarse, fine) = (lists_of(1, 4), lists_of(64, 8));
     for (rule, config, least) in [
