@@ -16,7 +16,7 @@ fn values(row: &OptionRow) -> String {
     match row.values {
         Values::Words(words) => {
             let words: Vec<_> = words.iter().map(|(word, doc)| format!("`{word}`: {doc}")).collect();
-            words.join("; ")
+            words.join("<br>")
         }
         Values::Whole(lowest, u32::MAX) => format!("{lowest} or more"),
         Values::Whole(lowest, highest) => format!("{lowest} to {highest}"),
