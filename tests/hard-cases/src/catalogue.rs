@@ -185,7 +185,7 @@ mod tests {
     use super::*;
     use crate::{Scale, case, file_ids, ids};
 
-    /// Letters of the themes with how many numbers each has: 90 in all.
+    /// Letters of the themes with how many numbers each has: 91 in all.
     const THEMES: [(&str, usize); 8] =
         [("G", 12), ("E", 9), ("V", 16), ("Z", 15), ("X", 15), ("C", 10), ("T", 5), ("P", 9)];
 
