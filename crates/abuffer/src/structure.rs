@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
-    StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -219,8 +219,7 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell may hold all of the fringe: a small object in a large world.
-        let budget = parts.work_budget;
-        16 + header.fringe_demand.min(parts.elements(Pool::Fringe) as u32).div_ceil(budget)
+        16 + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
@@ -269,7 +268,7 @@ impl Design for Build {
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
         let pools = vec![
             (Pool::Bounds, cast_slice(&contents.bounds)),
             (Pool::Lists, cast_slice(&contents.lists)),

@@ -1,7 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
-use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Builder, Config, Header, Pool, Storage};
@@ -51,8 +50,7 @@ pub(crate) fn bin_groups(config: &Config) -> u32 {
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
     // Each block, its rows and columns, and the buckets of each column.
     let turns = blocks * (1 + block + block * block * u64::from(1 + config.buckets));
-    let invocations = u64::from(BIN_GROUP_SIZE);
-    turns.div_ceil(invocations * BIN_TURNS as u64) as u32
+    rasray_ads::bin_groups(turns)
 }
 
 /// The faces, whose cells and blocks are built together.

@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
-    StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -150,8 +150,7 @@ impl Design for Passes {
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
         // Rays from far outside are tested against every triangle, others against what a few cells list.
-        let budget = parts.work_budget;
-        16 + 2 * parts.geometry.triangle_count().div_ceil(budget)
+        16 + 2 * parts.rounds(parts.geometry.triangle_count())
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
@@ -185,7 +184,7 @@ impl Design for Passes {
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
         let pools = vec![
             (Pool::Bounds, cast_slice(&contents.bounds)),
             (Pool::Lists, cast_slice(&contents.lists)),

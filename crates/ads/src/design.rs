@@ -70,6 +70,11 @@ impl<C> Parts<C> {
         self.pools.sizes().elements_of(pool)
     }
 
+    /// Dispatches in which a ray spends `units` of work.
+    pub fn rounds(&self, units: u32) -> u32 {
+        units.div_ceil(self.work_budget)
+    }
+
     /// What passes work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, scene }

@@ -53,7 +53,7 @@ impl<'a> BuildPipelines<'a> {
     }
 
     /// The label of the pass that a module of that name makes.
-    pub(crate) fn label(&self, name: &str) -> String {
+    pub fn label(&self, name: &str) -> String {
         format!("{}/{name}", self.modules.prefix)
     }
 

@@ -17,31 +17,26 @@ const SCAN_BRICKS: u32 = 1;
 #[derive(Debug)]
 pub(crate) struct Build {
     /// The near box and the slices of a cube's faces, from depths; views along axes have neither.
-    depths: Option<[(&'static str, ComputePipeline); 2]>,
+    depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
     cells: ComputePipeline,
     scan: Scan,
     count: ComputePipeline,
     store: ComputePipeline,
-    reaches: Option<[(&'static str, ComputePipeline); 3]>,
+    reaches: Option<[(String, ComputePipeline); 3]>,
     triangles: Option<ComputePipeline>,
     status: ComputePipeline,
 }
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let named = |label: &'static str| -> Result<_, AdsError> {
-            let name = label.trim_start_matches("bricks/");
-            Ok((label, pipelines.compute(name)?))
-        };
-        let depths = || -> Result<_, AdsError> {
-            Ok([named("bricks/build_1_near")?, named("bricks/build_2_slices")?])
-        };
+        let named = |name| -> Result<_, AdsError> { Ok((pipelines.label(name), pipelines.compute(name)?)) };
+        let depths = || -> Result<_, AdsError> { Ok([named("build_1_near")?, named("build_2_slices")?]) };
         let reaches = || -> Result<_, AdsError> {
             Ok([
-                named("bricks/build_9_reach_slices")?,
-                named("bricks/build_9_reach_columns")?,
-                named("bricks/build_9_reach_rows")?,
+                named("build_9_reach_slices")?,
+                named("build_9_reach_columns")?,
+                named("build_9_reach_rows")?,
             ])
         };
         Ok(Self {

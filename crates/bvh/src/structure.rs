@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
-    StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
@@ -276,7 +276,7 @@ impl Design for Tree {
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
         let pools =
             vec![(Pool::Nodes, cast_slice(&contents.nodes)), (Pool::Records, cast_slice(&contents.records))];
         (contents.header, pools)

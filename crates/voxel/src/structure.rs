@@ -2,8 +2,8 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, Pooled, SceneBinding, Sizes,
-    StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -194,7 +194,7 @@ impl Design for Build {
         })
     }
 
-    fn pools_of(contents: &Contents) -> (Header, Vec<(Pool, &[u8])>) {
+    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
         let pools = vec![
             (Pool::Voxels, cast_slice(&contents.voxels)),
             (Pool::Lists, cast_slice(&contents.lists)),
