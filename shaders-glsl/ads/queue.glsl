@@ -1,7 +1,8 @@
 // What: a queue of rays and what became of them, slot by slot.
 // Reads, writes: the buffers of QUEUE_SET.
 // A slot whose ray has t_max < 0 is inactive and answers a miss at once. Rays that pause are listed
-// and traced again in the next round.
+// and traced again in the next round. A shader selects the slots that later passes work on (queue_select); they
+// do so once ads/queue_take.comp ran.
 #ifndef ADS_QUEUE_GLSL
 #define ADS_QUEUE_GLSL
 
@@ -21,13 +22,18 @@ struct QueueHeader {
     uint paused;          // rays that paused in this round
     uint unfinished;      // rays that were still paused after their last round, summed over traces
     uint not_ready;       // rays that met a structure that was not complete, summed over traces
-    uint spare;           // zero
+    uint selecting;       // slots selected for the passes after the next take
     uint cells_low;       // 64-bit sums of work, kept where counters are enabled
     uint cells_high;
     uint entries_low;
     uint entries_high;
     uint tests_low;
     uint tests_high;
+    uint selected_x;      // indirect dispatch over the slots selected
+    uint selected_y;
+    uint selected_z;
+    uint selected;        // slots selected when they were last taken
+    uint takes;           // times they were taken; its parity says which list holds them
 };
 
 // One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words.
@@ -53,7 +59,8 @@ layout(set = QUEUE_SET, binding = 2, scalar) buffer QueueHitBuffer {
 layout(set = QUEUE_SET, binding = 3, scalar) buffer QueueStateBuffer {
     TraceState queue_states[];
 };
-// Two lists of `capacity` slots: rounds alternate between them.
+// Lists of `capacity` slots: two of rays that paused, between which rounds alternate; where slots can be selected, two
+// of these, between which takes alternate.
 layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
     uint queue_list[];
 };
@@ -70,6 +77,28 @@ layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     uint queue_step_demand;   // steps taken, also those that did not fit
     TraceStep queue_steps[];
 };
+
+// The slot of one invocation of a pass over `domain`: the number of first slots, or DOMAIN_SELECTED. False where there is
+// none.
+bool queue_slot(uint domain, uint invocation, out uint slot) {
+    slot = invocation;
+    if (domain != DOMAIN_SELECTED) {
+        return invocation < domain;
+    }
+    if (invocation >= queue_header.selected) {
+        return false;
+    }
+    slot = queue_list[(2u + (queue_header.takes & 1u)) * queue_header.capacity + invocation];
+    return slot < queue_header.capacity;
+}
+
+// Selects a slot for the passes after the next take. A slot is selected once; the order is nobody's.
+void queue_select(uint slot) {
+    uint place = atomicAdd(queue_header.selecting, 1u);
+    if (place < queue_header.capacity) {
+        queue_list[(2u + ((queue_header.takes + 1u) & 1u)) * queue_header.capacity + place] = slot;
+    }
+}
 
 Ray queue_ray(uint slot) {
     return queue_rays[slot];

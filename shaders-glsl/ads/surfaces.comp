@@ -11,12 +11,12 @@ layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
 layout(push_constant, scalar) uniform SurfaceConstants {
     StructureRef surface_structure;
-    uint surface_count;
+    uint surface_domain;
 };
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= surface_count) {
+    uint slot;
+    if (!queue_slot(surface_domain, gl_GlobalInvocationID.x, slot)) {
         return;
     }
     Hit hit = queue_hit(slot);

@@ -12,7 +12,7 @@
 
 layout(push_constant, scalar) uniform TraceConstants {
     StructureRef trace_structure;
-    uint trace_count;
+    uint trace_domain;
     uint trace_budget;
 };
 
@@ -45,13 +45,15 @@ void queue_file_work(uint slot, TraceState state) {
 
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
-    slot = invocation;
     work_budget = trace_budget;
-    if (invocation >= (queue_header.round == 0u ? trace_count : queue_header.listed)) {
-        return false;
-    }
-    if (queue_header.round > 0u) {
+    if (queue_header.round == 0u) {
+        if (!queue_slot(trace_domain, invocation, slot)) {
+            return false;
+        }
+    } else if (invocation < queue_header.listed) {
         slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
+    } else {
+        return false;
     }
     trace_log_begin(slot);
     trace_log(STEP_ROUND, queue_header.round, 0u, 0u, 0.0, 0.0);

@@ -103,6 +103,9 @@
 // Nothing is left of the ray's range within the bounds of the geometry.
 #define SKIP_BOUNDS 4u
 
+// In place of a number of first slots: those that were selected.
+#define DOMAIN_SELECTED 0xFFFFFFFFu
+
 // Threads in a workgroup of a queue kernel.
 #define QUEUE_GROUP_SIZE 64u
 

@@ -1,6 +1,6 @@
 // What: adds one sample of ambient occlusion to every pixel of the wave: 0 where the ray is blocked, 1
 // where it is free or the camera ray met nothing.
-// Reads: shadow rays and hits. Writes: film.
+// Reads: rays and hits of the queue, which is that of the shadow rays. Writes: film.
 // Source: docs/shading.md, "Ambient occlusion".
 #version 460
 #include "contract/extensions.glsl"
@@ -13,6 +13,6 @@ void main() {
     if (!wave_slot(slot)) {
         return;
     }
-    bool asked = shadow_rays[slot].t_max >= 0.0;
-    film_add(wave_pixel(slot), vec3(asked && !shadow_ray_is_free(slot) ? 0.0 : 1.0));
+    bool blocked = queue_ray(slot).t_max >= 0.0 && queue_hit(slot).primitive != PRIMITIVE_NONE;
+    film_add(wave_pixel(slot), vec3(blocked ? 0.0 : 1.0));
 }

@@ -1,5 +1,6 @@
 // What: the ambient-occlusion ray of every slot, from the surface that its camera ray met.
-// Reads: surfaces of the queue, frame (the seed). Writes: shadow rays.
+// Reads: surfaces of the queue, frame (the seed). Writes: shadow rays; selects those
+// that are active.
 // Source: docs/shading.md, "Ambient occlusion".
 #version 460
 #include "contract/extensions.glsl"
@@ -14,5 +15,5 @@ void main() {
     if (!wave_slot(slot)) {
         return;
     }
-    shadow_rays[slot] = ambient_occlusion_ray(queue_surface(slot), wave_range, wave_pixel(slot), wave_sample);
+    shadow_ask(slot, ambient_occlusion_ray(queue_surface(slot), wave_range, wave_pixel(slot), wave_sample));
 }

@@ -1,5 +1,5 @@
 // What: adds the light that was sampled in this round to every path whose shadow ray met nothing.
-// Reads: shadow rays and hits, pending radiance. Writes: path states.
+// Reads: hits of the queue, which is that of the shadow rays, and pending radiance. Writes: path states.
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"
@@ -12,7 +12,7 @@ void main() {
     if (!wave_slot(slot)) {
         return;
     }
-    if (shadow_ray_is_free(slot)) {
+    if (queue_hit(slot).primitive == PRIMITIVE_NONE) {
         path_states[slot].radiance += pending_radiance[slot];
     }
 }

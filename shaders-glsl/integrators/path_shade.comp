@@ -1,6 +1,6 @@
-// What: one step of every path of a wave: emission, light sample, scattering.
-// Reads: rays and surfaces of the queue, path states, scene, geometry. Writes: path states, shadow rays,
-// pending radiance, rays of the queue (the next closest-hit round).
+// What: one step of every path that goes on: emission, light sample, scattering.
+// Reads: rays and surfaces of the queue, path states, scene, geometry. Writes: path states, shadow rays, pending
+// radiance, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.
 // Source: docs/shading.md, "Paths".
 #version 460
 #include "contract/extensions.glsl"
@@ -17,11 +17,6 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    if (ray.t_max < 0.0) {
-        // The path has ended; the shadow ray of its last step was resolved in the round before.
-        shadow_rays[slot] = ray;
-        return;
-    }
     PathState state = path_states[slot];
     if (wave_round == 0u) {
         state = path_begin(wave_pixel(slot), wave_sample);
@@ -32,7 +27,10 @@ void main() {
     }
     PathStep asked = path_step(state, ray, surface, wave_bounces);
     path_states[slot] = state;
-    shadow_rays[slot] = asked.shadow_ray;
     pending_radiance[slot] = asked.pending;
+    shadow_ask(slot, asked.shadow_ray);
     queue_set_ray(slot, asked.next_ray);
+    if (asked.next_ray.t_max >= 0.0) {
+        queue_select(slot);
+    }
 }

@@ -5,6 +5,7 @@
 #ifndef INTEGRATORS_STORAGE_GLSL
 #define INTEGRATORS_STORAGE_GLSL
 
+#include "ads/queue.glsl"
 #include "scene/types.glsl"
 
 #ifndef INTEGRATOR_SET
@@ -33,10 +34,11 @@ layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer FilmPixelBuffer { FilmP
 layout(set = INTEGRATOR_SET, binding = 1, scalar) buffer FilmFaultBuffer { FilmFaults film_faults; };
 layout(set = INTEGRATOR_SET, binding = 2, scalar) buffer PathStateBuffer { PathState path_states[]; };
 layout(set = INTEGRATOR_SET, binding = 3, scalar) buffer PendingBuffer { vec3 pending_radiance[]; };
-// Rays and hits of the second queue, which only asks for occlusion.
+// The second queue, which only asks for occlusion, as those see it who fill it. Passes over its slots bind it as queue.
 layout(set = INTEGRATOR_SET, binding = 4, scalar) buffer ShadowRayBuffer { Ray shadow_rays[]; };
-layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHitBuffer { Hit shadow_hits[]; };
-layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
+layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { QueueHeader shadow_header; };
+layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
+layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 
 // Which slots a dispatch works on.
 layout(push_constant, scalar) uniform WaveConstants {
@@ -46,12 +48,12 @@ layout(push_constant, scalar) uniform WaveConstants {
     uint wave_round;      // closest-hit rounds before this one
     uint wave_bounces;    // most scatterings of a path
     float wave_range;     // metres, of ambient occlusion
+    uint wave_domain;     // of the queue that is bound: wave_pixel_count, or DOMAIN_SELECTED
 };
 
 // The slot of this invocation; false where there is none.
 bool wave_slot(out uint slot) {
-    slot = gl_GlobalInvocationID.x;
-    return slot < wave_pixel_count;
+    return queue_slot(wave_domain, gl_GlobalInvocationID.x, slot);
 }
 
 uint wave_pixel(uint slot) {
@@ -73,9 +75,17 @@ void film_add(uint pixel, vec3 radiance) {
     film_pixels[pixel].samples += 1u;
 }
 
-// Whether the shadow ray of a slot was asked for and met nothing.
-bool shadow_ray_is_free(uint slot) {
-    return shadow_rays[slot].t_max >= 0.0 && shadow_hits[slot].primitive == PRIMITIVE_NONE;
+// Stores the shadow ray of a slot; an active one is selected for the next trace of the second queue, as queue_select does
+// for the first.
+void shadow_ask(uint slot, Ray ray) {
+    shadow_rays[slot] = ray;
+    if (ray.t_max < 0.0) {
+        return;
+    }
+    uint place = atomicAdd(shadow_header.selecting, 1u);
+    if (place < shadow_header.capacity) {
+        shadow_list[(2u + ((shadow_header.takes + 1u) & 1u)) * shadow_header.capacity + place] = slot;
+    }
 }
 
 #endif

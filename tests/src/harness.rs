@@ -3,8 +3,8 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
-    BuildStatus, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, RayQueue, Structure, Surface,
-    TraceMode, Viewpoint,
+    BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, RayQueue, Structure,
+    Surface, TraceMode, Viewpoint,
 };
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
@@ -136,8 +136,14 @@ impl Bench {
         device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
         device.upload_slice(queue.rays(), 0, rays).expect("the device works");
         let submitted = device.submit(|recorder| {
-            structure.record_trace(recorder, &queue, count, TraceMode::Closest, structure.rounds());
-            structure.record_surfaces(recorder, &queue, count)
+            structure.record_trace(
+                recorder,
+                &queue,
+                Domain::First(count),
+                TraceMode::Closest,
+                structure.rounds(),
+            );
+            structure.record_surfaces(recorder, &queue, Domain::First(count))
         });
         submitted.expect("the device works").value.expect("the scene has surfaces");
         let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");

@@ -48,7 +48,7 @@ pub fn rendered(
     device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
     for wave in waves(film.pixel_count(), samples, integrator.wave_capacity()) {
         let submitted = device
-            .submit(|recorder| integrator.record_wave(recorder, structure, wave))
+            .submit(|recorder| integrator.record_wave(recorder, (&*structure).into(), wave))
             .expect("the device works");
         submitted.value.expect("the wave fits");
     }

@@ -1,5 +1,5 @@
 //! Which options may change a hit: every system of the registry, one option at a time, in pairs, and in other
-//! processes with other numbers of driver threads. Hits are compared bit for bit.
+//! processes with other numbers of driver threads; which slots of a queue are traced. Hits are compared bit for bit.
 
 use std::collections::BTreeSet;
 use std::process::Command;
@@ -14,6 +14,9 @@ use rasray_tests::invariance::{
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::tier::is_full;
+
+#[path = "invariance/selection.rs"]
+mod selection;
 
 /// Rays for each value and each pair of values of options: structures that promise every hit are held to it on more.
 fn option_rays(kind: StructureKind) -> usize {

@@ -2,7 +2,8 @@
 
 use ash::vk;
 use rasray_ads::{
-    Addressing, AdsError, Check, Draw, Geometry, GeometryDesc, Hit, Pools, Ray, RayQueue, Sizes, TraceMode,
+    Addressing, AdsError, Check, Domain, Draw, Geometry, GeometryDesc, Hit, Pools, Ray, RayQueue, Sizes,
+    TraceMode,
 };
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder, Timing};
 use rasray_systems::Spec;
@@ -108,7 +109,9 @@ fn slots_beyond_the_queue_are_refused() {
     for subject in Subject::all() {
         let structure = subject.spec.create(device, &geometry, None).expect("it can be made");
         let submitted = device
-            .submit(|recorder| structure.record_trace(recorder, &queue, 9, TraceMode::Closest, 1))
+            .submit(|recorder| {
+                structure.record_trace(recorder, &queue, Domain::First(9), TraceMode::Closest, 1)
+            })
             .map(drop);
         let error = submitted.expect_err("there are 8 slots").to_string();
         assert!(error.contains("9 slots of a queue of 8"), "{}: {error}", subject.name());
@@ -226,7 +229,13 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         let submitted = device.submit(|recorder| {
             for (eye, queue) in eyes.iter().zip(&queues) {
                 structure.record_build(recorder, (*eye).into())?;
-                structure.record_trace(recorder, queue, count, TraceMode::Closest, structure.rounds());
+                structure.record_trace(
+                    recorder,
+                    queue,
+                    Domain::First(count),
+                    TraceMode::Closest,
+                    structure.rounds(),
+                );
             }
             Ok::<_, AdsError>(())
         });
@@ -268,7 +277,13 @@ fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
             let mut recorder = Recorder::from_raw(device, commands[0]);
             rays_of.record_reset(&mut recorder);
             structure.record_build(&mut recorder, [0.0; 3].into()).expect("it is recorded");
-            structure.record_trace(&mut recorder, &rays_of, 8, TraceMode::Closest, structure.rounds());
+            structure.record_trace(
+                &mut recorder,
+                &rays_of,
+                Domain::First(8),
+                TraceMode::Closest,
+                structure.rounds(),
+            );
             let recorded = recorder.finish().expect("no mistake");
             raw.end_command_buffer(commands[0]).expect("ended");
             let sizes = structure.sizes().clone();

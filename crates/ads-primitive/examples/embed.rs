@@ -3,7 +3,9 @@
 use std::error::Error;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use rasray_ads::{BruteForce, Check, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{
+    BruteForce, Check, Domain, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, TraceMode,
+};
 use rasray_ads_primitive::{Config, PrimitiveLists};
 use rasray_gpu::{BufferUsage, Device, RawDevice, Recorder, ash, vk};
 use vk::DebugUtilsMessageSeverityFlagsEXT as Severity;
@@ -141,7 +143,13 @@ unsafe fn hits(
             let mut recorder = Recorder::from_raw(adopted, commands[0]);
             queued.record_reset(&mut recorder);
             structure.record_build(&mut recorder, [0.5, 0.5, -0.5].into())?;
-            structure.record_trace(&mut recorder, &queued, 1000, TraceMode::Closest, structure.rounds());
+            structure.record_trace(
+                &mut recorder,
+                &queued,
+                Domain::First(1000),
+                TraceMode::Closest,
+                structure.rounds(),
+            );
             let recorded = recorder.finish()?;
             device.end_command_buffer(commands[0])?;
             let submit = vk::SubmitInfo::default().command_buffers(&commands);

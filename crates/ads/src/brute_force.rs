@@ -1,11 +1,11 @@
 //! The brute-force structure: every ray tests every triangle. It is the baseline of every judgement.
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
+use crate::design::default_work_budget;
 use crate::{
-    Addressing, AdsError, BuildStatus, Check, Counters, Geometry, Modules, RayQueue, SceneBinding, Sizes,
-    Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    Addressing, AdsError, BuildStatus, Check, Counters, Domain, Geometry, Modules, RayQueue, SceneBinding,
+    Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -29,7 +29,7 @@ impl BruteForce {
         counters: impl Into<Counters>,
     ) -> Result<Self, AdsError> {
         let empty = device.create_set_layout("brute force", 0)?;
-        let work_budget = TRACE_WORK_BUDGET;
+        let work_budget = default_work_budget(device);
         let kernels = TraceKernels::new(
             device,
             geometry,
@@ -101,20 +101,20 @@ impl Structure for BruteForce {
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
         mode: TraceMode,
         rounds: u32,
     ) {
-        self.kernels.record_trace(recorder, &self.geometry, None, 0, queue, count, mode, rounds);
+        self.kernels.record_trace(recorder, &self.geometry, None, 0, queue, domain, mode, rounds);
     }
 
     fn record_surfaces(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
     ) -> Result<(), AdsError> {
-        if self.kernels.record_surfaces(recorder, &self.geometry, None, 0, queue, count) {
+        if self.kernels.record_surfaces(recorder, &self.geometry, None, 0, queue, domain) {
             Ok(())
         } else {
             Err(AdsError::NoScene { structure: self.name() })

@@ -18,15 +18,18 @@ pub struct Common {
     pub addressing: Addressing,
     /// How much of their work rays record.
     pub counters: Counters,
-    /// Work units per dispatch; the shared default where absent.
+    /// Work units per dispatch; [`default_work_budget`] where absent.
     pub work_budget: Option<u32>,
 }
 
-impl Common {
-    /// Work units that a ray may spend in a dispatch.
-    pub fn budget(&self) -> u32 {
-        self.work_budget.unwrap_or(TRACE_WORK_BUDGET)
-    }
+/// Work units that a ray may spend in a dispatch where the device is no processor: nearly every ray needs one dispatch
+/// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
+const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
+
+/// The work budget that structures have on a device unless told otherwise. Software drivers end all loops of a group after
+/// 65,535 iterations, others have no such limit. No hit depends on it.
+pub fn default_work_budget(device: &Device) -> u32 {
+    if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
 
 /// What a build's last pass wrote into the header.
@@ -60,7 +63,7 @@ pub struct Parts<C> {
     pub geometry: Geometry,
     /// The pools.
     pub pools: Pools,
-    /// Work units that a ray may spend in a dispatch: [`Common::budget`].
+    /// Work units that a ray may spend in a dispatch.
     pub work_budget: u32,
 }
 

@@ -3,9 +3,8 @@
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
 use rasray_shaders_glsl::Shader;
-use rasray_shaders_glsl::constants::contract::QUEUE_GROUP_SIZE;
 
-use crate::{AdsError, Counters, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
+use crate::{AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
 /// The scene's set, which surfaces and alpha masks are read from.
 #[derive(Clone, Debug)]
@@ -69,12 +68,12 @@ struct Kernel {
     pipeline: ComputePipeline,
 }
 
-/// Address of the structure (zero with descriptors), number of slots, and work units a dispatch.
+/// Address of the structure (zero with descriptors), [`Domain::word`], and work units a dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct TraceConstants {
     structure: [u32; 2],
-    count: u32,
+    domain: u32,
     work_budget: u32,
 }
 
@@ -125,9 +124,9 @@ impl TraceKernels {
         self.counters
     }
 
-    fn constants(&self, address: u64, count: u32) -> TraceConstants {
+    fn constants(&self, address: u64, domain: Domain) -> TraceConstants {
         let structure = [address as u32, (address >> 32) as u32];
-        TraceConstants { structure, count, work_budget: self.work_budget }
+        TraceConstants { structure, domain: domain.word(), work_budget: self.work_budget }
     }
 
     fn bind(
@@ -151,7 +150,7 @@ impl TraceKernels {
         recorder.push_constants(bytes_of(&constants));
     }
 
-    /// Records a trace of the first `count` slots: one dispatch for all, then up to `rounds - 1` for
+    /// Records a trace of the slots of `domain`: one dispatch for all, then up to `rounds - 1` for
     /// the rays that paused. Rays still paused after that are counted as unfinished.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
@@ -161,18 +160,15 @@ impl TraceKernels {
         structure: Option<&BindingSet>,
         address: u64,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
         mode: TraceMode,
         rounds: u32,
     ) {
-        if refuses(recorder, queue, count) {
-            return;
-        }
         let kernel = match mode {
             TraceMode::Closest => &self.closest,
             TraceMode::Occluded => &self.occluded,
         };
-        let constants = self.constants(address, count);
+        let constants = self.constants(address, domain);
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
         recorder.begin_pass(kernel.label);
@@ -180,7 +176,7 @@ impl TraceKernels {
         recorder.fill(queue.header(), round, after_paused - round, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
         self.bind(recorder, kernel, geometry, structure, queue, constants);
-        recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        queue.record_dispatch(recorder, domain);
         for _ in 1..rounds.max(1) {
             self.record_next_round(recorder, queue, false);
             self.bind(recorder, kernel, geometry, structure, queue, constants);
@@ -199,7 +195,7 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// Records the surface lookup of the first `count` slots; false where the kernels were made
+    /// Records the surface lookup of the slots of `domain`; false where the kernels were made
     /// without a scene.
     #[must_use]
     pub fn record_surfaces(
@@ -209,29 +205,17 @@ impl TraceKernels {
         structure: Option<&BindingSet>,
         address: u64,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
     ) -> bool {
         let Some(kernel) = &self.surfaces else {
             return false;
         };
-        if refuses(recorder, queue, count) {
-            return true;
-        }
-        let constants = self.constants(address, count);
+        let constants = self.constants(address, domain);
         recorder.begin_pass(kernel.label);
         self.bind(recorder, kernel, geometry, structure, queue, constants);
-        recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();
         true
     }
-}
-
-/// Refuses slots that the queue does not have, as a mistake of the recording.
-fn refuses(recorder: &mut Recorder<'_>, queue: &RayQueue, count: u32) -> bool {
-    let beyond = count > queue.capacity();
-    if beyond {
-        recorder.refuse(&format!("{count} slots of a queue of {} were asked for", queue.capacity()));
-    }
-    beyond
 }

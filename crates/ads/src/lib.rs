@@ -53,7 +53,7 @@ pub use pool_name::PoolName;
 pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
-pub use queue::{QueueCounters, QueueParts, RayQueue};
+pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{

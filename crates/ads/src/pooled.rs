@@ -3,10 +3,11 @@
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
+use crate::design::default_work_budget;
 use crate::{
-    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Geometry, InlineTrace,
-    Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding, Sizes, Structure,
-    StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Domain, Geometry,
+    InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding,
+    Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
 };
 
 /// A structure of a header, pools and the passes of its design.
@@ -39,7 +40,7 @@ impl<D: Design> Pooled<D> {
         let sizes = D::first_plan(&config, geometry)?;
         let common = D::common(&config);
         let Common { addressing, counters, .. } = common;
-        let work_budget = common.budget();
+        let work_budget = common.work_budget.unwrap_or_else(|| default_work_budget(device));
         addressing.check(device)?;
         device.require(D::TITLE, &Self::requirements_of(&config))?;
         let pools = Pools::new(device, D::PREFIX, addressing, &sizes)?;
@@ -218,22 +219,22 @@ impl<D: Design> Structure for Pooled<D> {
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
         mode: TraceMode,
         rounds: u32,
     ) {
         let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_trace(recorder, &self.kernels, geometry, queue, count, mode, rounds);
+        pools.record_trace(recorder, &self.kernels, geometry, queue, domain, mode, rounds);
     }
 
     fn record_surfaces(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
     ) -> Result<(), AdsError> {
         let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_surfaces(recorder, &self.kernels, geometry, queue, count)
+        pools.record_surfaces(recorder, &self.kernels, geometry, queue, domain)
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {

@@ -9,7 +9,8 @@ use rasray_gpu::{
 };
 
 use crate::{
-    Addressing, AdsError, Geometry, InlineTrace, PoolName, PoolSize, RayQueue, Sizes, TraceKernels, TraceMode,
+    Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, RayQueue, Sizes, TraceKernels,
+    TraceMode,
 };
 
 /// The header's name among the pools; it is the first.
@@ -269,7 +270,7 @@ impl Pools {
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace of the first `count` slots. Traces count list entries that name nothing; the header is read
+    /// Records a trace of the slots of `domain`. Traces count list entries that name nothing; the header is read
     /// back after them, so that [`crate::Structure::status`] tells.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
@@ -278,16 +279,16 @@ impl Pools {
         kernels: &TraceKernels,
         geometry: &Geometry,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
         mode: TraceMode,
         rounds: u32,
     ) {
         self.keep(recorder);
-        kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, count, mode, rounds);
+        kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, domain, mode, rounds);
         self.record_readback(recorder);
     }
 
-    /// Records the lookup of the surfaces of the first `count` slots.
+    /// Records the lookup of the surfaces of the slots of `domain`.
     ///
     /// # Errors
     /// The kernels were made without a scene.
@@ -297,10 +298,10 @@ impl Pools {
         kernels: &TraceKernels,
         geometry: &Geometry,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
     ) -> Result<(), AdsError> {
         self.keep(recorder);
-        if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, count) {
+        if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, domain) {
             Ok(())
         } else {
             Err(AdsError::NoScene { structure: self.structure })

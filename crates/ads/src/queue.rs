@@ -1,8 +1,12 @@
 //! Queues of rays on the device.
 
+use std::mem::offset_of;
+
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder, SetLayout,
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
+    MemoryLocation, Recorder, SetLayout,
 };
+use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
 
 use crate::{AdsError, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 
@@ -11,6 +15,26 @@ const BINDINGS: u32 = 8;
 
 /// Bytes before the first step: the logged slot and the number of steps.
 const STEP_HEADER: u64 = 8;
+
+/// Which slots of a queue a pass works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// So many of the first.
+    First(u32),
+    /// Those that shaders selected (`queue_select` of `ads/queue.glsl`) before the last [`RayQueue::record_take`], in no
+    /// particular order: as many as the device counted, so that the pass costs nothing for the others.
+    Selected,
+}
+
+impl Domain {
+    /// What shaders are told: the number of first slots, or `DOMAIN_SELECTED`.
+    pub fn word(self) -> u32 {
+        match self {
+            Self::First(count) => count,
+            Self::Selected => DOMAIN_SELECTED,
+        }
+    }
+}
 
 /// What a queue holds beside rays, hits and states. What is not asked for is a placeholder of 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -23,10 +47,11 @@ pub struct QueueParts {
     pub steps: u32,
 }
 
-/// Rays, hits, surfaces and traversal states of `capacity` slots. Cheap to clone.
+/// Rays, hits, surfaces and traversal states of `capacity` slots, and lists of slots. Cheap to clone.
 #[derive(Clone, Debug)]
 pub struct RayQueue {
     capacity: u32,
+    take: ComputePipeline,
     header: Buffer,
     rays: Buffer,
     hits: Buffer,
@@ -88,7 +113,7 @@ impl RayQueue {
         let rays = buffer("rays", size_of::<Ray>(), slots)?;
         let hits = buffer("hits", size_of::<Hit>(), slots)?;
         let states = buffer("states", size_of::<TraceState>(), slots)?;
-        let list = buffer("list", size_of::<u32>(), 2 * slots)?;
+        let list = buffer("list", size_of::<u32>(), 4 * slots)?;
         let surfaces = buffer("surfaces", size_of::<Surface>(), if parts.surfaces { slots } else { 0 })?;
         let work = buffer("work", size_of::<RayWork>(), if parts.work { slots } else { 0 })?;
         // Less than the placeholder's 16 bytes would have room for no step either.
@@ -100,8 +125,17 @@ impl RayQueue {
             name,
             &[&header, &rays, &hits, &states, &list, &surfaces, &work, &steps],
         )?;
+        let shader = &rasray_shaders_glsl::ADS_QUEUE_TAKE;
+        let take = device.create_compute_pipeline(&ComputePipelineDesc {
+            name: shader.name,
+            spirv: shader.words(),
+            sets: &[&layout],
+            push_constant_bytes: 0,
+            constants: &[],
+        })?;
         Ok(Self {
             capacity,
+            take,
             header,
             rays,
             hits,
@@ -131,12 +165,42 @@ impl RayQueue {
         recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, 0, size, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::TRANSFER_WRITE);
-        recorder.fill(&self.header, std::mem::offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
+        recorder.fill(&self.header, offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
         // Slot 0 is logged; no slot where there is no room.
         let logged = if self.step_capacity > 0 { 0 } else { u32::MAX };
         recorder.fill(&self.steps, 0, 4, logged);
         recorder.fill(&self.steps, 4, 4, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
+    }
+
+    /// Records that the slots selected so far are those of [`Domain::Selected`] from now on, and that a new selection
+    /// begins. Shaders that selected them came before it, and a barrier towards compute shaders between.
+    pub fn record_take(&self, recorder: &mut Recorder<'_>) {
+        recorder.bind_compute(&self.take);
+        recorder.bind_sets(0, &[&self.set]);
+        recorder.dispatch([1, 1, 1]);
+        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
+    }
+
+    /// Records that no slot is selected for the passes after the next take, whatever shaders left behind.
+    pub fn record_select_none(&self, recorder: &mut Recorder<'_>) {
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(&self.header, offset_of!(QueueHeader, selecting) as u64, 4, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+    }
+
+    /// Records a dispatch of one invocation per slot of `domain`, in workgroups of `QUEUE_GROUP_SIZE`; pipeline, sets and
+    /// constants are bound.
+    pub fn record_dispatch(&self, recorder: &mut Recorder<'_>, domain: Domain) {
+        match domain {
+            Domain::First(count) if count > self.capacity => {
+                recorder.refuse(&format!("{count} slots of a queue of {} were asked for", self.capacity));
+            }
+            Domain::First(count) => recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]),
+            Domain::Selected => {
+                recorder.dispatch_indirect(&self.header, offset_of!(QueueHeader, selected_x) as u64);
+            }
+        }
     }
 
     /// Slots.
@@ -167,6 +231,11 @@ impl RayQueue {
     /// [`Hit`] per slot.
     pub fn hits(&self) -> &Buffer {
         &self.hits
+    }
+
+    /// Lists of slots, each as long as there are slots: two of paused rays, then two of those selected.
+    pub fn list(&self) -> &Buffer {
+        &self.list
     }
 
     /// [`Surface`] per slot.

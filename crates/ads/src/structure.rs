@@ -2,7 +2,7 @@
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
-use crate::{AdsError, Counters, Geometry, PoolName, RayQueue, Viewpoint};
+use crate::{AdsError, Counters, Domain, Geometry, PoolName, RayQueue, Viewpoint};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -294,17 +294,17 @@ pub trait Structure {
         false
     }
 
-    /// Records a trace of the first `count` slots of `queue`, in at most `rounds` dispatches.
+    /// Records a trace of the slots of `domain` of `queue`, in at most `rounds` dispatches.
     fn record_trace(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
         mode: TraceMode,
         rounds: u32,
     );
 
-    /// Records the lookup of the surfaces of the first `count` slots of `queue`.
+    /// Records the lookup of the surfaces of the slots of `domain` of `queue`.
     ///
     /// # Errors
     /// The structure was created without a scene.
@@ -312,7 +312,7 @@ pub trait Structure {
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,
-        count: u32,
+        domain: Domain,
     ) -> Result<(), AdsError>;
 
     /// How a shader of one's own traces through it, as it is until the next resize; absent where a structure has

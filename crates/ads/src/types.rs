@@ -215,8 +215,8 @@ pub struct QueueHeader {
     pub unfinished: u32,
     /// Rays that met an incomplete structure, over all traces since the reset.
     pub not_ready: u32,
-    /// Zero.
-    pub spare: u32,
+    /// Slots selected for the passes after the next [`crate::RayQueue::record_take`].
+    pub selecting: u32,
     /// Cells stepped, low word.
     pub cells_low: u32,
     /// Cells stepped, high word.
@@ -229,4 +229,14 @@ pub struct QueueHeader {
     pub tests_low: u32,
     /// Primitives tested, high word.
     pub tests_high: u32,
+    /// Indirect dispatch over the slots selected.
+    pub selected_x: u32,
+    /// Always 1.
+    pub selected_y: u32,
+    /// Always 1.
+    pub selected_z: u32,
+    /// Slots selected when they were last taken.
+    pub selected: u32,
+    /// Times they were taken.
+    pub takes: u32,
 }

@@ -4,7 +4,9 @@
 use std::error::Error;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use rasray_ads::{BruteForce, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{
+    BruteForce, Domain, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, TraceMode,
+};
 use rasray_bvh::{Builder, Bvh, Config};
 use rasray_gpu::{BufferUsage, Device, Feature, RawDevice, Recorder, ash, vk};
 use vk::DebugUtilsMessageSeverityFlagsEXT as Severity;
@@ -143,7 +145,7 @@ unsafe fn hits(
         queued.record_reset(&mut recorder);
         structure.record_build(&mut recorder, [0.0; 3].into())?;
         let (count, rounds) = (rays.len() as u32, structure.rounds());
-        structure.record_trace(&mut recorder, &queued, count, TraceMode::Closest, rounds);
+        structure.record_trace(&mut recorder, &queued, Domain::First(count), TraceMode::Closest, rounds);
         let recorded = recorder.finish()?;
         device.end_command_buffer(commands[0])?;
         let submit = vk::SubmitInfo::default().command_buffers(&commands);

@@ -1,13 +1,13 @@
 //! Ambient occlusion: cosine-weighted visibility of a white environment.
 
-use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
 use rasray_shaders_glsl::{
     INTEGRATORS_AMBIENT_OCCLUSION_RESOLVE, INTEGRATORS_AMBIENT_OCCLUSION_SPAWN, INTEGRATORS_PRIMARY,
 };
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
     integrator::check_wave,
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
 };
@@ -47,11 +47,10 @@ impl AmbientOcclusion {
         let storage = Storage {
             film: Some(desc.film.pixels()),
             film_faults: Some(desc.film.faults()),
-            shadow_rays: Some(shadow_queue.rays()),
-            shadow_hits: Some(shadow_queue.hits()),
+            shadow: Some(&shadow_queue),
             ..Storage::default()
         };
-        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        let bindings = Bindings::new(device, desc.scene, &storage)?;
         Ok(Self {
             range,
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
@@ -73,19 +72,19 @@ impl Integrator for AmbientOcclusion {
     fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
-        structure: &dyn Structure,
+        traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let count = wave.pixel_count;
-        let rounds = structure.rounds();
+        let all = Domain::First(wave.pixel_count);
         let constants = WaveConstants { range: self.range, ..WaveConstants::from(wave) };
-        self.bindings.record(recorder, &self.primary, &constants);
-        structure.record_trace(recorder, &self.queue, count, TraceMode::Closest, rounds);
-        structure.record_surfaces(recorder, &self.queue, count)?;
-        self.bindings.record(recorder, &self.spawn, &constants);
-        structure.record_trace(recorder, &self.shadow_queue, count, TraceMode::Occluded, rounds);
-        self.bindings.record(recorder, &self.resolve, &constants);
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        traced.record_closest(recorder, &self.queue, all)?;
+        self.shadow_queue.record_select_none(recorder);
+        self.bindings.record(recorder, &self.spawn, &self.queue, all, &constants);
+        self.shadow_queue.record_take(recorder);
+        traced.record_occluded(recorder, &self.shadow_queue, Domain::Selected);
+        self.bindings.record(recorder, &self.resolve, &self.shadow_queue, all, &constants);
         Ok(())
     }
 

@@ -1,13 +1,13 @@
 //! Auxiliary images: distance, normal and primitive of what lies at the centre of every pixel.
 
 use bytemuck::{Pod, Zeroable};
-use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::GpuScene;
 use rasray_shaders_glsl::{INTEGRATORS_AOV, INTEGRATORS_PRIMARY};
 
 use crate::{
-    IntegratorError, Wave,
+    IntegratorError, Traced, Wave,
     film::pixel_count,
     integrator::{check_capacity, check_wave},
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
@@ -50,7 +50,7 @@ impl AovPass {
         let pixels = device_buffer(device, "aov", u64::from(pixel_count) * size_of::<AovPixel>() as u64)?;
         let queue = RayQueue::new(device, "pixel centre rays", capacity, true)?;
         let storage = Storage { aov: Some(&pixels), ..Storage::default() };
-        let bindings = Bindings::new(device, scene, &queue, &storage)?;
+        let bindings = Bindings::new(device, scene, &storage)?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(true))?,
             store: bindings.kernel(device, &INTEGRATORS_AOV, &[])?,
@@ -73,16 +73,14 @@ impl AovPass {
     pub fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
-        structure: &dyn Structure,
+        traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.pixel_count)?;
-        let constants = WaveConstants::from(wave);
-        self.bindings.record(recorder, &self.primary, &constants);
-        let rounds = structure.rounds();
-        structure.record_trace(recorder, &self.queue, wave.pixel_count, TraceMode::Closest, rounds);
-        structure.record_surfaces(recorder, &self.queue, wave.pixel_count)?;
-        self.bindings.record(recorder, &self.store, &constants);
+        let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        traced.record_closest(recorder, &self.queue, all)?;
+        self.bindings.record(recorder, &self.store, &self.queue, all, &constants);
         Ok(())
     }
 

@@ -1,10 +1,10 @@
 //! What all integrators have in common.
 
-use rasray_ads::{RayQueue, Structure};
+use rasray_ads::RayQueue;
 use rasray_gpu::{Device, Recorder};
 use rasray_gpu_scene::{GpuScene, ShadingFeatures};
 
-use crate::{Film, IntegratorError, WAVE_CAPACITY, Wave};
+use crate::{Film, IntegratorError, Traced, WAVE_LIMIT, Wave, wave_capacity};
 
 /// What an integrator is made from.
 #[derive(Clone, Copy, Debug)]
@@ -15,7 +15,7 @@ pub struct IntegratorDesc<'a> {
     pub scene: &'a GpuScene,
     /// Where samples are added; as large as the scene's view.
     pub film: &'a Film,
-    /// Slots of the queues, from 1 to [`WAVE_CAPACITY`]. Fewer than the image has pixels means
+    /// Slots of the queues, from 1 to [`WAVE_LIMIT`]. Fewer than the image has pixels means
     /// several waves a sample.
     pub wave_capacity: u32,
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
@@ -29,7 +29,7 @@ impl<'a> IntegratorDesc<'a> {
             device,
             scene,
             film,
-            wave_capacity: WAVE_CAPACITY.min(film.pixel_count()),
+            wave_capacity: wave_capacity(device).min(film.pixel_count()),
             features: scene.features(),
         }
     }
@@ -44,20 +44,20 @@ impl<'a> IntegratorDesc<'a> {
 }
 
 pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError> {
-    if (1..=WAVE_CAPACITY).contains(&wave_capacity) {
+    if (1..=WAVE_LIMIT).contains(&wave_capacity) {
         Ok(wave_capacity)
     } else {
         Err(IntegratorError::Option {
             option: "wave capacity",
             value: wave_capacity.to_string(),
-            expected: "from 1 to 131072 rays",
+            expected: "from 1 to 1048576 rays",
         })
     }
 }
 
 /// Turns rays through a structure into radiance on a film, wave by wave. It names no structure.
 ///
-/// Recording only records: it never submits, waits or allocates. The structure must be complete and
+/// Recording only records: it never submits, waits or allocates. What is traced must be complete and
 /// built from the scene's geometry; film and queues must have been reset once with
 /// [`Integrator::record_reset`]. What a wave leaves is visible to compute shaders and transfers
 /// recorded after it. Passes carry the paths of their shaders.
@@ -72,7 +72,7 @@ pub trait Integrator {
     fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
-        structure: &dyn Structure,
+        traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError>;
 
@@ -137,7 +137,7 @@ mod tests {
             check_wave(wave(u32::MAX, 8), 8, 16),
             Err(IntegratorError::WaveOutsideImage { .. })
         ));
-        assert!(check_capacity(1).is_ok() && check_capacity(WAVE_CAPACITY).is_ok());
-        assert!(check_capacity(0).is_err() && check_capacity(WAVE_CAPACITY + 1).is_err());
+        assert!(check_capacity(1).is_ok() && check_capacity(WAVE_LIMIT).is_ok());
+        assert!(check_capacity(0).is_err() && check_capacity(WAVE_LIMIT + 1).is_err());
     }
 }

@@ -1,18 +1,18 @@
 //! Pipelines over the slots of a wave, all made and recorded the same way.
 
 use bytemuck::{Pod, Zeroable, bytes_of};
-use rasray_ads::RayQueue;
+use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, SetLayout,
 };
 use rasray_gpu_scene::GpuScene;
-use rasray_shaders_glsl::{Shader, constants::contract::QUEUE_GROUP_SIZE};
+use rasray_shaders_glsl::Shader;
 
 use crate::{IntegratorError, Wave};
 
 /// Buffers in the integrators' set.
-const BINDINGS: u32 = 7;
+const BINDINGS: u32 = 8;
 
 /// Specialisation constant of `integrators/primary.comp`.
 const CONSTANT_PIXEL_CENTRES: u32 = 93;
@@ -32,12 +32,13 @@ pub(crate) struct WaveConstants {
     pub round: u32,
     pub bounces: u32,
     pub range: f32,
+    pub domain: u32,
 }
 
 impl From<Wave> for WaveConstants {
     fn from(wave: Wave) -> Self {
         let Wave { first_pixel, pixel_count, sample } = wave;
-        Self { first_pixel, pixel_count, sample, round: 0, bounces: 0, range: 0.0 }
+        Self { first_pixel, pixel_count, sample, round: 0, bounces: 0, range: 0.0, domain: 0 }
     }
 }
 
@@ -56,8 +57,7 @@ pub(crate) struct Storage<'a> {
     pub film_faults: Option<&'a Buffer>,
     pub path_states: Option<&'a Buffer>,
     pub pending: Option<&'a Buffer>,
-    pub shadow_rays: Option<&'a Buffer>,
-    pub shadow_hits: Option<&'a Buffer>,
+    pub shadow: Option<&'a RayQueue>,
     pub aov: Option<&'a Buffer>,
 }
 
@@ -65,28 +65,25 @@ pub(crate) struct Storage<'a> {
 #[derive(Debug)]
 pub(crate) struct Bindings {
     layouts: [SetLayout; 4],
-    sets: [BindingSet; 4],
+    /// Geometry, storage, scene.
+    sets: [BindingSet; 3],
 }
 
 impl Bindings {
-    /// Sets 0 to 3: geometry, storage, queue, scene.
+    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is named when a pass is recorded.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
-    pub fn new(
-        device: &Device,
-        scene: &GpuScene,
-        queue: &RayQueue,
-        storage: &Storage<'_>,
-    ) -> Result<Self, IntegratorError> {
+    pub fn new(device: &Device, scene: &GpuScene, storage: &Storage<'_>) -> Result<Self, IntegratorError> {
         let placeholder = device_buffer(device, "unused binding", 16)?;
         let slots = [
             storage.film,
             storage.film_faults,
             storage.path_states,
             storage.pending,
-            storage.shadow_rays,
-            storage.shadow_hits,
+            storage.shadow.map(RayQueue::rays),
+            storage.shadow.map(RayQueue::header),
+            storage.shadow.map(RayQueue::list),
             storage.aov,
         ];
         let buffers = slots.map(|buffer| buffer.unwrap_or(&placeholder));
@@ -96,10 +93,10 @@ impl Bindings {
             layouts: [
                 scene.geometry().layout().clone(),
                 layout,
-                queue.set_layout().clone(),
+                RayQueue::layout(device)?,
                 scene.binding().layout.clone(),
             ],
-            sets: [scene.geometry().set().clone(), set, queue.set().clone(), scene.binding().set.clone()],
+            sets: [scene.geometry().set().clone(), set, scene.binding().set.clone()],
         })
     }
 
@@ -123,14 +120,23 @@ impl Bindings {
         Ok(Kernel { label: shader.name, pipeline })
     }
 
-    /// Records one pass over the slots of the wave; its results are visible to compute shaders and
+    /// Records one pass over the slots of `domain` of a queue; its results are visible to compute shaders and
     /// transfers recorded after it.
-    pub fn record(&self, recorder: &mut Recorder<'_>, kernel: &Kernel, constants: &WaveConstants) {
+    pub fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        kernel: &Kernel,
+        queue: &RayQueue,
+        domain: Domain,
+        constants: &WaveConstants,
+    ) {
+        let [geometry, storage, scene] = &self.sets;
+        let constants = WaveConstants { domain: domain.word(), ..*constants };
         recorder.begin_pass(kernel.label);
         recorder.bind_compute(&kernel.pipeline);
-        recorder.bind_sets(0, &self.sets.each_ref());
-        recorder.push_constants(bytes_of(constants));
-        recorder.dispatch([constants.pixel_count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]);
+        recorder.bind_sets(0, &[geometry, storage, queue.set(), scene]);
+        recorder.push_constants(bytes_of(&constants));
+        queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();
     }

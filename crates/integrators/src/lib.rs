@@ -30,7 +30,7 @@
 //! let occlusion = AmbientOcclusion::new(&IntegratorDesc::new(&device, &gpu_scene, &film), 0.5)?;
 //! device.submit(|recorder| occlusion.record_reset(recorder))?;
 //! for wave in waves(film.pixel_count(), 16, occlusion.wave_capacity()) {
-//!     device.submit(|recorder| occlusion.record_wave(recorder, &structure, wave))?.value?;
+//!     device.submit(|recorder| occlusion.record_wave(recorder, (&structure).into(), wave))?.value?;
 //! }
 //! let image = film.read(&device)?;
 //! # Ok(()) }
@@ -44,6 +44,7 @@ mod integrator;
 mod kernels;
 mod path;
 mod raycast;
+mod traced;
 mod wave;
 
 pub use ambient_occlusion::AmbientOcclusion;
@@ -53,4 +54,5 @@ pub use film::{Film, FilmFaults, FilmPixel, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc};
 pub use path::{BOUNCE_LIMIT, Path, PathState};
 pub use raycast::Raycast;
-pub use wave::{WAVE_CAPACITY, Wave, waves};
+pub use traced::Traced;
+pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves};

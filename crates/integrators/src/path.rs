@@ -1,7 +1,7 @@
 //! Path tracing with light sampling.
 
 use bytemuck::{Pod, Zeroable};
-use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Recorder};
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE, INTEGRATORS_PRIMARY,
@@ -9,7 +9,7 @@ use rasray_shaders_glsl::{
 };
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
     integrator::check_wave,
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
@@ -42,7 +42,7 @@ pub struct PathState {
 }
 
 /// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
-/// closest-hit ray and at most one shadow ray.
+/// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
 #[derive(Debug)]
 pub struct Path {
     bounces: u32,
@@ -86,11 +86,10 @@ impl Path {
             film_faults: Some(desc.film.faults()),
             path_states: Some(&states),
             pending: Some(&pending),
-            shadow_rays: Some(shadow_queue.rays()),
-            shadow_hits: Some(shadow_queue.hits()),
+            shadow: Some(&shadow_queue),
             ..Storage::default()
         };
-        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        let bindings = Bindings::new(device, desc.scene, &storage)?;
         Ok(Self {
             bounces,
             rounds: rounds(bounces, desc.features.blend),
@@ -122,32 +121,32 @@ impl Integrator for Path {
     fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
-        structure: &dyn Structure,
+        traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let count = wave.pixel_count;
-        let trace_rounds = structure.rounds();
+        let (paths, shadows) = (&self.queue, &self.shadow_queue);
+        let all = Domain::First(wave.pixel_count);
+        // Of the first round these are all slots; from then on those whose paths go on.
+        let mut live = all;
         let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
-        self.bindings.record(recorder, &self.primary, &constants);
+        self.bindings.record(recorder, &self.primary, paths, all, &constants);
+        paths.record_select_none(recorder);
+        shadows.record_select_none(recorder);
         for round in 0..self.rounds {
             constants.round = round;
-            structure.record_trace(recorder, &self.queue, count, TraceMode::Closest, trace_rounds);
-            structure.record_surfaces(recorder, &self.queue, count)?;
-            self.bindings.record(recorder, &self.shade, &constants);
+            traced.record_closest(recorder, paths, live)?;
+            self.bindings.record(recorder, &self.shade, paths, live, &constants);
             // In the last round every path has scattered as often as it may: it asks for no light.
             if round + 1 < self.rounds {
-                structure.record_trace(
-                    recorder,
-                    &self.shadow_queue,
-                    count,
-                    TraceMode::Occluded,
-                    trace_rounds,
-                );
-                self.bindings.record(recorder, &self.resolve, &constants);
+                paths.record_take(recorder);
+                shadows.record_take(recorder);
+                live = Domain::Selected;
+                traced.record_occluded(recorder, shadows, Domain::Selected);
+                self.bindings.record(recorder, &self.resolve, shadows, Domain::Selected, &constants);
             }
         }
-        self.bindings.record(recorder, &self.accumulate, &constants);
+        self.bindings.record(recorder, &self.accumulate, paths, all, &constants);
         Ok(())
     }
 

@@ -1,11 +1,11 @@
 //! Ray casting: what camera rays meet, lit from the eye.
 
-use rasray_ads::{RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;
 use rasray_shaders_glsl::{INTEGRATORS_PRIMARY, INTEGRATORS_RAYCAST_SHADE};
 
 use crate::{
-    Film, Integrator, IntegratorDesc, IntegratorError, Wave,
+    Film, Integrator, IntegratorDesc, IntegratorError, Traced, Wave,
     integrator::check_wave,
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
 };
@@ -35,7 +35,7 @@ impl Raycast {
             film_faults: Some(desc.film.faults()),
             ..Storage::default()
         };
-        let bindings = Bindings::new(device, desc.scene, &queue, &storage)?;
+        let bindings = Bindings::new(device, desc.scene, &storage)?;
         Ok(Self {
             primary: bindings.kernel(device, &INTEGRATORS_PRIMARY, &camera_constants(false))?,
             shade: bindings.kernel(device, &INTEGRATORS_RAYCAST_SHADE, &[])?,
@@ -54,16 +54,14 @@ impl Integrator for Raycast {
     fn record_wave(
         &self,
         recorder: &mut Recorder<'_>,
-        structure: &dyn Structure,
+        traced: Traced<'_>,
         wave: Wave,
     ) -> Result<(), IntegratorError> {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
-        let constants = WaveConstants::from(wave);
-        self.bindings.record(recorder, &self.primary, &constants);
-        let rounds = structure.rounds();
-        structure.record_trace(recorder, &self.queue, wave.pixel_count, TraceMode::Closest, rounds);
-        structure.record_surfaces(recorder, &self.queue, wave.pixel_count)?;
-        self.bindings.record(recorder, &self.shade, &constants);
+        let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
+        self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
+        traced.record_closest(recorder, &self.queue, all)?;
+        self.bindings.record(recorder, &self.shade, &self.queue, all, &constants);
         Ok(())
     }
 

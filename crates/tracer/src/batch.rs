@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use rasray_ads::{
-    Counters, Hit, QueueCounters, QueueHeader, QueueParts, Ray, RayQueue, RayWork, Structure, TraceMode,
+    Counters, Domain, Hit, QueueCounters, QueueHeader, QueueParts, Ray, RayQueue, RayWork, Structure,
+    TraceMode,
 };
 use rasray_gpu::{Device, PassTiming, Timing};
 
@@ -88,16 +89,16 @@ impl BatchTracer {
         self.device.submit(|recorder| self.queue.record_reset(recorder))?;
         let mut rest = rays;
         while !rest.is_empty() {
-            let share = self.shares.of(structure.name(), self.queue.capacity()) as usize;
+            let share = self.shares.of(structure.into(), self.queue.capacity()) as usize;
             let (chunk, others) = rest.split_at(share.min(rest.len()));
             rest = others;
             let count = chunk.len() as u32;
             self.device.upload_slice(self.queue.rays(), 0, chunk)?;
             let started = Instant::now();
             let submitted = self.device.submit_passes(timing, |recorder| {
-                structure.record_trace(recorder, &self.queue, count, mode, rounds);
+                structure.record_trace(recorder, &self.queue, Domain::First(count), mode, rounds);
             })?;
-            self.shares.learn(structure.name(), count, started.elapsed().as_secs_f64());
+            self.shares.learn(structure.into(), count, started.elapsed().as_secs_f64());
             outcome.passes.extend(submitted.passes);
             outcome.hits.extend(self.device.download_as::<Hit>(self.queue.hits(), 0, chunk.len())?);
             if structure.counters() >= Counters::PerRay {

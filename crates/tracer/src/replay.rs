@@ -3,7 +3,8 @@
 use std::fmt;
 
 use rasray_ads::{
-    Counters, Hit, QueueHeader, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode, TraceStep,
+    Counters, Domain, Hit, QueueHeader, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode,
+    TraceStep,
 };
 use rasray_gpu::Device;
 
@@ -71,7 +72,9 @@ impl Replay {
         let queue = RayQueue::with_parts(device, "replay", 1, parts)?;
         device.submit(|recorder| queue.record_reset(recorder))?;
         device.upload_slice(queue.rays(), 0, &[*ray])?;
-        device.submit(|recorder| structure.record_trace(recorder, &queue, 1, mode, structure.rounds()))?;
+        device.submit(|recorder| {
+            structure.record_trace(recorder, &queue, Domain::First(1), mode, structure.rounds())
+        })?;
         let header = device.download_as::<QueueHeader>(queue.header(), 0, 1)?;
         let counters = header.first().map(RayQueue::counters).unwrap_or_default();
         let answered = counters.unfinished == 0 && counters.not_ready == 0;

@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
+use rasray_ads::Structure;
+
 /// Rays of the first submission to a structure that has not been timed yet.
 const FIRST: u32 = 1024;
 
@@ -18,17 +20,28 @@ const GROWTH: u32 = 8;
 /// What submissions to each structure may hold, learned from how long the last one took: a million triangles tested one
 /// by one take a million times as long as one, and a submission that takes a minute is ended by a driver or a timeout.
 #[derive(Debug, Default)]
-pub(crate) struct Shares(Mutex<HashMap<&'static str, u32>>);
+pub(crate) struct Shares(Mutex<HashMap<Contestant, u32>>);
+
+/// One value of a structure, by where it lies: two of one kind may be of different scenes and options. Another that lies
+/// there later starts from what its predecessor taught, and corrects it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Contestant(usize);
+
+impl From<&dyn Structure> for Contestant {
+    fn from(structure: &dyn Structure) -> Self {
+        Self(std::ptr::from_ref(structure).cast::<()>().addr())
+    }
+}
 
 impl Shares {
     /// Rays of the next submission to that structure.
-    pub(crate) fn of(&self, structure: &str, capacity: u32) -> u32 {
+    pub(crate) fn of(&self, structure: Contestant, capacity: u32) -> u32 {
         let shares = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        shares.get(structure).copied().unwrap_or(FIRST).min(capacity)
+        shares.get(&structure).copied().unwrap_or(FIRST).min(capacity)
     }
 
     /// Takes note of a submission.
-    pub(crate) fn learn(&self, structure: &'static str, rays: u32, seconds: f64) {
+    pub(crate) fn learn(&self, structure: Contestant, rays: u32, seconds: f64) {
         let mut shares = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let share = shares.entry(structure).or_insert(FIRST);
         *share = next(*share, rays, seconds);
@@ -67,9 +80,10 @@ mod tests {
     #[test]
     fn structures_are_told_apart() {
         let shares = Shares::default();
-        shares.learn("slow", FIRST, 16.0);
-        assert_eq!(shares.of("slow", 65_536), LEAST);
-        assert_eq!(shares.of("other", 65_536), FIRST);
-        assert_eq!(shares.of("other", 10), 10);
+        let (slow, other) = (Contestant(1), Contestant(2));
+        shares.learn(slow, FIRST, 16.0);
+        assert_eq!(shares.of(slow, 65_536), LEAST);
+        assert_eq!(shares.of(other, 65_536), FIRST);
+        assert_eq!(shares.of(other, 10), 10);
     }
 }

@@ -30,8 +30,9 @@ pub fn picture_of(device: &Device, spec: &Spec, scene: &GpuScene) -> Result<Vec<
     let integrator = Path::new(&IntegratorDesc::new(device, scene, &film), 1)?;
     device.submit(|recorder| integrator.record_reset(recorder))?;
     for wave in waves(film.pixel_count(), 1, integrator.wave_capacity()) {
-        let submitted = device
-            .submit_passes(timing, |recorder| integrator.record_wave(recorder, structure.as_ref(), wave))?;
+        let submitted = device.submit_passes(timing, |recorder| {
+            integrator.record_wave(recorder, structure.as_ref().into(), wave)
+        })?;
         submitted.value?;
     }
     Ok(film.read(device)?.into_iter().map(|pixel| pixel.map(f32::to_bits)).collect())

@@ -1,4 +1,4 @@
-use rasray_ads::{Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure, TraceMode};
 
 use crate::harness::Bench;
 
@@ -20,7 +20,7 @@ pub fn trace_in_rounds(
     device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
     device.upload_slice(queue.rays(), 0, rays).expect("the device works");
     device
-        .submit(|recorder| structure.record_trace(recorder, &queue, count, mode, rounds))
+        .submit(|recorder| structure.record_trace(recorder, &queue, Domain::First(count), mode, rounds))
         .expect("the device works");
     let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
     let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).expect("the device works");

@@ -155,7 +155,7 @@ impl<'a> Stage<'a> {
         for sample in samples {
             let wave = Wave { first_pixel: 0, pixel_count, sample };
             let submitted = device
-                .submit(|recorder| integrator.record_wave(recorder, self.structure.as_ref(), wave))
+                .submit(|recorder| integrator.record_wave(recorder, self.structure.as_ref().into(), wave))
                 .expect("the device works");
             submitted.value.expect("the wave fits");
         }

@@ -93,8 +93,9 @@ fn image(bench: &Bench, transformed: &Transformed, eye: DVec3) -> Vec<AovPixel> 
     let aov = AovPass::new(device, &scene, SIZE * SIZE).expect("a small image fits");
     device.submit(|recorder| aov.record_reset(recorder)).expect("the device works");
     let wave = Wave { first_pixel: 0, pixel_count: SIZE * SIZE, sample: 0 };
-    let submitted =
-        device.submit(|recorder| aov.record_wave(recorder, &structure, wave)).expect("the device works");
+    let submitted = device
+        .submit(|recorder| aov.record_wave(recorder, (&structure).into(), wave))
+        .expect("the device works");
     submitted.value.expect("the wave fits");
     aov.read(device).expect("the image is readable")
 }

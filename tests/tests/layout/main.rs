@@ -47,10 +47,19 @@ fn records_of_the_contract() {
 
 #[test]
 fn records_of_queues_and_geometry() {
-    let queues = [&shaders::ADS_QUEUE_NEXT_ROUND, TRACES[0], TRACES[1], TRACES[2], TRACES[3], TRACES[4]];
+    let queues = [
+        &shaders::ADS_QUEUE_NEXT_ROUND,
+        &shaders::ADS_QUEUE_TAKE,
+        TRACES[0],
+        TRACES[1],
+        TRACES[2],
+        TRACES[3],
+        TRACES[4],
+    ];
     check_layout!(queues, QueueHeader as "QueueHeader" {
-        groups_x, groups_y, groups_z, capacity, round, listed, paused, unfinished, not_ready, spare,
-        cells_low, cells_high, entries_low, entries_high, tests_low, tests_high,
+        groups_x, groups_y, groups_z, capacity, round, listed, paused, unfinished, not_ready, selecting,
+        cells_low, cells_high, entries_low, entries_high, tests_low, tests_high, selected_x, selected_y,
+        selected_z, selected, takes,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {
         vertex_count, triangle_count, draw_count, outside, lower, upper,

@@ -108,7 +108,7 @@ fn render_waves(
         }
         let submitted = device
             .submit_passes(timing, |recorder| {
-                integrator.record_wave(recorder, built.structure.as_ref(), wave)
+                integrator.record_wave(recorder, built.structure.as_ref().into(), wave)
             })
             .map_err(device_error)?;
         submitted.value.map_err(device_error)?;
@@ -139,7 +139,7 @@ fn use_once(
     let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
     let submitted = device
-        .submit(|recorder| integrator.record_wave(recorder, built.structure.as_ref(), one))
+        .submit(|recorder| integrator.record_wave(recorder, built.structure.as_ref().into(), one))
         .map_err(device_error)?;
     submitted.value.map_err(device_error)?;
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
@@ -227,14 +227,14 @@ fn add_aovs(
     output: &mut RenderOutput,
 ) -> Result<(), AppError> {
     let pixels = job.frame.width * job.frame.height;
-    let capacity = rasray_integrators::WAVE_CAPACITY.min(pixels);
+    let capacity = rasray_integrators::wave_capacity(device).min(pixels);
     let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
     loop {
         device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
         for wave in waves(pixels, 1, capacity) {
             let wave = Wave { sample: 0, ..wave };
             let submitted = device
-                .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref(), wave))
+                .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref().into(), wave))
                 .map_err(device_error)?;
             submitted.value.map_err(device_error)?;
         }

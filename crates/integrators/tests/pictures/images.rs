@@ -171,7 +171,7 @@ fn pixel_centres_know_distance_normal_and_primitive() {
     device.submit(|recorder| aov.record_reset(recorder)).expect("the reset runs");
     for wave in waves(width * height, 1, 10) {
         let submitted = device
-            .submit(|recorder| aov.record_wave(recorder, &stage.structure, wave))
+            .submit(|recorder| aov.record_wave(recorder, (&stage.structure).into(), wave))
             .expect("the wave runs");
         submitted.value.expect("the wave can be recorded");
     }
@@ -280,7 +280,8 @@ fn what_does_not_fit_is_refused_before_anything_is_recorded() {
     let raycast = Raycast::new(&stage.desc_with(8, ShadingFeatures::ALL)).expect("valid");
     for (first_pixel, pixel_count) in [(0, 9), (0, 0), (12, 8)] {
         let wave = Wave { first_pixel, pixel_count, sample: 0 };
-        let recorded = device.submit(|recorder| raycast.record_wave(recorder, &stage.structure, wave));
+        let recorded =
+            device.submit(|recorder| raycast.record_wave(recorder, (&stage.structure).into(), wave));
         assert!(recorded.expect("nothing was recorded").value.is_err());
     }
     let other = Film::new(&device, 5, 4).expect("valid");

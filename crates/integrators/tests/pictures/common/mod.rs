@@ -123,7 +123,7 @@ impl Stage {
         for wave in waves(self.film.pixel_count(), samples, integrator.wave_capacity()) {
             let submitted = self
                 .device
-                .submit(|recorder| integrator.record_wave(recorder, &self.structure, wave))
+                .submit(|recorder| integrator.record_wave(recorder, (&self.structure).into(), wave))
                 .expect("the wave runs");
             submitted.value.expect("the wave can be recorded");
         }
