@@ -5,25 +5,14 @@
 #define ABUFFER_TRACE_GLSL
 
 #include "contract/stored_hit.glsl"
-#include "contract/trace_state.glsl"
+#include "contract/trace_functions.glsl"
 #include "contract/trace_log.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
 #include "abuffer/leap.glsl"
 #include "abuffer/listed.glsl"
 
-bool abuffer_finite(vec3 v) {
-    uvec3 bits = floatBitsToUint(v) & 0x7F800000u;
-    return all(notEqual(bits, uvec3(0x7F800000u)));
-}
-
 uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((ABUFFER_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
-    if (!abuffer_finite(ray.origin) || !abuffer_finite(ray.direction) || all(equal(ray.direction, vec3(0.0)))) {
-        return TRACE_MISS;
-    }
     bool ordered = ABUFFER_SORT != 0u && ABUFFER_HEADER(s).unsorted == 0u;
     precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
@@ -109,17 +98,18 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint abuffer_trace_closest(AbufferRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = abuffer_trace(s, ray, state, false);
-    hit = state.best;
-    if (ABUFFER_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), ABUFFER_PAYLOAD_WORDS));
-    }
-    return result;
+uint abuffer_status(AbufferRef s) {
+    return ABUFFER_HEADER(s).status;
 }
 
-uint abuffer_trace_occluded(AbufferRef s, Ray ray, inout TraceState state) {
-    return abuffer_trace(s, ray, state, true);
+Hit abuffer_hit(AbufferRef s, Hit best) {
+    Hit hit = best;
+    if (ABUFFER_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
+        stored_hit_name(hit, abuffer_data(s, floatBitsToUint(hit.a), ABUFFER_PAYLOAD_WORDS));
+    }
+    return hit;
 }
+
+TRACE_FUNCTIONS(AbufferRef, abuffer)
 
 #endif

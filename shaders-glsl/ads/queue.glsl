@@ -34,6 +34,7 @@ struct QueueHeader {
     uint selected_z;
     uint selected;        // slots selected when they were last taken
     uint takes;           // times they were taken; its parity says which list holds them
+    uint corrupted;       // list entries that named nothing, in the structure last traced since it was built
 };
 
 // One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words.

@@ -13,14 +13,11 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    Hit hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
+    Hit hit;
     TraceState state = trace_state_begin(ray);
     if (queue_header.round > 0u) {
         state = queue_states[slot];
     }
-    uint result = TRACE_MISS;
-    if (ray_is_valid(ray)) {
-        result = trace_closest(trace_structure, ray, state, hit);
-    }
+    uint result = trace_closest(trace_structure, ray, state, hit);
     trace_file(slot, result, state, hit);
 }

@@ -16,6 +16,7 @@
 #ifndef BRICKS_TRACE_GLSL
 #define BRICKS_TRACE_GLSL
 
+#include "contract/trace_functions.glsl"
 #include "bricks/cell.glsl"
 #include "bricks/cube.glsl"
 #include "ads/bounds_interval.glsl"
@@ -180,9 +181,6 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
 
 // The whole ray.
 uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((BRICK_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
     vec3 origin = ray.origin - BRICK_HEADER(s).centre;
     float reach = BRICK_HEADER(s).reach;
     float slack = hit_slack(origin, ray.direction, reach);
@@ -217,14 +215,14 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint brick_trace_closest(BrickRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = brick_trace(s, ray, state, false);
-    hit = state.best;
-    return result;
+uint brick_status(BrickRef s) {
+    return BRICK_HEADER(s).status;
 }
 
-uint brick_trace_occluded(BrickRef s, Ray ray, inout TraceState state) {
-    return brick_trace(s, ray, state, true);
+Hit brick_hit(BrickRef s, Hit best) {
+    return best;
 }
+
+TRACE_FUNCTIONS(BrickRef, brick)
 
 #endif

@@ -4,13 +4,13 @@
 #ifndef BRUTE_TRACE_GLSL
 #define BRUTE_TRACE_GLSL
 
-#include "contract/trace_state.glsl"
+#include "contract/trace_functions.glsl"
 #include "ads/judge.glsl"
 #include "brute/types.glsl"
 
 #define BRUTE_INFINITY uintBitsToFloat(0x7F800000u)
 
-uint brute_trace(Ray ray, inout TraceState state, bool any_hit) {
+uint brute_trace(BruteRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint count = geometry_triangle_count();
     uint begin = state.cursor[0];
     uint end = min(count, begin + work_budget);
@@ -28,14 +28,15 @@ uint brute_trace(Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint brute_trace_closest(BruteRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = brute_trace(ray, state, false);
-    hit = state.best;
-    return result;
+// There is nothing to build.
+uint brute_status(BruteRef s) {
+    return STATUS_COMPLETE;
 }
 
-uint brute_trace_occluded(BruteRef s, Ray ray, inout TraceState state) {
-    return brute_trace(ray, state, true);
+Hit brute_hit(BruteRef s, Hit best) {
+    return best;
 }
+
+TRACE_FUNCTIONS(BruteRef, brute)
 
 #endif

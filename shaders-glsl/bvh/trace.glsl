@@ -9,7 +9,7 @@
 #ifndef BVH_TRACE_GLSL
 #define BVH_TRACE_GLSL
 
-#include "contract/trace_state.glsl"
+#include "contract/trace_functions.glsl"
 #include "ads/judge.glsl"
 #include "bvh/accessors.glsl"
 #include "bvh/box.glsl"
@@ -24,9 +24,6 @@
 #define BVH_INFINITY uintBitsToFloat(0x7F800000u)
 
 uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((BVH_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
     uint child = BVH_HEADER(s).root;
     if (child == BVH_NONE) {
         return TRACE_MISS;
@@ -136,14 +133,14 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     return best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint bvh_trace_closest(BvhRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = bvh_trace(s, ray, state, false);
-    hit = state.best;
-    return result;
+uint bvh_status(BvhRef s) {
+    return BVH_HEADER(s).status;
 }
 
-uint bvh_trace_occluded(BvhRef s, Ray ray, inout TraceState state) {
-    return bvh_trace(s, ray, state, true);
+Hit bvh_hit(BvhRef s, Hit best) {
+    return best;
 }
+
+TRACE_FUNCTIONS(BvhRef, bvh)
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "contract/stored_hit.glsl"
 #include "contract/trace_log.glsl"
-#include "contract/trace_state.glsl"
+#include "contract/trace_functions.glsl"
 #include "ldc/pause.glsl"
 
 // The part of [t_min, t_max] in which the ray is inside the bounds of the geometry.
@@ -134,12 +134,6 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
 }
 
 uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((LDC_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
-    if (!ray_is_valid(ray)) {
-        return TRACE_MISS;
-    }
     bool ordered = LDC_HEADER(s).unsorted == 0u;
     LdcSizes sizes = ldc_sizes(s, ray);
     vec2 clip = ldc_clip(s, ray);
@@ -181,17 +175,18 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint ldc_trace_closest(LdcRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = ldc_trace(s, ray, state, false);
-    hit = state.best;
-    if (LDC_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, ldc_kept_id(s, floatBitsToUint(hit.a)));
-    }
-    return result;
+uint ldc_status(LdcRef s) {
+    return LDC_HEADER(s).status;
 }
 
-uint ldc_trace_occluded(LdcRef s, Ray ray, inout TraceState state) {
-    return ldc_trace(s, ray, state, true);
+Hit ldc_hit(LdcRef s, Hit best) {
+    Hit hit = best;
+    if (LDC_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
+        stored_hit_name(hit, ldc_kept_id(s, floatBitsToUint(hit.a)));
+    }
+    return hit;
 }
+
+TRACE_FUNCTIONS(LdcRef, ldc)
 
 #endif

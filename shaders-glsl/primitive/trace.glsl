@@ -6,6 +6,7 @@
 #ifndef PRIMITIVE_TRACE_GLSL
 #define PRIMITIVE_TRACE_GLSL
 
+#include "contract/trace_functions.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
 #include "primitive/leap.glsl"
@@ -56,9 +57,6 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
 }
 
 uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((PRIMITIVE_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
     vec3 origin = ray.origin - PRIMITIVE_HEADER(s).centre;
     vec3 direction = ray.direction;
     float reach = PRIMITIVE_HEADER(s).reach;
@@ -103,14 +101,14 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint primitive_trace_closest(PrimitiveRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = primitive_trace(s, ray, state, false);
-    hit = state.best;
-    return result;
+uint primitive_status(PrimitiveRef s) {
+    return PRIMITIVE_HEADER(s).status;
 }
 
-uint primitive_trace_occluded(PrimitiveRef s, Ray ray, inout TraceState state) {
-    return primitive_trace(s, ray, state, true);
+Hit primitive_hit(PrimitiveRef s, Hit best) {
+    return best;
 }
+
+TRACE_FUNCTIONS(PrimitiveRef, primitive)
 
 #endif

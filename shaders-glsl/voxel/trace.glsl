@@ -4,18 +4,13 @@
 #ifndef VOXEL_TRACE_GLSL
 #define VOXEL_TRACE_GLSL
 
+#include "contract/trace_functions.glsl"
 #include "contract/stored_hit.glsl"
 #include "voxel/search.glsl"
 #include "voxel/parity.glsl"
 
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
-    if ((VOXEL_HEADER(s).status & STATUS_COMPLETE) == 0u) {
-        return TRACE_NOT_READY;
-    }
     VoxelWalk walk;
-    if (!ray_is_valid(ray)) {
-        return TRACE_MISS;
-    }
     bool more = voxel_begin(s, ray, walk);
     if (!more) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
@@ -64,17 +59,18 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }
 
-uint voxel_trace_closest(VoxelRef s, Ray ray, inout TraceState state, out Hit hit) {
-    uint result = voxel_trace(s, ray, state, false);
-    hit = state.best;
-    if (VOXEL_IDS != 0u && result == TRACE_HIT && hit.primitive == PRIMITIVE_UNKNOWN) {
-        stored_hit_name(hit, voxel_word(s, floatBitsToUint(hit.a), 4u));
-    }
-    return result;
+uint voxel_status(VoxelRef s) {
+    return VOXEL_HEADER(s).status;
 }
 
-uint voxel_trace_occluded(VoxelRef s, Ray ray, inout TraceState state) {
-    return voxel_trace(s, ray, state, true);
+Hit voxel_hit(VoxelRef s, Hit best) {
+    Hit hit = best;
+    if (VOXEL_IDS != 0u && hit.primitive == PRIMITIVE_UNKNOWN) {
+        stored_hit_name(hit, voxel_word(s, floatBitsToUint(hit.a), 4u));
+    }
+    return hit;
 }
+
+TRACE_FUNCTIONS(VoxelRef, voxel)
 
 #endif

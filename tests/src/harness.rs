@@ -94,11 +94,11 @@ impl Bench {
         let viewpoint = viewpoint.into();
         structure.prepare_build(&self.device).expect("the device works");
         self.device
-            .submit(|recorder| structure.record_build(recorder, viewpoint))
+            .submit(|recorder| structure.record_build(recorder, 0, viewpoint))
             .expect("the device works")
             .value
             .expect("the header is written");
-        structure.status().expect("the header is readable")
+        structure.status(0).expect("the header is readable")
     }
 
     /// Builds and traces the nearest hits.
@@ -149,7 +149,9 @@ impl Bench {
         let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
         let surfaces =
             device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
-        assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+        let header = device.download_as(queue.header(), 0, 1).expect("the device works");
+        let counters = RayQueue::counters(&header[0]);
+        assert_eq!((counters.unfinished, counters.not_ready, counters.corrupted), (0, 0, 0));
         hits.into_iter().zip(surfaces).collect()
     }
 

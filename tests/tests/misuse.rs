@@ -2,8 +2,8 @@
 
 use ash::vk;
 use rasray_ads::{
-    Addressing, AdsError, Check, Domain, Draw, Geometry, GeometryDesc, Hit, Pools, Ray, RayQueue, Sizes,
-    TraceMode,
+    Addressing, AdsError, BuildStatus, Check, Domain, Draw, Geometry, GeometryDesc, Hit, Pools, Ray,
+    RayQueue, Sizes, TraceMode,
 };
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder, Timing};
 use rasray_systems::Spec;
@@ -61,7 +61,7 @@ fn structures_that_were_never_built_say_so() {
         for _ in 0..4 {
             dirty_memory(&bench);
             let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");
-            let status = structure.status().expect("the header is readable");
+            let status = structure.status(0).expect("the header is readable");
             assert!(!status.complete && status.outside == 0, "{}: {status:?}", subject.name());
             for mode in [TraceMode::Closest, TraceMode::Occluded] {
                 let outcome = tracer.trace(structure.as_ref(), &rays, mode, Timing::None);
@@ -77,7 +77,7 @@ fn structures_that_were_never_built_say_so() {
             dirty_memory(&bench);
             let sizes = structure.sizes().clone();
             structure.resize(device, &sizes).expect("it fits");
-            assert!(!structure.status().expect("the header is readable").complete, "{}", subject.name());
+            assert!(!structure.status(0).expect("the header is readable").complete, "{}", subject.name());
             let outcome = tracer.trace(structure.as_ref(), &rays, TraceMode::Closest, Timing::None);
             assert!(matches!(outcome, Err(TracerError::NotReady { rays: 5 })), "{}", subject.name());
         }
@@ -198,7 +198,8 @@ fn triangles_outside_of_the_stated_bounds_are_counted_and_no_build_is_complete()
     }
 }
 
-/// Each recording has its own header: the second one's eye is not the first one's.
+/// Each recording has its own header, and each slot keeps what its build asked for: the second one's are not the first
+/// one's.
 #[test]
 fn builds_that_wait_for_the_device_together_keep_their_eyes() {
     let bench = Bench::new();
@@ -211,11 +212,21 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         })
         .collect();
     let count = rays.len() as u32;
-    let mut differing = 0;
+    let (mut differing, mut statuses_differ) = (0, 0);
     for subject in Subject::all() {
         let mut structure = subject.spec.create(device, &geometry, None).expect("it can be made");
-        let expected = eyes.map(|eye| bench.build_and_trace(structure.as_mut(), eye, &rays));
-        // Both eyes need room in the same pools, which the builds above have made.
+        for eye in eyes {
+            // Pools grow for both.
+            build_until_complete(device, structure.as_mut(), eye, Timing::None).expect("it is built");
+        }
+        structure.set_slots(device, 3).expect("it fits");
+        assert_eq!(structure.slots(), 3);
+        let alone = eyes.map(|eye| {
+            let hits = bench.build_and_trace(structure.as_mut(), eye, &rays);
+            (hits, structure.status(0).expect("the header is readable"))
+        });
+        let expected = alone.each_ref().map(|(hits, _)| hits);
+        let statuses = alone.each_ref().map(|(_, status)| status);
         let queues = [(); 2].map(|()| {
             let queue = RayQueue::new(device, "rays", count, false).expect("it fits");
             device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
@@ -227,8 +238,8 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
             continue;
         }
         let submitted = device.submit(|recorder| {
-            for (eye, queue) in eyes.iter().zip(&queues) {
-                structure.record_build(recorder, (*eye).into())?;
+            for ((eye, queue), slot) in eyes.iter().zip(&queues).zip(1..) {
+                structure.record_build(recorder, slot, (*eye).into())?;
                 structure.record_trace(
                     recorder,
                     queue,
@@ -240,7 +251,25 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
             Ok::<_, AdsError>(())
         });
         submitted.expect("the device works").value.expect("it is recorded");
-        for (queue, expected) in queues.iter().zip(&expected) {
+        let found = [1, 2].map(|slot| structure.status(slot).expect("the header is readable"));
+        // What depends a little on which threads meet is compared where it does not.
+        for (found, expected) in found.iter().zip(statuses) {
+            assert!(found.complete && expected.complete, "{}", subject.name());
+            for (found, expected) in found.pools.iter().zip(&expected.pools) {
+                let tolerance = expected.demand / 8;
+                assert!(found.demand.abs_diff(expected.demand) <= tolerance, "{}: {found:?}", subject.name());
+            }
+        }
+        let demands = |status: &BuildStatus| status.pools.iter().map(|pool| pool.demand).collect::<Vec<_>>();
+        statuses_differ += usize::from(demands(&found[0]) != demands(&found[1]));
+        let depends = structure.depends_on();
+        let same = expected[0].iter().map(bits).eq(expected[1].iter().map(bits));
+        assert!(depends.eye || same, "{}: hits depend on the eye", subject.name());
+        let beyond = device.submit(|recorder| structure.record_build(recorder, 3, eyes[0].into()));
+        let beyond = beyond.expect("the device works").value.map(drop);
+        assert!(matches!(beyond, Err(AdsError::Slot { slot: 3, slots: 3, .. })), "{}", subject.name());
+        assert!(structure.status(3).is_err(), "{}", subject.name());
+        for (queue, expected) in queues.iter().zip(expected) {
             let found: Vec<Hit> = device.download_as(queue.hits(), 0, rays.len()).expect("the device works");
             let same = found.iter().zip(expected).all(|(found, expected)| bits(found) == bits(expected));
             assert!(same, "{}", subject.name());
@@ -248,6 +277,7 @@ fn builds_that_wait_for_the_device_together_keep_their_eyes() {
         differing += usize::from(expected[0].iter().map(bits).ne(expected[1].iter().map(bits)));
     }
     assert!(differing > 0, "no structure's hits depend on the eye: the test cannot fail");
+    assert!(statuses_differ > 0, "no structure's demand depends on the eye: the test cannot fail");
 }
 
 /// What was recorded for a host lives as long as the record of it, whatever happens to structure and queue.
@@ -276,7 +306,7 @@ fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
             raw.begin_command_buffer(commands[0], &vk::CommandBufferBeginInfo::default()).expect("begun");
             let mut recorder = Recorder::from_raw(device, commands[0]);
             rays_of.record_reset(&mut recorder);
-            structure.record_build(&mut recorder, [0.0; 3].into()).expect("it is recorded");
+            structure.record_build(&mut recorder, 0, [0.0; 3].into()).expect("it is recorded");
             structure.record_trace(
                 &mut recorder,
                 &rays_of,

@@ -1,9 +1,11 @@
 //! The A-buffer as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -138,6 +140,7 @@ impl Design for Build {
     const PREFIX: &'static str = "abuffer";
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -146,6 +149,10 @@ impl Design for Build {
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::Fragment }
+    }
+
+    fn depends_on(config: &Config) -> Dependencies {
+        Dependencies { eye: true, camera: config.views.has_camera() }
     }
 
     fn requirements(config: &Config) -> Requirements {

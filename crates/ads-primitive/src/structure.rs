@@ -1,9 +1,11 @@
 //! Primitive lists as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -80,6 +82,7 @@ impl Design for Passes {
     const PREFIX: &'static str = "primitive";
     const TITLE: &'static str = "the primitive lists";
     const BUILD_READS_SCENE: bool = false;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -88,6 +91,10 @@ impl Design for Passes {
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies { eye: true, camera: false }
     }
 
     fn requirements(config: &Config) -> Requirements {

@@ -4,8 +4,9 @@ use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
 use crate::design::default_work_budget;
 use crate::{
-    Addressing, AdsError, BuildStatus, Check, Counters, Domain, Geometry, Modules, RayQueue, SceneBinding,
-    Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
+    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
+    TraceMode, Viewpoint,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.
@@ -15,6 +16,7 @@ pub struct BruteForce {
     kernels: TraceKernels,
     sizes: Sizes,
     work_budget: u32,
+    slots: u32,
 }
 
 impl BruteForce {
@@ -42,7 +44,7 @@ impl BruteForce {
                 scene,
             },
         )?;
-        Ok(Self { geometry: geometry.clone(), kernels, sizes: Sizes::default(), work_budget })
+        Ok(Self { geometry: geometry.clone(), kernels, sizes: Sizes::default(), work_budget, slots: 1 })
     }
 }
 
@@ -80,11 +82,36 @@ impl Structure for BruteForce {
         Ok(())
     }
 
-    fn record_build(&mut self, _recorder: &mut Recorder<'_>, _viewpoint: Viewpoint) -> Result<(), AdsError> {
+    fn slots(&self) -> u32 {
+        self.slots
+    }
+
+    fn set_slots(&mut self, _device: &Device, slots: u32) -> Result<(), AdsError> {
+        self.slots = slots.max(1);
         Ok(())
     }
 
-    fn status(&self) -> Result<BuildStatus, GpuError> {
+    fn depends_on(&self) -> Dependencies {
+        Dependencies::default()
+    }
+
+    fn record_build(
+        &mut self,
+        _recorder: &mut Recorder<'_>,
+        slot: u32,
+        _viewpoint: Viewpoint,
+    ) -> Result<(), AdsError> {
+        if slot >= self.slots {
+            return Err(AdsError::Slot { structure: self.name(), slot, slots: self.slots });
+        }
+        Ok(())
+    }
+
+    fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
+        if slot >= self.slots {
+            let reason = format!("slot {slot} of {} was asked for", self.slots);
+            return Err(GpuError::InvalidUse { name: self.name().to_owned(), reason });
+        }
         Ok(BuildStatus { complete: true, ..BuildStatus::default() })
     }
 

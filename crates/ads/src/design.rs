@@ -7,8 +7,8 @@ use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Geometry, PoolName, Pools, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint,
+    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Dependencies, Geometry, PoolName, Pools,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
 /// What every configuration says.
@@ -106,12 +106,17 @@ pub trait Design: fmt::Debug + Sized {
     const TITLE: &'static str;
     /// Whether passes of the build read the scene.
     const BUILD_READS_SCENE: bool;
+    /// Byte of the header at which list entries that named nothing are counted.
+    const CORRUPTED: usize;
 
     /// What every configuration says.
     fn common(config: &Self::Config) -> Common;
 
     /// What its hits are.
     fn kind(config: &Self::Config) -> StructureKind;
+
+    /// What makes a build stale, beside the triangles.
+    fn depends_on(config: &Self::Config) -> Dependencies;
 
     /// What it needs of a device beside what its modules do.
     fn requirements(config: &Self::Config) -> Requirements;

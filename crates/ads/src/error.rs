@@ -9,6 +9,16 @@ pub enum AdsError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A build was recorded for a slot that there is not.
+    #[error("{structure}: slot {slot} of {slots} was asked for; `set_slots` says how many there are")]
+    Slot {
+        /// The structure.
+        structure: &'static str,
+        /// What was asked for, from 0.
+        slot: u32,
+        /// How many there are.
+        slots: u32,
+    },
     /// An option has a value outside its range.
     #[error("{option} is {value}: {expected}")]
     Option {

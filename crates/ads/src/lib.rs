@@ -57,8 +57,8 @@ pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{
-    BuildStatus, Check, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure, StructureKind,
-    StructureReport, TraceMode,
+    BuildStatus, Check, Dependencies, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure,
+    StructureKind, StructureReport, TraceMode,
 };
 pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 pub use viewpoint::{CameraView, Viewpoint};

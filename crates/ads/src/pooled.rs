@@ -1,13 +1,16 @@
 //! A structure of a header, pools and passes: what all of these do alike.
 
+use std::sync::{Mutex, PoisonError};
+
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::design::default_work_budget;
 use crate::{
-    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Design, Domain, Geometry,
-    InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue, SceneBinding,
-    Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc, TraceMode, Viewpoint,
+    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Dependencies, Design, Domain,
+    Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
+    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
+    TraceMode, Viewpoint,
 };
 
 /// A structure of a header, pools and the passes of its design.
@@ -18,6 +21,8 @@ pub struct Pooled<D: Design> {
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
+    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build.
+    known: Mutex<D::Header>,
 }
 
 fn modules<D: Design>(config: &D::Config) -> Modules {
@@ -67,6 +72,7 @@ impl<D: Design> Pooled<D> {
             parts: Parts { config, geometry: geometry.clone(), pools, work_budget },
             kernels,
             scene,
+            known: Mutex::new(bytemuck::Zeroable::zeroed()),
         })
     }
 
@@ -87,12 +93,22 @@ impl<D: Design> Pooled<D> {
         &self.parts.config
     }
 
-    /// The header as the last build or trace left it. The caller has waited for the submission.
+    /// The header as the last build of slot 0 left it. The caller has waited for the submission.
     ///
     /// # Errors
     /// Host-visible memory could not be read.
     pub fn header(&self) -> Result<D::Header, GpuError> {
-        self.parts.pools.header()
+        self.parts.pools.header(0)
+    }
+
+    /// The header that the host knows.
+    fn known(&self) -> D::Header {
+        *self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn forget(&mut self) {
+        self.known = Mutex::new(bytemuck::Zeroable::zeroed());
+        self.design.forget();
     }
 
     /// Downloads what rays read, for checks. Submits and waits: for tests and tools.
@@ -116,9 +132,7 @@ impl<D: Design> Pooled<D> {
     }
 
     fn first_rounds(&self) -> u32 {
-        // The header is in memory of the host, and zeros where that cannot be read.
-        let header = self.header().unwrap_or_else(|_| bytemuck::Zeroable::zeroed());
-        D::first_rounds(&self.parts, &header)
+        D::first_rounds(&self.parts, &self.known())
     }
 }
 
@@ -146,7 +160,7 @@ impl<D: Design> Structure for Pooled<D> {
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
         D::accepts(&self.parts.config, sizes)?;
         self.parts.pools.resize(device, sizes)?;
-        self.design.forget();
+        self.forget();
         Ok(())
     }
 
@@ -155,7 +169,7 @@ impl<D: Design> Structure for Pooled<D> {
             self.resize(device, &sizes)?;
         }
         self.parts.geometry = geometry.clone();
-        self.design.forget();
+        self.forget();
         Ok(())
     }
 
@@ -163,15 +177,33 @@ impl<D: Design> Structure for Pooled<D> {
         self.design.prepare(&mut self.parts, device)
     }
 
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError> {
+    fn slots(&self) -> u32 {
+        self.parts.pools.slots()
+    }
+
+    fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
+        self.parts.pools.set_slots(device, slots)
+    }
+
+    fn depends_on(&self) -> Dependencies {
+        D::depends_on(&self.parts.config)
+    }
+
+    fn record_build(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        slot: u32,
+        viewpoint: Viewpoint,
+    ) -> Result<(), AdsError> {
         let header = self.design.first_header(&self.parts, viewpoint)?;
-        self.parts.pools.set_header(&header);
+        self.parts.pools.begin(slot, &header)?;
         self.design.record_passes(recorder, &self.parts, self.scene.as_ref());
         Ok(())
     }
 
-    fn status(&self) -> Result<BuildStatus, GpuError> {
-        let header = self.header()?;
+    fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
+        let header = self.parts.pools.header(slot)?;
+        *self.known.lock().unwrap_or_else(PoisonError::into_inner) = header;
         let Outcome { status, unsorted, corrupted } = D::outcome(&header);
         let mut pools = Vec::new();
         let _ =
@@ -183,7 +215,7 @@ impl<D: Design> Structure for Pooled<D> {
             complete: status & STATUS_COMPLETE != 0,
             pools,
             unsorted: unsorted.into(),
-            outside: self.parts.pools.outside()?,
+            outside: self.parts.pools.outside(slot)?,
             corrupted: corrupted.into(),
         })
     }
@@ -224,7 +256,7 @@ impl<D: Design> Structure for Pooled<D> {
         rounds: u32,
     ) {
         let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_trace(recorder, &self.kernels, geometry, queue, domain, mode, rounds);
+        pools.record_trace(recorder, &self.kernels, geometry, queue, domain, mode, rounds, D::CORRUPTED);
     }
 
     fn record_surfaces(
@@ -234,7 +266,7 @@ impl<D: Design> Structure for Pooled<D> {
         domain: Domain,
     ) -> Result<(), AdsError> {
         let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_surfaces(recorder, &self.kernels, geometry, queue, domain)
+        pools.record_surfaces(recorder, &self.kernels, geometry, queue, domain, D::CORRUPTED)
     }
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
@@ -242,7 +274,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {
-        let header = self.header()?;
+        let header = self.known();
         let asked = self.design.asked(&self.parts, &header);
         let used = |size: &PoolSize| {
             let pool = D::Pool::ALL.iter().find(|pool| pool.name() == size.name);

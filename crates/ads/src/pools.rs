@@ -9,8 +9,8 @@ use rasray_gpu::{
 };
 
 use crate::{
-    Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, RayQueue, Sizes, TraceKernels,
-    TraceMode,
+    Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, QueueHeader, RayQueue, Sizes,
+    TraceKernels, TraceMode,
 };
 
 /// The header's name among the pools; it is the first.
@@ -32,8 +32,12 @@ pub struct Pools {
     sizes: Sizes,
     /// What the next build's header begins as.
     header: Vec<u8>,
-    /// The header as a build or a trace left it, and behind it [`Pools::outside`].
+    /// For each slot the header as its build left it, and behind it [`Pools::outside`]; once more for what no slot keeps.
     header_readback: Buffer,
+    /// Builds whose outcome is kept apart: frames that the device works on at a time.
+    slots: u32,
+    /// The slot of the build that is recorded.
+    slot: u32,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
     /// Rounds that were asked for beyond those that a trace has at first. Traces learn it, so it changes behind a
@@ -57,7 +61,7 @@ impl Pools {
             Addressing::Address => 0,
         };
         let layout = device.create_set_layout(structure, bindings)?;
-        Self::with_layout(device, structure, addressing, layout, sizes)
+        Self::with_layout(device, structure, addressing, layout, sizes, 1)
     }
 
     fn with_layout(
@@ -66,6 +70,7 @@ impl Pools {
         addressing: Addressing,
         layout: SetLayout,
         sizes: &Sizes,
+        slots: u32,
     ) -> Result<Self, AdsError> {
         // Headers may hold the arguments of dispatches.
         let usage = BufferUsage::STORAGE
@@ -76,9 +81,8 @@ impl Pools {
             device.create_buffer(&BufferDesc { name: &format!("{structure} {name}"), size, usage, location })
         };
         let header_bytes = bytes(sizes, HEADER);
+        let header_readback = readback(device, structure, header_bytes, slots)?;
         // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
-        let header_readback = buffer("header readback", header_bytes + 4, MemoryLocation::Readback)?;
-        header_readback.write(0, &vec![0; header_bytes as usize + 4])?;
         let mut pools =
             vec![device.create_buffer_of_zeros(&format!("{structure} {HEADER}"), usage, header_bytes)?];
         for pool in sizes.pools.iter().skip(1) {
@@ -99,6 +103,8 @@ impl Pools {
             sizes,
             header: vec![0; header_bytes as usize],
             header_readback,
+            slots,
+            slot: slots,
             pools,
             set,
             rounds: AtomicU32::new(0),
@@ -110,8 +116,38 @@ impl Pools {
     /// # Errors
     /// As for [`Pools::new`]; then the pools are as they were.
     pub fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        *self = Self::with_layout(device, self.structure, self.addressing, self.layout.clone(), sizes)?;
+        let layout = self.layout.clone();
+        *self = Self::with_layout(device, self.structure, self.addressing, layout, sizes, self.slots)?;
         Ok(())
+    }
+
+    /// Keeps the outcome of `slots` builds apart from now on, at least 1; what the last ones left is lost.
+    ///
+    /// # Errors
+    /// Out of memory; then all is as it was.
+    pub fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
+        self.header_readback = readback(device, self.structure, self.header.len() as u64, slots.max(1))?;
+        (self.slots, self.slot) = (slots.max(1), slots.max(1));
+        Ok(())
+    }
+
+    /// Builds whose outcome is kept apart.
+    pub fn slots(&self) -> u32 {
+        self.slots
+    }
+
+    /// Bytes of a slot's entry: header and count.
+    fn entry(&self) -> u64 {
+        entry_bytes(self.header.len() as u64)
+    }
+
+    /// Where the entry of a slot begins.
+    fn entry_of(&self, slot: u32) -> Result<u64, GpuError> {
+        if slot >= self.slots {
+            let reason = format!("slot {slot} of {} was asked for", self.slots);
+            return Err(GpuError::InvalidUse { name: self.structure.to_owned(), reason });
+        }
+        Ok(u64::from(slot) * self.entry())
     }
 
     /// Layout of the set; empty by address.
@@ -160,13 +196,30 @@ impl Pools {
         [address as u32, (address >> 32) as u32]
     }
 
-    /// Takes the header that the passes recorded next start from. Each recording has its own: builds that wait for
-    /// the device together do not share one.
+    /// Takes the header that the passes recorded next start from, and the slot that keeps their outcome. Each recording
+    /// has its own header: builds that wait for the device together do not share one.
+    ///
+    /// # Errors
+    /// There is no such slot.
     ///
     /// # Panics
     /// The header is not as long as its pool: a structure plans its own.
+    pub fn begin<H: NoUninit>(&mut self, slot: u32, header: &H) -> Result<(), AdsError> {
+        if slot >= self.slots {
+            return Err(AdsError::Slot { structure: self.structure, slot, slots: self.slots });
+        }
+        self.set_header(header);
+        self.slot = slot;
+        Ok(())
+    }
+
+    /// Takes the header that the passes recorded next start from, where nobody asks for their outcome.
+    ///
+    /// # Panics
+    /// The header is not as long as its pool.
     pub fn set_header<H: NoUninit>(&mut self, header: &H) {
         self.header.copy_from_slice(bytemuck::bytes_of(header));
+        self.slot = self.slots;
     }
 
     /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to `readers`.
@@ -183,7 +236,8 @@ impl Pools {
             let pool = self.pool(*pool);
             recorder.fill(pool, 0, pool.size(), 0);
         }
-        geometry.record_check(recorder, &self.header_readback, self.header.len() as u64);
+        let count = u64::from(self.slot) * self.entry() + self.header.len() as u64;
+        geometry.record_check(recorder, &self.header_readback, count);
         recorder.barrier(Access::TRANSFER_WRITE | Access::COMPUTE_WRITE, readers | Access::HOST_READ);
         self.keep(recorder);
     }
@@ -197,28 +251,31 @@ impl Pools {
         }
     }
 
-    /// Triangles that the last build found outside of their geometry's bounds, or with a vertex that there is not. The
-    /// caller has waited for the submission.
+    /// Triangles that the last build of a slot found outside of their geometry's bounds, or with a vertex that there is
+    /// not. The caller has waited for the submission.
     ///
     /// # Errors
-    /// Host-visible memory could not be read.
-    pub fn outside(&self) -> Result<u32, GpuError> {
-        Ok(pod_read_unaligned(&self.header_readback.read(self.header.len() as u64, 4)?))
+    /// There is no such slot, or host-visible memory could not be read.
+    pub fn outside(&self, slot: u32) -> Result<u32, GpuError> {
+        let count = self.entry_of(slot)? + self.header.len() as u64;
+        Ok(pod_read_unaligned(&self.header_readback.read(count, 4)?))
     }
 
     /// Records the copy of the header to the host, after compute shaders wrote it.
     pub fn record_readback(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
-        recorder.copy(&self.pools[0], 0, &self.header_readback, 0, self.pools[0].size());
+        let entry = u64::from(self.slot) * self.entry();
+        recorder.copy(&self.pools[0], 0, &self.header_readback, entry, self.pools[0].size());
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
-    /// The header as the last build or trace left it. The caller has waited for the submission.
+    /// The header as the last build of a slot left it, zeros before the first. The caller has waited for the submission.
     ///
     /// # Errors
-    /// Host-visible memory could not be read.
-    pub fn header<H: AnyBitPattern>(&self) -> Result<H, GpuError> {
-        Ok(pod_read_unaligned(&self.header_readback.read(0, size_of::<H>() as u64)?))
+    /// There is no such slot, or host-visible memory could not be read.
+    pub fn header<H: AnyBitPattern>(&self, slot: u32) -> Result<H, GpuError> {
+        let entry = self.entry_of(slot)?;
+        Ok(pod_read_unaligned(&self.header_readback.read(entry, size_of::<H>() as u64)?))
     }
 
     /// Downloads a pool in words. Submits and waits: for tests and tools.
@@ -270,8 +327,8 @@ impl Pools {
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace of the slots of `domain`. Traces count list entries that name nothing; the header is read
-    /// back after them, so that [`crate::Structure::status`] tells.
+    /// Records a trace of the slots of `domain`. Traces count list entries that name nothing in the word of the header at
+    /// byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -282,13 +339,21 @@ impl Pools {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
+        corrupted: usize,
     ) {
         self.keep(recorder);
         kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, domain, mode, rounds);
-        self.record_readback(recorder);
+        self.record_corrupted(recorder, queue, corrupted);
     }
 
-    /// Records the lookup of the surfaces of the slots of `domain`.
+    fn record_corrupted(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, corrupted: usize) {
+        let noted = std::mem::offset_of!(QueueHeader, corrupted) as u64;
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER);
+        recorder.copy(&self.pools[0], corrupted as u64, queue.header(), noted, 4);
+        recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);
+    }
+
+    /// Records the lookup of the surfaces of the slots of `domain`, as [`Pools::record_trace`].
     ///
     /// # Errors
     /// The kernels were made without a scene.
@@ -299,14 +364,34 @@ impl Pools {
         geometry: &Geometry,
         queue: &RayQueue,
         domain: Domain,
+        corrupted: usize,
     ) -> Result<(), AdsError> {
         self.keep(recorder);
         if kernels.record_surfaces(recorder, geometry, self.set(), self.address(), queue, domain) {
+            self.record_corrupted(recorder, queue, corrupted);
             Ok(())
         } else {
             Err(AdsError::NoScene { structure: self.structure })
         }
     }
+}
+
+/// Bytes of what a slot keeps of its build: the header, and the count of triangles outside.
+fn entry_bytes(header_bytes: u64) -> u64 {
+    header_bytes + 4
+}
+
+/// Zeros for the outcome of builds.
+fn readback(device: &Device, structure: &str, header_bytes: u64, slots: u32) -> Result<Buffer, AdsError> {
+    let size = entry_bytes(header_bytes) * (u64::from(slots) + 1);
+    let buffer = device.create_buffer(&BufferDesc {
+        name: &format!("{structure} header readback"),
+        size,
+        usage: BufferUsage::TRANSFER_DST,
+        location: MemoryLocation::Readback,
+    })?;
+    buffer.write(0, &vec![0; size as usize])?;
+    Ok(buffer)
 }
 
 fn bytes(sizes: &Sizes, name: &str) -> u64 {

@@ -72,6 +72,8 @@ pub struct QueueCounters {
     pub unfinished: u32,
     /// Rays that met an incomplete structure.
     pub not_ready: u32,
+    /// List entries that named nothing, met in the structure last traced since it was built; anything but 0 is a fault.
+    pub corrupted: u32,
     /// Cells stepped; zero unless counters are enabled.
     pub cells: u64,
     /// List entries read; zero unless counters are enabled.
@@ -287,6 +289,7 @@ impl RayQueue {
         QueueCounters {
             unfinished: header.unfinished,
             not_ready: header.not_ready,
+            corrupted: header.corrupted,
             cells: wide(header.cells_low, header.cells_high),
             entries: wide(header.entries_low, header.entries_high),
             tests: wide(header.tests_low, header.tests_high),

@@ -118,7 +118,8 @@ pub struct BuildStatus {
     /// Triangles with a corner outside of the bounds that their geometry states, or with a vertex that it does not have;
     /// with any of them the build is not complete.
     pub outside: u32,
-    /// List entries that named no node, met by the build and by traces since; anything but 0 is a fault.
+    /// List entries that named no node, met by the build; anything but 0 is a fault. What traces meet is in
+    /// [`crate::QueueCounters::corrupted`].
     pub corrupted: u64,
 }
 
@@ -221,9 +222,28 @@ pub struct InlineTrace<'a> {
     pub constants: Vec<(u32, u32)>,
 }
 
+/// What makes a build stale beside the triangles, which always do: where none of it changed, the last build is as good as
+/// a new one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dependencies {
+    /// Where the eye is.
+    pub eye: bool,
+    /// What the camera sees.
+    pub camera: bool,
+}
+
+impl Dependencies {
+    /// Whether a build as seen from `built` would be another one as seen from `wanted`.
+    pub fn are_stale(self, built: Viewpoint, wanted: Viewpoint) -> bool {
+        (self.eye && built.eye != wanted.eye) || (self.camera && built.camera != wanted.camera)
+    }
+}
+
 /// A structure that rays are traced through.
 ///
-/// One value is one set of buffers: for n frames in flight keep n values.
+/// One value is one set of pools, whose builds and traces follow each other on the device's queue. What the host reads of
+/// a build is kept once per slot ([`Structure::set_slots`]): a host that has n frames in flight records the build of
+/// frame k for slot k mod n, and reads the status of a slot after that frame's fence.
 pub trait Structure {
     /// Name, the same as in shaders, pages and reports.
     fn name(&self) -> &'static str;
@@ -263,17 +283,37 @@ pub trait Structure {
         Ok(())
     }
 
-    /// Records a build as seen from there. Structures without views ignore it.
-    ///
-    /// # Errors
-    /// Host-visible memory could not be written, or the structure has a view of the camera and there is none.
-    fn record_build(&mut self, recorder: &mut Recorder<'_>, viewpoint: Viewpoint) -> Result<(), AdsError>;
+    /// Builds whose outcome is kept apart; 1 unless [`Structure::set_slots`] was called.
+    fn slots(&self) -> u32;
 
-    /// Reads what the last build left behind. The caller has waited for the submission.
+    /// Keeps the outcome of so many builds apart from now on (at least 1): as many as there are frames in flight. What
+    /// earlier builds left for the host is lost; the pools stay as they are.
     ///
     /// # Errors
-    /// Host-visible memory could not be read.
-    fn status(&self) -> Result<BuildStatus, GpuError>;
+    /// Out of memory; then all is as it was.
+    fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError>;
+
+    /// What makes a build stale, beside the triangles.
+    fn depends_on(&self) -> Dependencies;
+
+    /// Records a build as seen from there, whose status is that of `slot` once the device is done. Structures without
+    /// views ignore the viewpoint.
+    ///
+    /// # Errors
+    /// There is no such slot ([`AdsError::Slot`]), or the structure has a view of the camera and there is none.
+    fn record_build(
+        &mut self,
+        recorder: &mut Recorder<'_>,
+        slot: u32,
+        viewpoint: Viewpoint,
+    ) -> Result<(), AdsError>;
+
+    /// Reads what the last build of a slot left behind; [`Structure::report`] and [`Structure::rounds`] are of this build
+    /// from then on. The caller has waited for the submission.
+    ///
+    /// # Errors
+    /// There is no such slot, or host-visible memory could not be read.
+    fn status(&self, slot: u32) -> Result<BuildStatus, GpuError>;
 
     /// Whether the build is complete, or the sizes it needs. What has to grow gets `headroom` percent more than was
     /// asked for, where there are indices for it: 0 for a scene that stands still; 50 where frames follow each other,
@@ -321,7 +361,7 @@ pub trait Structure {
         None
     }
 
-    /// Options, paths and bytes.
+    /// Options, paths and bytes, of the build whose status was last read.
     ///
     /// # Errors
     /// Host-visible memory could not be read.

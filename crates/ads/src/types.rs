@@ -239,4 +239,6 @@ pub struct QueueHeader {
     pub selected: u32,
     /// Times they were taken.
     pub takes: u32,
+    /// List entries that named nothing, in the structure last traced since it was built.
+    pub corrupted: u32,
 }

@@ -1,9 +1,11 @@
 //! Bricks as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::NEAR_BOX;
@@ -101,6 +103,7 @@ impl Design for Passes {
     const PREFIX: &'static str = "bricks";
     const TITLE: &'static str = "the bricks";
     const BUILD_READS_SCENE: bool = false;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -109,6 +112,10 @@ impl Design for Passes {
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies { eye: true, camera: false }
     }
 
     fn requirements(config: &Config) -> Requirements {

@@ -143,7 +143,7 @@ unsafe fn hits(
         device.begin_command_buffer(commands[0], &vk::CommandBufferBeginInfo::default())?;
         let mut recorder = Recorder::from_raw(adopted, commands[0]);
         queued.record_reset(&mut recorder);
-        structure.record_build(&mut recorder, [0.0; 3].into())?;
+        structure.record_build(&mut recorder, 0, [0.0; 3].into())?;
         let (count, rounds) = (rays.len() as u32, structure.rounds());
         structure.record_trace(&mut recorder, &queued, Domain::First(count), TraceMode::Closest, rounds);
         let recorded = recorder.finish()?;
@@ -153,6 +153,6 @@ unsafe fn hits(
         device.queue_wait_idle(queue)?;
         drop(recorded);
     }
-    assert!(structure.status()?.complete);
+    assert!(structure.status(0)?.complete);
     Ok(adopted.download_as(queued.hits(), 0, rays.len())?)
 }

@@ -1,9 +1,11 @@
 //! The BVH as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
@@ -135,6 +137,7 @@ impl Design for Tree {
     const PREFIX: &'static str = NAME;
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -143,6 +146,10 @@ impl Design for Tree {
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies::default()
     }
 
     fn requirements(_config: &Config) -> Requirements {

@@ -1,9 +1,11 @@
 //! The layered depth cube as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
@@ -77,6 +79,7 @@ impl Design for Build {
     const PREFIX: &'static str = "ldc";
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -85,6 +88,10 @@ impl Design for Build {
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Fragment
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies::default()
     }
 
     fn requirements(config: &Config) -> Requirements {

@@ -110,9 +110,9 @@ impl BatchTracer {
         if outcome.counters.not_ready > 0 {
             return Err(TracerError::NotReady { rays: outcome.counters.not_ready });
         }
-        let entries = structure.status()?.corrupted;
+        let entries = outcome.counters.corrupted;
         if entries > 0 {
-            return Err(TracerError::Corrupted { structure: structure.name(), entries });
+            return Err(TracerError::Corrupted { structure: structure.name(), entries: entries.into() });
         }
         Ok(outcome)
     }

@@ -44,11 +44,11 @@ pub fn build_until_complete(
         structure.prepare_build(device)?;
         outcome.prepare_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         let submitted =
-            device.submit_passes(timing, |recorder| structure.record_build(recorder, viewpoint))?;
+            device.submit_passes(timing, |recorder| structure.record_build(recorder, 0, viewpoint))?;
         submitted.value?;
         outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         outcome.passes = submitted.passes;
-        outcome.status = structure.status()?;
+        outcome.status = structure.status(0)?;
         match structure.check(&outcome.status, 0)? {
             Check::Complete if outcome.status.complete => return Ok(outcome),
             Check::Grow(sizes) if outcome.regrows < REBUILDS => {

@@ -142,7 +142,7 @@ unsafe fn hits(
             device.begin_command_buffer(commands[0], &vk::CommandBufferBeginInfo::default())?;
             let mut recorder = Recorder::from_raw(adopted, commands[0]);
             queued.record_reset(&mut recorder);
-            structure.record_build(&mut recorder, [0.5, 0.5, -0.5].into())?;
+            structure.record_build(&mut recorder, 0, [0.5, 0.5, -0.5].into())?;
             structure.record_trace(
                 &mut recorder,
                 &queued,
@@ -157,7 +157,7 @@ unsafe fn hits(
             device.queue_wait_idle(queue)?;
             drop(recorded);
         }
-        match structure.check(&structure.status()?, 0)? {
+        match structure.check(&structure.status(0)?, 0)? {
             Check::Complete => return Ok(adopted.download_as(queued.hits(), 0, rays.len())?),
             Check::Grow(sizes) => structure.resize(adopted, &sizes)?,
         }

@@ -1,9 +1,11 @@
 //! Voxels with axis A-buffers as a structure.
 
+use std::mem::offset_of;
+
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -68,6 +70,7 @@ impl Design for Build {
     const PREFIX: &'static str = "voxel";
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -79,6 +82,10 @@ impl Design for Build {
             Coverage::Conservative => StructureKind::Primitive,
             Coverage::Exact | Coverage::Hardware => StructureKind::Fragment,
         }
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies::default()
     }
 
     fn requirements(config: &Config) -> Requirements {

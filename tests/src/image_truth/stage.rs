@@ -162,7 +162,8 @@ impl<'a> Stage<'a> {
         for queue in integrator.queues() {
             let header = device.download_as(queue.header(), 0, 1).expect("the device works");
             let counters = RayQueue::counters(&header[0]);
-            assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "rays are left over");
+            let faults = (counters.unfinished, counters.not_ready, counters.corrupted);
+            assert_eq!(faults, (0, 0, 0), "rays are left over");
         }
         Picture {
             pixels: self.film.read(device).expect("the film is readable"),

@@ -119,7 +119,7 @@ impl Subject {
             |mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish").hits;
         let closest = trace(TraceMode::Closest);
         let occluded = trace(TraceMode::Occluded);
-        assert_eq!(structure.status().expect("the status is readable").corrupted, 0, "{}", self.name());
+        assert_eq!(structure.status(0).expect("the status is readable").corrupted, 0, "{}", self.name());
         let key = |hit: &Hit| match self.kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => {
                 [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]

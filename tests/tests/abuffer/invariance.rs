@@ -130,7 +130,7 @@ fn answers(bench: &Bench, config: Config, triangles: &[Triangle], rays: &[Ray]) 
     let (occluders, counters) =
         trace_in_rounds(bench, &structure, rays, TraceMode::Occluded, rounds(&config));
     assert_eq!((counters.unfinished, counters.not_ready), (0, 0), "{config:?}");
-    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+    assert_eq!(structure.status(0).expect("the header is readable").corrupted, 0);
     Answers {
         closest: hits.iter().map(|hit| key(&config, hit)).collect(),
         occluded: occluders.iter().map(Hit::is_hit).collect(),

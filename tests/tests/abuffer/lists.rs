@@ -80,7 +80,7 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     configs.push(Config { storage: Storage::Sb, inline: true, ..Config::robust(16) });
     for config in configs {
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
-        let status = structure.status().expect("the header is readable");
+        let status = structure.status(0).expect("the header is readable");
         assert_eq!((status.unsorted, status.corrupted), (0, 0), "{config:?}: {status:?}");
         let contents = structure.download(bench.device()).expect("the device works");
         let report = structure.report().expect("the header is readable");
@@ -130,7 +130,7 @@ fn a_list_beyond_the_limit_is_counted_and_searched_in_full() {
     let expected = brute_force(&bench, &triangles, &rays);
     let config = Config { storage: Storage::Ll, ..Config::robust(16) };
     let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
-    let status = structure.status().expect("the header is readable");
+    let status = structure.status(0).expect("the header is readable");
     assert_eq!((status.unsorted, status.corrupted), (1, 0), "{status:?}");
     let hits = bench.trace(&structure, &rays).hits;
     for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {

@@ -70,7 +70,7 @@ fn traced(bench: &Bench, structure: &mut dyn Structure, rays: &[Ray], rounds: u3
         hits
     };
     let (closest, occluded) = (of(TraceMode::Closest), of(TraceMode::Occluded));
-    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
+    assert_eq!(structure.status(0).expect("the header is readable").corrupted, 0);
     Answers {
         closest: closest.iter().map(bits).collect(),
         occluded: occluded.iter().map(Hit::is_hit).collect(),

@@ -190,13 +190,13 @@ fn a_tree_of_the_host_is_asked_for_and_serves_one_build() {
     let geometry = bench.geometry(&scattered(20, 11, 0.2));
     let mut bvh = Bvh::new(bench.device(), Config::new(Builder::Sah), &geometry, None).expect("valid");
     for _ in 0..2 {
-        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, [0.0; 3].into()));
+        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, 0, [0.0; 3].into()));
         let error = recorded.expect("the device works").value.expect_err("nothing was prepared");
         assert!(error.to_string().contains("prepare_build"), "{error}");
         bvh.prepare_build(bench.device()).expect("the device works");
-        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, [0.0; 3].into()));
+        let recorded = bench.device().submit(|recorder| bvh.record_build(recorder, 0, [0.0; 3].into()));
         recorded.expect("the device works").value.expect("it was prepared");
-        assert!(bvh.status().expect("readable").complete);
+        assert!(bvh.status(0).expect("readable").complete);
     }
 }
 

@@ -274,7 +274,7 @@ fn a_structure_that_logs_nothing_says_so() {
     // One whose build ran out of room gives no answer and says why.
     let config = Config { counters: Counters::Steps, fragments: Some(0), ..Config::robust(RESOLUTION) };
     let mut cramped = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    let recorded = bench.device().submit(|recorder| cramped.record_build(recorder, EYE.into()));
+    let recorded = bench.device().submit(|recorder| cramped.record_build(recorder, 0, EYE.into()));
     recorded.expect("the device works").value.expect("the build is recorded");
     let replay = tracer(&bench).replay(&cramped, &ray, TraceMode::Closest).expect("it logs");
     assert_eq!(replay.hit, None);

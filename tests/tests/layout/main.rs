@@ -59,7 +59,7 @@ fn records_of_queues_and_geometry() {
     check_layout!(queues, QueueHeader as "QueueHeader" {
         groups_x, groups_y, groups_z, capacity, round, listed, paused, unfinished, not_ready, selecting,
         cells_low, cells_high, entries_low, entries_high, tests_low, tests_high, selected_x, selected_y,
-        selected_z, selected, takes,
+        selected_z, selected, takes, corrupted,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {
         vertex_count, triangle_count, draw_count, outside, lower, upper,

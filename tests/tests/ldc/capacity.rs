@@ -157,7 +157,7 @@ fn bytes_are_those_of_the_formula() {
         let mut structure = made(&bench, config, &triangles);
         structure.resize(bench.device(), &plan(&config, room(0, 0)).expect("in range")).expect("it fits");
         build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
-        let status = structure.status().expect("the header is readable");
+        let status = structure.status(0).expect("the header is readable");
         let report = structure.report().expect("the header is readable");
         let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
         let formula = formula_bytes(&config, room(fragments, fringe));

@@ -198,7 +198,7 @@ fn a_deep_cell_finds_every_layer() {
         for bits in [Depth::Bits32, Depth::Bits16] {
             let config = Config { coverage: Coverage::Exact, depth: bits, ..Config::robust(8) };
             let structure = made(&bench, config, &triangles);
-            let status = structure.status().expect("the header is readable");
+            let status = structure.status(0).expect("the header is readable");
             assert_eq!((status.unsorted, status.corrupted), (0, 0), "{status:?}");
             assert_eq!(status.demand("long") > Some(0), is_long, "{status:?}");
             let contents = structure.download(bench.device()).expect("the device works");

@@ -43,7 +43,6 @@ fn images(bench: &Bench, scene: &GpuScene, spec: &Spec) -> (StructureKind, [Vec<
         rendered(bench, &occlusion, &film, SAMPLES, structure.as_mut()),
         rendered(bench, &path, &film, SAMPLES, structure.as_mut()),
     ];
-    assert_eq!(structure.status().expect("the header is readable").corrupted, 0);
     (structure.kind(), found)
 }
 

@@ -239,7 +239,7 @@ fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
                 for (ray, occluded) in bench.occluded(&structure, &rays).into_iter().enumerate() {
                     assert_eq!(occluded, expected[ray].is_hit(), "{what}, {config:?}: {:?}", rays[ray]);
                 }
-                assert_eq!(structure.status().expect("the header is readable").corrupted, 0, "{what}");
+                assert_eq!(structure.status(0).expect("the header is readable").corrupted, 0, "{what}");
             }
         }
     }

@@ -108,7 +108,7 @@ fn assert_exact(what: &str, bench: &Bench, structure: &dyn Structure, rays: &[Ra
     for (ray, occluded) in bench.occluded(structure, rays).into_iter().enumerate() {
         assert_eq!(occluded, expected[ray].is_hit(), "{what}: {:?}", rays[ray]);
     }
-    assert_eq!(structure.status().expect("the header is readable").corrupted, 0, "{what}");
+    assert_eq!(structure.status(0).expect("the header is readable").corrupted, 0, "{what}");
 }
 
 #[test]
@@ -302,7 +302,7 @@ fn triangles_around_the_eye_are_found() {
         assert!(expected.iter().filter(|hit| hit.primitive as usize >= triangles.len() - 200).count() > 200);
         for made in all(64) {
             let structure = made.built(&bench, &triangles, eye);
-            let status = structure.status().expect("the header is readable");
+            let status = structure.status(0).expect("the header is readable");
             let near = status.demand("near").expect("the pool is counted") as usize;
             let right =
                 if made.has_near_list() { near > 20 && near < triangles.len() / 2 } else { near == 0 };

@@ -23,7 +23,7 @@ fn built(bench: &Bench, structure: &mut dyn Structure, name: &str) -> (Vec<[u32;
     let report = structure.report().expect("the header is readable");
     assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{name}");
     let hits = bench.trace(structure, &rays()).hits.iter().map(bits).collect();
-    let status = structure.status().expect("the header is readable");
+    let status = structure.status(0).expect("the header is readable");
     (hits, status.demand("pairs").expect("the pool has a status"))
 }
 

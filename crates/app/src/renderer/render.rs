@@ -71,13 +71,7 @@ pub(super) fn render_pixels(
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
-    let corrupted = built.structure.status().map_err(device_error)?.corrupted;
-    if corrupted > 0 {
-        return Err(tracer_error(&TracerError::Corrupted {
-            structure: built.structure.name(),
-            entries: corrupted,
-        }));
-    }
+    refuse_corrupted(device, built, &integrator.queues())?;
     let mut counters = built.counters()?;
     counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
     let beauty = film.read(device).map_err(device_error)?;
@@ -144,6 +138,19 @@ fn use_once(
     submitted.value.map_err(device_error)?;
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
     Ok(started.elapsed().as_secs_f64() * 1.0e3)
+}
+
+/// Refuses a picture whose rays met list entries that name nothing.
+fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), AppError> {
+    for queue in queues {
+        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
+        let entries = header.first().map(RayQueue::counters).unwrap_or_default().corrupted;
+        if entries > 0 {
+            let structure = built.structure.name();
+            return Err(tracer_error(&TracerError::Corrupted { structure, entries: entries.into() }));
+        }
+    }
+    Ok(())
 }
 
 /// Rays without an answer in any queue; rays that met an unbuilt structure count as well.

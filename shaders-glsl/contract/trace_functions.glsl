@@ -1,0 +1,35 @@
+// What: the contract's trace functions of a structure, around what it says itself: a ray that asks nothing is a miss, and
+// a structure that is not complete gives no answer, in queues and in shaders of a host alike.
+// Reads, writes: see the structure.
+#ifndef CONTRACT_TRACE_FUNCTIONS_GLSL
+#define CONTRACT_TRACE_FUNCTIONS_GLSL
+
+#include "contract/trace_state.glsl"
+
+// Defines <prefix>_trace_closest and <prefix>_trace_occluded from
+//     uint <prefix>_status(Ref s)                                                       bits STATUS_* of the last build
+//     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)         TRACE_*
+//     Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that a best one stands for
+#define TRACE_FUNCTIONS(Ref, prefix) \
+    uint prefix##_trace_checked(Ref s, Ray ray, inout TraceState state, bool any_hit) { \
+        if (!ray_is_valid(ray)) { \
+            return TRACE_MISS; \
+        } \
+        if ((prefix##_status(s) & STATUS_COMPLETE) == 0u) { \
+            return TRACE_NOT_READY; \
+        } \
+        return prefix##_trace(s, ray, state, any_hit); \
+    } \
+    uint prefix##_trace_closest(Ref s, Ray ray, inout TraceState state, out Hit hit) { \
+        uint result = prefix##_trace_checked(s, ray, state, false); \
+        hit = state.best; \
+        if (result == TRACE_HIT) { \
+            hit = prefix##_hit(s, hit); \
+        } \
+        return result; \
+    } \
+    uint prefix##_trace_occluded(Ref s, Ray ray, inout TraceState state) { \
+        return prefix##_trace_checked(s, ray, state, true); \
+    }
+
+#endif
