@@ -6,7 +6,7 @@ use crate::systems::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
 use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
-use rasray_report_html::figures::Figures;
+use rasray_report::figures::Figures;
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;

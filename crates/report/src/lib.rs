@@ -1,6 +1,7 @@
 //! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write.
 
 mod accuracy;
+pub mod figures;
 mod schema;
 #[cfg(test)]
 mod tests;

@@ -15,8 +15,8 @@ use crate::systems;
 use crate::terminal::{self, Talk};
 use crate::texels;
 use rasray_ray_files::{load_hits, load_rays};
+use rasray_report::figures::Figures;
 use rasray_report::json_shown;
-use rasray_report_html::figures::Figures;
 use std::ffi::OsStr;
 
 /// Rays per set unless told.

@@ -11,7 +11,7 @@ use super::stage::{Built, device_error};
 use crate::backend::{Comparison, Frame, Integrator, OnProgress};
 use crate::error::AppError;
 use crate::report::{ImageError, Run};
-use rasray_report_html::figures::{Images, SystemImage};
+use rasray_report::figures::{Images, SystemImage};
 
 /// The reference image of a frame; absent for integrators that it does not have.
 fn reference_image(scene: &PosedScene<'_>, view: &View, frame: &Frame) -> Result<Option<Image>, AppError> {

@@ -7,7 +7,7 @@ use rasray_reference::oracle::Verdict;
 use super::stage::device_error;
 use crate::error::AppError;
 use crate::report::Accuracy;
-use rasray_report_html::figures::DepthErrors;
+use rasray_report::figures::DepthErrors;
 
 /// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
 const FRAGMENT_TOLERANCE: f64 = 1.0e-5;

@@ -10,7 +10,7 @@ use super::rays::RaySource;
 use super::stage::{Built, Stage, tracer_error};
 use crate::error::AppError;
 use crate::report::Run;
-use rasray_report_html::figures::WorkMap;
+use rasray_report::figures::WorkMap;
 
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;

@@ -1,6 +1,6 @@
 //! What a page shows and the JSON leaves out: images, and the work of single rays.
 
-/// Pictures and maps of a comparison; `run` is always a position in [`rasray_report::Report::runs`].
+/// Pictures and maps of a comparison; `run` is always a position in [`crate::Report::runs`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figures {
     /// The reference and the systems' images; absent unless images were compared.
