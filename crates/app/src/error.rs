@@ -1,6 +1,7 @@
 //! Everything that ends the command early, with its exit code.
 
-use crate::terminal::one_line;
+use rasray_experiment::ExperimentError;
+use rasray_report::one_line;
 use rasray_scene::SceneError;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -76,6 +77,17 @@ pub enum AppError {
         /// What to do.
         help: String,
     },
+}
+
+impl From<ExperimentError> for AppError {
+    fn from(error: ExperimentError) -> Self {
+        let help = error.help().to_owned();
+        match error {
+            ExperimentError::Usage { message, .. } => Self::Usage { message, help },
+            ExperimentError::Refused { message, .. } => Self::Refused { message, help },
+            error => Self::Device { message: error.to_string(), help },
+        }
+    }
 }
 
 impl From<rasray_ray_files::FileError> for AppError {

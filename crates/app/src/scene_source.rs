@@ -4,7 +4,7 @@ use crate::arguments::SceneArguments;
 use crate::arguments::values::Switch;
 use crate::environment;
 use crate::error::AppError;
-use crate::report::{SceneRecord, SmallerImageRecord};
+use rasray_report::{SceneRecord, SmallerImageRecord};
 use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;

@@ -1,11 +1,11 @@
 //! Images that are made smaller because a device does not hold the texels of all.
 
-use crate::backend::TexelRoom;
 use crate::error::AppError;
-use crate::report::{SmallerImageRecord, bytes};
 use crate::scene_source::LoadedScene;
 use crate::terminal;
+use rasray_experiment::TexelRoom;
 use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
+use rasray_report::{SmallerImageRecord, bytes};
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
 

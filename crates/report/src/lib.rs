@@ -14,7 +14,7 @@ pub use schema::{
     Spread, Statistics, Timer, Times,
 };
 
-pub use text::{in_line, json_shown, shown, shown_but};
+pub use text::{in_line, json_shown, one_line, shown, shown_but};
 pub use words::{bytes, columns, grouped};
 
 use rasray_metrics::confidence_of_each;

@@ -3,18 +3,18 @@
 use super::{
     check_whole, destination, hard, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
 };
-use crate::arguments::CompareArguments;
-use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
+use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::output::{self, SaveTargets};
 use crate::progress::during;
-use crate::report::{Report, markdown, origin, table};
-use crate::systems;
+use crate::report::{markdown, origin, table};
 use crate::terminal::{self, Talk};
 use crate::texels;
+use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
 use rasray_ray_files::{load_hits, load_rays};
+use rasray_report::Report;
 use rasray_report::figures::Figures;
 use rasray_report::json_shown;
 use std::ffi::OsStr;
@@ -47,7 +47,7 @@ pub(crate) fn compare(
         ));
     }
     let frame = given.frame.frame()?;
-    let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
+    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
     let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;

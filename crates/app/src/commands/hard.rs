@@ -2,16 +2,17 @@
 
 use super::compare::Targets;
 use super::{check_whole, open_device, stop_if_requested, with_progress};
-use crate::arguments::CompareArguments;
-use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
+use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{HardRecord, Report, Run, SceneRecord, columns, origin, table};
-use crate::systems::{self, SystemConfig};
+use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
+use rasray_experiment::SystemConfig;
+use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend};
 use rasray_hard_cases::{HardFile, Loading, Scale};
 use rasray_ray_files::{HitsFile, load_hits};
+use rasray_report::{HardRecord, Report, Run, SceneRecord, columns};
 use rasray_scene::LoadOptions;
 use std::ffi::OsStr;
 
@@ -40,7 +41,7 @@ pub(super) fn compare(
 ) -> Result<(), AppError> {
     let ids = ids(id)?;
     refuse_options_of_scenes(given)?;
-    let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
+    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
     let mut backend = open_device(open, &given.device)?;

@@ -12,35 +12,18 @@ pub(crate) use info::info;
 pub(crate) use render::render;
 
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
-use crate::backend::{Backend, Frame, Integrator, OpenBackend, Progress};
 use crate::camera::{self, Chosen};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
-use crate::report::Run;
 use crate::scene_source::{self, LoadedScene};
 use crate::terminal;
+use rasray_experiment::{Backend, ExperimentError, OpenBackend, Progress};
+use rasray_report::Run;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
-
-/// The name of an integrator in reports and images.
-pub(crate) fn integrator_name(frame: &Frame) -> &'static str {
-    match frame.integrator {
-        Integrator::Path { .. } => "path",
-        Integrator::AmbientOcclusion { .. } => "ao",
-        Integrator::Raycast => "raycast",
-    }
-}
-
-/// Bounces, where the integrator has them.
-pub(crate) fn bounces(frame: &Frame) -> Option<u32> {
-    match frame.integrator {
-        Integrator::Path { bounces } => Some(bounces),
-        _ => None,
-    }
-}
 
 /// Checks the place of an output that was asked for.
 fn destination(path: Option<&Path>) -> Result<Option<Destination>, AppError> {
@@ -61,7 +44,7 @@ fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Res
 
 /// Opens the wanted device.
 fn open_device(open: &mut OpenBackend<'_>, given: &DeviceArguments) -> Result<Box<dyn Backend>, AppError> {
-    during("device", "opening", || open(&given.choice()))
+    during("device", "opening", || Ok(open(&given.choice())?))
 }
 
 /// Reads a scene as the command line asks and chooses the camera; warns of what was left out of it.
@@ -81,7 +64,7 @@ fn read_scene(
 fn with_progress<T>(
     interrupt: &Interrupt,
     is_kept: impl Fn(&Progress<'_>) -> bool,
-    work: impl FnOnce(&mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> Result<T, AppError>,
+    work: impl FnOnce(&mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> Result<T, ExperimentError>,
 ) -> Result<T, AppError> {
     let mut line = ProgressLine::new();
     let result = work(&mut |progress| {
@@ -93,7 +76,7 @@ fn with_progress<T>(
     });
     interrupt.keep();
     line.finish();
-    result
+    Ok(result?)
 }
 
 /// Stops before anything is begun, if a signal asked for it.

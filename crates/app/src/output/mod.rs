@@ -12,8 +12,8 @@ pub use levels::hint;
 pub use png::encode as encode_png;
 pub(crate) use save_rays::{SaveTargets, save};
 
-use crate::backend::{AovSelection, RenderOutput};
 use crate::error::AppError;
+use rasray_experiment::{AovSelection, RenderOutput};
 use std::path::Path;
 
 /// How an image is stored.

@@ -5,10 +5,10 @@ mod scene;
 mod texels;
 
 use crate::arguments::InfoArguments;
-use crate::backend::{Frame, OpenBackend, Sampler};
 use crate::error::AppError;
 use crate::progress::during;
 use crate::{camera, scene_source, terminal};
+use rasray_experiment::{Frame, OpenBackend, Sampler};
 use rasray_report::json_shown;
 use serde_json::Value;
 

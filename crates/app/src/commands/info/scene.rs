@@ -2,14 +2,14 @@
 
 use super::pair;
 use super::texels::TexelInfo;
-use crate::backend::{Frame, TexelRoom};
-use crate::camera::{Chosen, described};
-use crate::commands::integrator_name;
+use crate::camera::Chosen;
 use crate::error::AppError;
-use crate::report::{CameraRecord, bytes, columns, grouped};
+use crate::report::described;
 use crate::scene_source::LoadedScene;
 use glam::DVec3;
+use rasray_experiment::{Frame, TexelRoom};
 use rasray_report::in_line;
+use rasray_report::{CameraRecord, bytes, columns, grouped};
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Environment, Scene, default_view};
@@ -60,7 +60,7 @@ impl SceneInfo {
             sha256: loaded.sha256.clone(),
             cameras: scene.cameras.iter().enumerate().map(camera).collect(),
             view: view.record(),
-            integrator: integrator_name(frame),
+            integrator: frame.integrator.name(),
             needs,
             texels,
         })

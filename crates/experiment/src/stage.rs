@@ -13,18 +13,18 @@ use rasray_systems::{Spec, SystemsError};
 use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
 use serde_json::Value;
 
-use super::passes::{Passes, median, spread};
-use crate::backend::{Frame, Sampler};
-use crate::error::AppError;
-use crate::report::{Counters, Memory, Spread, Times};
+use crate::error::ExperimentError;
+use crate::jobs::{Frame, Sampler};
+use crate::passes::{Passes, median, spread};
+use rasray_report::{Counters, Memory, Spread, Times};
 
 /// What a device error is about.
-pub(super) fn device_error(error: impl std::fmt::Display) -> AppError {
-    AppError::device(error, "try a smaller --resolution or --size, or another --device")
+pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
+    ExperimentError::device(error, "try a smaller --resolution or --size, or another --device")
 }
 
 /// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
-fn scene_error(error: GpuSceneError) -> AppError {
+fn scene_error(error: GpuSceneError) -> ExperimentError {
     let message = match &error {
         GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
@@ -36,19 +36,19 @@ fn scene_error(error: GpuSceneError) -> AppError {
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => error.to_string(),
         _ => return device_error(error),
     };
-    AppError::device(
+    ExperimentError::device(
         message,
         "try a scene with fewer triangles and images, a smaller map for --environment, or another --device",
     )
 }
 
 /// A failed build or trace: lost rays are refused, everything else is the device's.
-pub(super) fn tracer_error(error: &TracerError) -> AppError {
+pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
     match error {
         TracerError::Unfinished { .. }
         | TracerError::NotReady { .. }
         | TracerError::Corrupted { .. }
-        | TracerError::Unstable { .. } => AppError::refused(
+        | TracerError::Unstable { .. } => ExperimentError::refused(
             error.to_string(),
             "its results are not kept; please report it with the command line",
         ),
@@ -70,7 +70,7 @@ impl Stage {
         [width, height]: [u32; 2],
         seed: u32,
         needs: &Needs,
-    ) -> Result<Self, AppError> {
+    ) -> Result<Self, ExperimentError> {
         let eye = camera.world_from_camera.translation;
         let origin = SceneTables::default_frame_origin(scene, eye);
         Self::around(device, scene, origin, camera, [width, height], seed, needs)
@@ -85,7 +85,7 @@ impl Stage {
         [width, height]: [u32; 2],
         seed: u32,
         needs: &Needs,
-    ) -> Result<Self, AppError> {
+    ) -> Result<Self, ExperimentError> {
         let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
         let view = View { camera: camera.clone(), width, height, seed };
         let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
@@ -101,7 +101,7 @@ impl Stage {
 
 impl Stage {
     /// Sets how the pixels of an image are sampled.
-    pub(super) fn sample_as(&mut self, frame: &Frame) -> Result<(), AppError> {
+    pub(super) fn sample_as(&mut self, frame: &Frame) -> Result<(), ExperimentError> {
         let sampler = match frame.sampler {
             Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
@@ -113,12 +113,12 @@ impl Stage {
 /// Why a first build failed.
 enum FirstBuild {
     /// A pool is larger than one binding.
-    ExceedsBinding(AppError),
+    ExceedsBinding(ExperimentError),
     /// Anything else.
-    Other(AppError),
+    Other(ExperimentError),
 }
 
-impl From<FirstBuild> for AppError {
+impl From<FirstBuild> for ExperimentError {
     fn from(error: FirstBuild) -> Self {
         match error {
             FirstBuild::ExceedsBinding(error) | FirstBuild::Other(error) => error,
@@ -140,10 +140,10 @@ fn first_build(
     viewpoint: Viewpoint,
     timing: Timing,
 ) -> Result<(Box<dyn Structure>, BuildOutcome), FirstBuild> {
-    let refuse = |error: AppError| FirstBuild::Other(error);
-    let requirements = spec.requirements().map_err(|e| refuse(AppError::usage(e.to_string(), "")))?;
+    let refuse = |error: ExperimentError| FirstBuild::Other(error);
+    let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
     if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
-        return Err(refuse(AppError::device(
+        return Err(refuse(ExperimentError::device(
             format!(
                 "system {} needs the feature {missing}, which {} lacks",
                 spec.system().name,
@@ -155,7 +155,7 @@ fn first_build(
     let mut structure =
         spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
             SystemsError::Ads(error) => ads_error(error),
-            other => refuse(AppError::usage(other.to_string(), "see `rasray render --help`")),
+            other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
         })?;
     let outcome =
         build_until_complete(device, structure.as_mut(), viewpoint, timing).map_err(|error| match error {
@@ -167,7 +167,7 @@ fn first_build(
 
 fn ads_error(error: AdsError) -> FirstBuild {
     match error {
-        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(AppError::device(
+        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(ExperimentError::device(
             error,
             "try --addressing address, or a smaller --resolution",
         )),
@@ -201,7 +201,7 @@ impl Built {
         spec: &Spec,
         scene: &GpuScene,
         eye: [f32; 3],
-    ) -> Result<Self, AppError> {
+    ) -> Result<Self, ExperimentError> {
         let started = Instant::now();
         let timing = device.best_timing();
         let viewpoint = scene.viewpoint().at(eye);
@@ -213,10 +213,10 @@ impl Built {
                 );
                 let spec = spec
                     .with_option("addressing", "address")
-                    .map_err(|error| AppError::usage(error.to_string(), ""))?;
-                first_build(device, &spec, scene, viewpoint, timing).map_err(AppError::from)?
+                    .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
+                first_build(device, &spec, scene, viewpoint, timing).map_err(ExperimentError::from)?
             }
-            other => other.map_err(AppError::from)?,
+            other => other.map_err(ExperimentError::from)?,
         };
         let mut passes = Passes::default();
         passes.add(&outcome.passes);
@@ -232,7 +232,7 @@ impl Built {
     }
 
     /// Builds once more and keeps the times.
-    pub(super) fn build_again(&mut self, device: &Device) -> Result<(), AppError> {
+    pub(super) fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
         let regrows = self.outcome.regrows;
         let timing = device.best_timing();
         self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
@@ -265,14 +265,14 @@ impl Built {
     }
 
     /// Options and paths as the structure resolved them.
-    pub(super) fn resolved(&self) -> Result<Resolved, AppError> {
+    pub(super) fn resolved(&self) -> Result<Resolved, ExperimentError> {
         let report = self.structure.report().map_err(device_error)?;
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
         Ok((rasray_report::options(report.options), paths.collect()))
     }
 
     /// Bytes of the structure, by part, with its formula.
-    pub(super) fn memory(&self, device: &Device) -> Result<Memory, AppError> {
+    pub(super) fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
         let report = self.structure.report().map_err(device_error)?;
         Ok(Memory {
             structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
@@ -285,7 +285,7 @@ impl Built {
     }
 
     /// Counts of the build.
-    pub(super) fn counters(&self) -> Result<Counters, AppError> {
+    pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
         let report = self.structure.report().map_err(device_error)?;
         let pool = self.outcome.status.pools.first();
         Ok(Counters {

@@ -4,8 +4,10 @@ use clap::Parser;
 use rasray_systems::{Preset, SYSTEMS, System};
 
 use super::{names, who_has};
+use crate::arguments::mistakes::usage_error;
+use crate::arguments::structure::StructureArguments;
 use crate::error::AppError;
-use crate::structure::StructureOptions;
+use rasray_experiment::StructureOptions;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
@@ -23,7 +25,7 @@ impl Assigned {
         #[command(no_binary_name = true, disable_help_flag = true)]
         struct One {
             #[command(flatten)]
-            options: StructureOptions,
+            options: StructureArguments,
         }
         let shape = || {
             AppError::usage(
@@ -53,10 +55,8 @@ impl Assigned {
         }
         let parse = |value: &str| {
             One::try_parse_from([format!("--{option}={value}")])
-                .map(|parsed| (parsed.options, format!("{option}={value}")))
-                .map_err(|error| {
-                    crate::arguments::usage_error(&error, &format!("'{text}': "), Some("compare"))
-                })
+                .map(|parsed| (parsed.options.0, format!("{option}={value}")))
+                .map_err(|error| usage_error(&error, &format!("'{text}': "), Some("compare")))
         };
         Ok(Self { system, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
     }

@@ -5,7 +5,7 @@ use rasray_hard_cases::{HardCase, Target};
 use rasray_metrics::Rate;
 use serde_json::Value;
 
-use crate::report::HardRecord;
+use rasray_report::HardRecord;
 
 /// What of a run's answers neither oracle nor statement allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -4,11 +4,11 @@ use rasray_ads::Counters;
 use rasray_gpu::Device;
 use rasray_systems::Spec;
 
-use super::stage::{Built, Stage};
-use crate::backend::{OnProgress, Progress};
-use crate::error::AppError;
-use crate::report::{Run, Times};
-use crate::systems::SystemConfig;
+use crate::error::ExperimentError;
+use crate::jobs::{OnProgress, Progress};
+use crate::stage::{Built, Stage};
+use crate::system_config::SystemConfig;
+use rasray_report::{Run, Times};
 
 /// One system of a comparison.
 pub(super) struct Contestant<'a> {
@@ -28,7 +28,7 @@ impl<'a> Contestant<'a> {
         center: [f32; 3],
         repetitions: u32,
         progress: &mut OnProgress<'_>,
-    ) -> Result<Vec<Self>, AppError> {
+    ) -> Result<Vec<Self>, ExperimentError> {
         let mut contestants = Vec::new();
         let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
         for config in systems {
@@ -47,7 +47,7 @@ impl<'a> Contestant<'a> {
     }
 
     /// A run with names, options, build times and bytes of the system.
-    pub(super) fn run(&self, device: &Device) -> Result<Run, AppError> {
+    pub(super) fn run(&self, device: &Device) -> Result<Run, ExperimentError> {
         let (options, paths) = self.built.resolved()?;
         let mut times = Times::default();
         self.built.write_times(&mut times);

@@ -6,14 +6,14 @@ use rasray_gpu::Device;
 use rasray_reference::oracle::{Outcome, Verdict};
 use rasray_tracer::BatchTracer;
 
-use super::contestant::Contestant;
-use super::judge::{accuracy, depth_errors, device_hits};
-use super::passes::{Passes, median, spread};
-use super::stage::tracer_error;
-use crate::backend::{Answers, Comparison, KeptSet};
-use crate::error::AppError;
-use crate::report::{Run, Times};
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::jobs::{Answers, Comparison, KeptSet};
+use crate::judge::{accuracy, depth_errors, device_hits};
+use crate::passes::{Passes, median, spread};
+use crate::stage::tracer_error;
 use rasray_ray_files::{HitsFile, TrueHit};
+use rasray_report::{Run, Times};
 
 /// Most rays that are traced at a time.
 const BATCH: usize = 131_072;
@@ -61,10 +61,10 @@ pub(super) fn compare_set(
     wanted: Wanted<'_>,
     name_hits: impl Fn(Vec<Hit>) -> Vec<Hit>,
     comparison: &mut Comparison,
-) -> Result<Vec<Answers>, AppError> {
+) -> Result<Vec<Answers>, ExperimentError> {
     for given in wanted.given_hits {
         if given.hits.len() != set.rays.len() {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!(
                     "{} has {} hits for the {} rays of {}",
                     given.name,
@@ -123,7 +123,7 @@ fn judge(
     hits: &[Hit],
     figures: bool,
     comparison: &mut Comparison,
-) -> Result<(), AppError> {
+) -> Result<(), ExperimentError> {
     let hits = device_hits(hits);
     run.accuracy = Some(accuracy(kind, verdicts, &hits)?);
     if figures {
@@ -137,7 +137,7 @@ fn trace_in_turns(
     contestants: &[Contestant<'_>],
     set: &RaysWithTruth,
     repetitions: u32,
-) -> Result<Vec<Traced>, AppError> {
+) -> Result<Vec<Traced>, ExperimentError> {
     let tracer =
         BatchTracer::new(device, set.rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let timing = device.best_timing();
@@ -165,7 +165,7 @@ fn run_of(
     set: &RaysWithTruth,
     traced: &Traced,
     seed: u32,
-) -> Result<Run, AppError> {
+) -> Result<Run, ExperimentError> {
     let rays = set.rays.len() as u64;
     let trace_ms = median(&traced.milliseconds);
     let mut counters = contestant.built.counters()?;

@@ -4,9 +4,9 @@ use rasray_ads::{Hit, PRIMITIVE_UNKNOWN, StructureKind};
 use rasray_metrics::{DeviceHit, HitConfusion, common_hits};
 use rasray_reference::oracle::Verdict;
 
-use super::stage::device_error;
-use crate::error::AppError;
-use crate::report::Accuracy;
+use crate::error::ExperimentError;
+use crate::stage::device_error;
+use rasray_report::Accuracy;
 use rasray_report::figures::DepthErrors;
 
 /// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
@@ -29,7 +29,7 @@ pub(super) fn accuracy(
     kind: StructureKind,
     verdicts: &[Verdict],
     hits: &[Option<DeviceHit>],
-) -> Result<Accuracy, AppError> {
+) -> Result<Accuracy, ExperimentError> {
     let tolerance = match kind {
         StructureKind::Primitive | StructureKind::LossyPrimitive => 0.0,
         StructureKind::Fragment => FRAGMENT_TOLERANCE,
@@ -57,8 +57,8 @@ pub(super) fn depth_errors(run: usize, verdicts: &[Verdict], hits: &[Option<Devi
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::Bound;
     use rasray_reference::oracle::Outcome;
+    use rasray_report::Bound;
 
     fn verdict(t: f64) -> Verdict {
         Verdict {

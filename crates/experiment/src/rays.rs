@@ -6,7 +6,7 @@ use rasray_reference::oracle::{Oracle, Outcome};
 use rasray_reference::shading::random::RandomStream;
 use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn_ray};
 
-use crate::backend::RaySet;
+use crate::jobs::RaySet;
 
 /// What rays are made from.
 pub(super) struct RaySource<'a> {

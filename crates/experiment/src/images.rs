@@ -1,20 +1,34 @@
 //! Images of the systems against the naive reference with the same random numbers.
 
+use rasray_gpu::Device;
 use rasray_metrics as metrics;
 use rasray_reference::integrators::Image;
 use rasray_reference::shading::{PosedScene, View};
 
-use super::compare::Setting;
-use super::contestant::Contestant;
-use super::render::render_pixels;
-use super::stage::{Built, device_error};
-use crate::backend::{Comparison, Frame, Integrator, OnProgress};
-use crate::error::AppError;
-use crate::report::{ImageError, Run};
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::jobs::{CompareJob, Comparison, Frame, Integrator, OnProgress};
+use crate::render::render_pixels;
+use crate::stage::{Built, Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
+use rasray_report::{ImageError, Run};
+
+/// What images are made from.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub(super) device: &'a Device,
+    pub(super) job: &'a CompareJob<'a>,
+    pub(super) stage: &'a Stage,
+    pub(super) posed: &'a PosedScene<'a>,
+    pub(super) view: &'a View,
+}
 
 /// The reference image of a frame; absent for integrators that it does not have.
-fn reference_image(scene: &PosedScene<'_>, view: &View, frame: &Frame) -> Result<Option<Image>, AppError> {
+fn reference_image(
+    scene: &PosedScene<'_>,
+    view: &View,
+    frame: &Frame,
+) -> Result<Option<Image>, ExperimentError> {
     let image = match frame.integrator {
         Integrator::Path { bounces } => scene.render_path(view, bounces),
         Integrator::AmbientOcclusion { distance } => {
@@ -22,7 +36,7 @@ fn reference_image(scene: &PosedScene<'_>, view: &View, frame: &Frame) -> Result
         }
         Integrator::Raycast => return Ok(None),
     };
-    image.map(Some).map_err(|error| AppError::usage(error.to_string(), ""))
+    image.map(Some).map_err(|error| ExperimentError::usage(error.to_string(), ""))
 }
 
 /// How far an image is from the reference, as a whole and, where wanted, in each pixel.
@@ -31,7 +45,7 @@ fn image_error(
     test: &[[f32; 3]],
     reference: &Image,
     map: bool,
-) -> Result<(ImageError, Vec<f32>), AppError> {
+) -> Result<(ImageError, Vec<f32>), ExperimentError> {
     let (width, height) = (frame.width as usize, frame.height as usize);
     let test = metrics::Image::new(width, height, test).map_err(device_error)?;
     let reference = metrics::Image::new(width, height, &reference.pixels).map_err(device_error)?;
@@ -60,11 +74,11 @@ pub(super) fn compare_images(
     contestants: &[Contestant<'_>],
     comparison: &mut Comparison,
     progress: &mut OnProgress<'_>,
-) -> Result<(), AppError> {
+) -> Result<(), ExperimentError> {
     let Setting { device, job, stage, posed, view } = *setting;
     let frame = job.frame;
     let Some(reference) = reference_image(posed, view, &frame)? else {
-        return Err(AppError::usage(
+        return Err(ExperimentError::usage(
             "--image compares with the reference, which has the integrators path and ao",
             "choose --integrator path or ao, or leave --image out",
         ));
@@ -77,20 +91,21 @@ pub(super) fn compare_images(
             systems: Vec::new(),
         });
     }
-    let add = |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), AppError> {
-        run.integrator = Some(crate::commands::integrator_name(&frame).to_owned());
-        run.width = Some(frame.width);
-        run.height = Some(frame.height);
-        run.spp = Some(frame.spp);
-        run.bounces = crate::commands::bounces(&frame);
-        let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
-        run.image = Some(error);
-        if let Some(images) = &mut comparison.figures.images {
-            images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
-        }
-        comparison.runs.push(run);
-        Ok(())
-    };
+    let add =
+        |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), ExperimentError> {
+            run.integrator = Some(frame.integrator.name().to_owned());
+            run.width = Some(frame.width);
+            run.height = Some(frame.height);
+            run.spp = Some(frame.spp);
+            run.bounces = frame.integrator.bounces();
+            let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
+            run.image = Some(error);
+            if let Some(images) = &mut comparison.figures.images {
+                images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
+            }
+            comparison.runs.push(run);
+            Ok(())
+        };
     for contestant in contestants {
         // Images are taken as renders are: from a structure built around the camera.
         let spec = contestant.config.spec()?;

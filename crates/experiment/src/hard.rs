@@ -9,14 +9,14 @@ use rasray_scene::default_view::camera_looking_at;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Instance, Material, Mesh, Scene};
 
-use super::compare::triangles;
-use super::contestant::Contestant;
-use super::hard_verdict::{Judged, hard_record};
-use super::replay::replay_case;
-use super::stage::{Stage, device_error};
-use super::traced_set::{RaysWithTruth, Wanted, compare_set};
-use crate::backend::{Comparison, HardJob, OnProgress, Progress};
-use crate::error::AppError;
+use crate::compare::triangles;
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::hard_verdict::{Judged, hard_record};
+use crate::jobs::{Comparison, HardJob, OnProgress, Progress};
+use crate::replay::replay_case;
+use crate::stage::{Stage, device_error};
+use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
 
 /// A case as it is on the device: what loaders keep of its triangles, relative to the world's origin.
 struct Placed {
@@ -86,7 +86,7 @@ pub(super) fn hard(
     device: &Device,
     job: &HardJob<'_>,
     progress: &mut OnProgress<'_>,
-) -> Result<Comparison, AppError> {
+) -> Result<Comparison, ExperimentError> {
     let case = job.case;
     let placed = Placed::new(case);
     let eye = DVec3::from(Vec3::from(case.eye));
@@ -137,7 +137,12 @@ pub(super) fn hard(
 }
 
 /// That the device has the case's triangles and no others, bit for bit.
-fn check_positions(device: &Device, stage: &Stage, case: &HardCase, kept: &[u32]) -> Result<(), AppError> {
+fn check_positions(
+    device: &Device,
+    stage: &Stage,
+    case: &HardCase,
+    kept: &[u32],
+) -> Result<(), ExperimentError> {
     let geometry = stage.scene.geometry().desc();
     let positions = device
         .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
@@ -150,7 +155,7 @@ fn check_positions(device: &Device, stage: &Stage, case: &HardCase, kept: &[u32]
     if triangles(&positions, &indices).iter().map(bits).eq(expected) {
         return Ok(());
     }
-    Err(AppError::device(
+    Err(ExperimentError::device(
         format!("the triangles of {} are not the same on the device", case.id),
         "this is a defect; please report it with the command line",
     ))
@@ -169,7 +174,7 @@ fn judged(case: &HardCase, kind: StructureKind, verdicts: &[Verdict], hits: &[Hi
         StructureKind::Fragment => FRAGMENT_DEPTH,
     };
     let mut judged = Judged { rays: hits.len() as u64, ..Judged::default() };
-    for (index, (verdict, hit)) in verdicts.iter().zip(super::judge::device_hits(hits)).enumerate() {
+    for (index, (verdict, hit)) in verdicts.iter().zip(crate::judge::device_hits(hits)).enumerate() {
         let answer = case.answer(index);
         judged.hits += u64::from(hit.is_some());
         judged.non_finite += u64::from(hit.is_some_and(|hit| !hit.t.is_finite()));

@@ -2,10 +2,11 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use rasray_experiment::{RaySet, Sampler, StructureOptions};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
-use crate::arguments::values;
+use super::values;
 
 /// Reads the name of a system.
 pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
@@ -21,50 +22,26 @@ pub fn preset_parser() -> impl TypedValueParser<Value = Preset> {
         .map(|name| Preset::named(&name).expect("only names of presets are possible values"))
 }
 
-/// What was asked of a structure, by option; what is left out follows the system's preset. Numbers are numbers, all else
-/// words.
+/// Reads the name of a set of rays.
+pub fn ray_set_parser() -> impl TypedValueParser<Value = RaySet> {
+    let names = RaySet::ALL.map(|set| PossibleValue::new(set.name()).help(set.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| RaySet::named(&name).expect("only names of sets are possible values"))
+}
+
+/// Reads the name of a sampler.
+pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
+    let names = Sampler::ALL.map(|sampler| PossibleValue::new(sampler.name()).help(sampler.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Sampler::named(&name).expect("only names of samplers are possible values"))
+}
+
+/// The options of a structure on the command line.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct StructureOptions(Map<String, Value>);
-
-impl StructureOptions {
-    /// The options that were given, by name.
-    pub fn given(&self) -> &Map<String, Value> {
-        &self.0
-    }
-
-    /// What was given for an option, as it is typed.
-    pub fn text(&self, option: &str) -> Option<String> {
-        self.0.get(option).map(text)
-    }
-
-    /// Every option that was given, as it is typed.
-    pub fn texts(&self) -> impl Iterator<Item = (String, String)> {
-        self.0.iter().map(|(name, value)| (name.clone(), text(value)))
-    }
-
-    /// The same with a word for an option.
-    #[must_use]
-    pub fn with(mut self, option: &str, word: impl Into<Value>) -> Self {
-        self.0.insert(option.to_owned(), word.into());
-        self
-    }
-
-    /// The options that were given and whose names `keep` accepts.
-    #[must_use]
-    pub fn filtered(&self, keep: impl Fn(&str) -> bool) -> Self {
-        Self(self.0.clone().into_iter().filter(|(name, _)| keep(name)).collect())
-    }
-
-    /// These options with those of `over` in place of their own where it has any.
-    #[must_use]
-    pub fn overlaid(&self, over: &Self) -> Self {
-        Self(self.0.clone().into_iter().chain(over.0.clone()).collect())
-    }
-}
-
-fn text(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
-}
+pub struct StructureArguments(
+    /// What was given.
+    pub StructureOptions,
+);
 
 fn heading(group: Group) -> &'static str {
     match group {
@@ -118,7 +95,7 @@ fn value(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
     }
 }
 
-impl Args for StructureOptions {
+impl Args for StructureArguments {
     fn augment_args(command: Command) -> Command {
         Group::ALL.into_iter().fold(command, |command, group| {
             let rows = OPTIONS.iter().filter(|row| row.group == group);
@@ -137,7 +114,7 @@ impl Args for StructureOptions {
     }
 }
 
-impl FromArgMatches for StructureOptions {
+impl FromArgMatches for StructureArguments {
     fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
         let mut options = Self::default();
         options.update_from_arg_matches(matches)?;
@@ -149,7 +126,7 @@ impl FromArgMatches for StructureOptions {
             let given = value(row, matches);
             let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then(|| Value::from("off"));
             if let Some(given) = given.or(off) {
-                self.0.insert(row.name.to_owned(), given);
+                self.0 = std::mem::take(&mut self.0).with(row.name, given);
             }
         }
         Ok(())
@@ -161,8 +138,8 @@ mod tests {
     use super::*;
 
     fn read(words: &[&str]) -> Result<StructureOptions, clap::Error> {
-        let command = StructureOptions::augment_args(Command::new("options").no_binary_name(true));
-        StructureOptions::from_arg_matches(&command.try_get_matches_from(words)?)
+        let command = StructureArguments::augment_args(Command::new("options").no_binary_name(true));
+        Ok(StructureArguments::from_arg_matches(&command.try_get_matches_from(words)?)?.0)
     }
 
     #[test]
@@ -177,16 +154,6 @@ mod tests {
         for bad in [["--buckets", "65"], ["--sort", "maybe"], ["--thickness", "-1"], ["--grid", "x"]] {
             assert!(read(&bad).is_err(), "{bad:?}");
         }
-    }
-
-    #[test]
-    fn overlaying_replaces_only_what_is_given() {
-        let base = StructureOptions::default().with("buckets", 4).with("sort", "on");
-        let over = StructureOptions::default().with("buckets", 8).with("thickness", "0.1");
-        let both = base.overlaid(&over);
-        assert_eq!(both, base.with("buckets", 8).with("thickness", "0.1"));
-        let kept = both.filtered(|name| name != "buckets");
-        assert_eq!((kept.text("buckets"), kept.given().len()), (None, 2));
     }
 
     #[test]

@@ -1,4 +1,8 @@
 use super::*;
+use crate::arguments::structure::StructureArguments;
+use rasray_scene::needs::{Integrator, Workload};
+use rasray_scene::{Camera, Projection};
+use rasray_systems::Spec;
 
 fn options(given: &[(&str, &str)]) -> StructureOptions {
     given.iter().fold(StructureOptions::default(), |options, (name, word)| options.with(name, *word))
@@ -14,7 +18,7 @@ fn system(name: &str) -> &'static System {
 
 #[test]
 fn every_value_of_the_command_line_is_one_of_the_registry() {
-    let command = <StructureOptions as clap::Args>::augment_args(clap::Command::new("options"));
+    let command = <StructureArguments as clap::Args>::augment_args(clap::Command::new("options"));
     let mut tried = 0;
     // `--decoupled` is another word for `--inline=off` and has no values.
     for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {

@@ -1,16 +1,25 @@
 //! What `rasray info` says of the device.
 
-use rasray_gpu::Device;
+use rasray_gpu::{Device, Feature as GpuFeature, Requirements};
 use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
 use rasray_systems::{SYSTEMS, Spec};
 
-use super::requirements;
-use super::stage::device_error;
-use crate::backend::{ChosenPath, DeviceDescription, Feature};
-use crate::error::AppError;
+use crate::error::ExperimentError;
+use crate::jobs::{ChosenPath, DeviceDescription, Feature};
+use crate::stage::device_error;
+
+/// What any system may want of a device; each names what it cannot do without when it is made.
+pub fn requirements() -> Requirements {
+    let mut requirements = Requirements::floor();
+    requirements.optional.push((GpuFeature::FragmentStoresAndAtomics, "structures built by the rasterizer"));
+    requirements
+        .optional
+        .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));
+    requirements
+}
 
 /// The devices, and what the one in use means for each system.
-pub(super) fn describe(device: &Device) -> Result<DeviceDescription, AppError> {
+pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentError> {
     let wanted = requirements();
     let devices = Device::list(&wanted).map_err(device_error)?;
     let required = wanted.required.iter().map(|feature| (feature, true, "nothing runs without it"));

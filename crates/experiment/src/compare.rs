@@ -6,33 +6,22 @@ use rasray_gpu::Device;
 use rasray_reference::oracle::{Accept, Oracle};
 use rasray_reference::shading::{PosedScene, View};
 
-use super::contestant::Contestant;
-use super::images::compare_images;
-use super::rays::{RaySource, oracle_ray};
-use super::replay::{ReplaySetting, replay_sets};
-use super::stage::{Stage, device_error};
-use super::traced_set::{RaysWithTruth, Wanted, compare_set};
-use super::work_maps::work_maps;
-use crate::backend::{CompareJob, Comparison, FILE_SET, OnProgress, Progress, Sampler};
-use crate::error::AppError;
-use crate::systems::word;
-
-/// What images are made from.
-#[derive(Clone, Copy)]
-pub(super) struct Setting<'a> {
-    pub(super) device: &'a Device,
-    pub(super) job: &'a CompareJob<'a>,
-    pub(super) stage: &'a Stage,
-    pub(super) posed: &'a PosedScene<'a>,
-    pub(super) view: &'a View,
-}
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::images::{Setting, compare_images};
+use crate::jobs::{CompareJob, Comparison, FILE_SET, OnProgress, Progress, Sampler};
+use crate::rays::{RaySource, oracle_ray};
+use crate::replay::{ReplaySetting, replay_sets};
+use crate::stage::{Stage, device_error};
+use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
+use crate::work_maps::work_maps;
 
 /// Runs all systems on all ray sets, then on the image where that is wanted.
 pub(super) fn compare(
     device: &Device,
     job: &CompareJob<'_>,
     progress: &mut OnProgress<'_>,
-) -> Result<Comparison, AppError> {
+) -> Result<Comparison, ExperimentError> {
     let frame = job.frame;
     let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
     says("scene", "to the device");
@@ -48,7 +37,7 @@ pub(super) fn compare(
         .map_err(device_error)?;
     let origin = stage.scene.frame_origin();
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
-        .map_err(|error| AppError::usage(error.to_string(), ""))?;
+        .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
     let accept = |primitive: u32, barycentrics: [f64; 2]| posed.alpha_accepts(primitive, barycentrics);
     says("oracle", "building");
     let masked = posed.has_alpha_masks() && stage.dropped_triangles == 0;
@@ -76,7 +65,7 @@ pub(super) fn compare(
         indices: &indices,
     };
 
-    let generated = job.ray_sets.iter().map(|set| (word(set), source.rays(*set, job.rays)));
+    let generated = job.ray_sets.iter().map(|set| (set.name().to_owned(), source.rays(*set, job.rays)));
     let given = job.rays_file.as_ref().map(|file| (FILE_SET.to_owned(), file.relative_to(origin.to_array())));
     let sets = generated.chain(given);
     if let Some(index) = job.replay {

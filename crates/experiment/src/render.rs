@@ -10,17 +10,17 @@ use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, 
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
-use super::passes::Passes;
-use super::stage::{Built, Stage, device_error, tracer_error};
-use crate::backend::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
-use crate::error::AppError;
-use crate::report::{Counters, Times};
+use crate::error::ExperimentError;
+use crate::jobs::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
+use crate::passes::Passes;
+use crate::stage::{Built, Stage, device_error, tracer_error};
+use rasray_report::{Counters, Times};
 
 /// Makes the integrator of a frame.
 pub(super) fn integrator(
     frame: &Frame,
     desc: &IntegratorDesc<'_>,
-) -> Result<Box<dyn rasray_integrators::Integrator>, AppError> {
+) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
     let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
         Integrator::Path { bounces } => Path::new(desc, bounces).map(|i| Box::new(i) as _),
         Integrator::AmbientOcclusion { distance } => {
@@ -29,7 +29,7 @@ pub(super) fn integrator(
         Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
     };
     made.map_err(|error| match error {
-        rasray_integrators::IntegratorError::Option { .. } => AppError::usage(error.to_string(), ""),
+        rasray_integrators::IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
         other => device_error(other),
     })
 }
@@ -53,7 +53,7 @@ pub(super) fn render_pixels(
     needs: &Needs,
     task: &str,
     progress: &mut OnProgress<'_>,
-) -> Result<Pixels, AppError> {
+) -> Result<Pixels, ExperimentError> {
     let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
     let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
     if *needs == Needs::all() {
@@ -93,7 +93,7 @@ fn render_waves(
     frame: &Frame,
     task: &str,
     progress: &mut OnProgress<'_>,
-) -> Result<Option<(u32, Passes)>, AppError> {
+) -> Result<Option<(u32, Passes)>, ExperimentError> {
     let timing = device.best_timing();
     let pixels = frame.width * frame.height;
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
@@ -134,7 +134,7 @@ fn use_once(
     device: &Device,
     integrator: &dyn rasray_integrators::Integrator,
     built: &Built,
-) -> Result<f64, AppError> {
+) -> Result<f64, ExperimentError> {
     let started = Instant::now();
     let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
@@ -147,7 +147,7 @@ fn use_once(
 }
 
 /// Rays without an answer in any queue; rays that met an unbuilt structure count as well.
-fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, AppError> {
+fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
     let mut unfinished = 0;
     for queue in queues {
         let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
@@ -162,7 +162,7 @@ pub(super) fn render(
     device: &Device,
     job: &RenderJob<'_>,
     progress: &mut OnProgress<'_>,
-) -> Result<RenderOutput, AppError> {
+) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = job.frame;
     let spec = job.system.spec()?;
@@ -225,7 +225,7 @@ fn add_aovs(
     built: &Built,
     job: &RenderJob<'_>,
     output: &mut RenderOutput,
-) -> Result<(), AppError> {
+) -> Result<(), ExperimentError> {
     let pixels = job.frame.width * job.frame.height;
     let capacity = rasray_integrators::WAVE_CAPACITY.min(pixels);
     let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
@@ -242,7 +242,7 @@ fn add_aovs(
             break;
         }
         if !built.structure.allow_more_rounds() {
-            return Err(AppError::refused(
+            return Err(ExperimentError::refused(
                 "rays through pixel centres did not finish",
                 "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, \
                  else please report it with the command line",

@@ -3,7 +3,7 @@
 use rasray_gpu::{PassTiming, TimerKind};
 use rasray_metrics::Summary;
 
-use crate::report::{Pass, Spread, Timer};
+use rasray_report::{Pass, Spread, Timer};
 
 /// All times of each pass, in the order the passes were first seen.
 #[derive(Debug, Default)]

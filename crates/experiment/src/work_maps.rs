@@ -5,11 +5,11 @@ use rasray_ads::{Counters, Ray, TraceMode};
 use rasray_gpu::Device;
 use rasray_tracer::BatchTracer;
 
-use super::contestant::Contestant;
-use super::rays::RaySource;
-use super::stage::{Built, Stage, tracer_error};
-use crate::error::AppError;
-use crate::report::Run;
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::rays::RaySource;
+use crate::stage::{Built, Stage, tracer_error};
+use rasray_report::Run;
 use rasray_report::figures::WorkMap;
 
 /// Most rays that are traced at a time.
@@ -24,7 +24,7 @@ pub(super) fn work_maps(
     contestants: &[Contestant<'_>],
     source: &RaySource<'_>,
     runs: &[Run],
-) -> Result<Vec<WorkMap>, AppError> {
+) -> Result<Vec<WorkMap>, ExperimentError> {
     let (width, height) = (source.view.width, source.view.height);
     let rays = centres(source);
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;

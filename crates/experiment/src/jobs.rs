@@ -1,12 +1,12 @@
-//! The seam between the command and what renders: plain data in, plain data out.
+//! Jobs and results as plain data, and the trait of what carries jobs out.
 
-use crate::error::AppError;
-use crate::report::{Counters, Device, Memory, Pass, Run, Spread, Times};
-use crate::systems::SystemConfig;
+use crate::error::ExperimentError;
+use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
 use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
 use rasray_report::figures::Figures;
+use rasray_report::{Counters, Device, Memory, Pass, Run, Spread, Times};
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
@@ -40,6 +40,25 @@ pub enum Integrator {
     Raycast,
 }
 
+impl Integrator {
+    /// Its name in reports and images.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Path { .. } => "path",
+            Self::AmbientOcclusion { .. } => "ao",
+            Self::Raycast => "raycast",
+        }
+    }
+
+    /// Bounces, where it has them.
+    pub fn bounces(&self) -> Option<u32> {
+        match self {
+            Self::Path { bounces } => Some(*bounces),
+            _ => None,
+        }
+    }
+}
+
 /// An image to make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
@@ -58,13 +77,41 @@ pub struct Frame {
 }
 
 /// Where random numbers come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Sampler {
-    /// Points spread evenly over the samples of a pixel: least noise where --spp is a power of two
+    /// Points spread evenly over the samples of a pixel: least noise where their number is a power of two.
     #[default]
     Sobol,
-    /// Independent numbers
+    /// Independent numbers.
     Pcg,
+}
+
+impl Sampler {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sobol => "sobol",
+            Self::Pcg => "pcg",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Sobol => {
+                "Points spread evenly over the samples of a pixel: least noise where --spp is a power of two"
+            }
+            Self::Pcg => "Independent numbers",
+        }
+    }
+
+    /// The sampler of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|sampler| sampler.name() == name)
+    }
 }
 
 impl Frame {
@@ -111,18 +158,50 @@ pub struct RenderJob<'a> {
 }
 
 /// Where rays of a comparison come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaySet {
-    /// Origins uniform in the scene's box, directions uniform
+    /// Origins uniform in the scene's box, directions uniform.
     Incoherent,
-    /// The camera's rays; the camera is not at the views' centre
+    /// The camera's rays; the camera is not at the views' centre.
     Camera,
-    /// From the views' centre
+    /// From the views' centre.
     Eye,
-    /// Diffuse directions from what the camera sees
+    /// Diffuse directions from what the camera sees.
     Bounce,
-    /// Origins uniform on the triangles, which are not excluded, directions uniform
+    /// Origins uniform on the triangles, which are not excluded, directions uniform.
     Surface,
+}
+
+impl RaySet {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Incoherent, Self::Camera, Self::Eye, Self::Bounce, Self::Surface];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Incoherent => "incoherent",
+            Self::Camera => "camera",
+            Self::Eye => "eye",
+            Self::Bounce => "bounce",
+            Self::Surface => "surface",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Incoherent => "Origins uniform in the scene's box, directions uniform",
+            Self::Camera => "The camera's rays; the camera is not at the views' centre",
+            Self::Eye => "From the views' centre",
+            Self::Bounce => "Diffuse directions from what the camera sees",
+            Self::Surface => "Origins uniform on the triangles, which are not excluded, directions uniform",
+        }
+    }
+
+    /// The ray set of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|set| set.name() == name)
+    }
 }
 
 /// Systems side by side.
@@ -331,8 +410,8 @@ pub struct TexelRoom {
     pub device: String,
 }
 
-/// What renders. Every method reports failure of the device as [`AppError::Device`], and lost data
-/// as [`AppError::Refused`].
+/// What renders. Every method reports failure of the device as [`ExperimentError::Device`], and lost data
+/// as [`ExperimentError::Refused`].
 pub trait Backend {
     /// The device in use, for reports.
     fn device(&self) -> Device;
@@ -345,7 +424,7 @@ pub trait Backend {
         &mut self,
         job: &RenderJob<'_>,
         progress: &mut OnProgress<'_>,
-    ) -> Result<RenderOutput, AppError>;
+    ) -> Result<RenderOutput, ExperimentError>;
 
     /// Compares systems: a run per system, preset and ray set, and per image where wanted. When
     /// `progress` breaks, the complete runs so far are the result.
@@ -353,22 +432,18 @@ pub trait Backend {
         &mut self,
         job: &CompareJob<'_>,
         progress: &mut OnProgress<'_>,
-    ) -> Result<Comparison, AppError>;
+    ) -> Result<Comparison, ExperimentError>;
 
     /// Compares systems on a hard case: a run per system and preset, each with its verdict.
-    fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError>;
+    fn hard(
+        &mut self,
+        job: &HardJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError>;
 
     /// Describes the device.
-    fn info(&mut self) -> Result<DeviceDescription, AppError>;
+    fn info(&mut self) -> Result<DeviceDescription, ExperimentError>;
 }
 
 /// Makes a [`Backend`] on the wanted device.
-pub type OpenBackend<'a> = dyn FnMut(&DeviceChoice) -> Result<Box<dyn Backend>, AppError> + 'a;
-
-/// Opens the wanted device.
-///
-/// # Errors
-/// [`AppError::Device`]: no such device, or it lacks something required.
-pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, AppError> {
-    Ok(Box::new(crate::renderer::Renderer::open(choice)?))
-}
+pub type OpenBackend<'a> = dyn FnMut(&DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> + 'a;

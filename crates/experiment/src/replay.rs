@@ -9,11 +9,11 @@ use rasray_reference::views::cells_along;
 use rasray_systems::Spec;
 use rasray_tracer::{BatchTracer, Replay};
 
-use super::rays::oracle_ray;
-use super::stage::{Built, Stage, device_error, tracer_error};
-use crate::backend::Comparison;
-use crate::error::AppError;
-use crate::systems::SystemConfig;
+use crate::error::ExperimentError;
+use crate::jobs::Comparison;
+use crate::rays::oracle_ray;
+use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::system_config::SystemConfig;
 
 /// Cells of a view that are listed at most: more do not help a reader.
 const MOST_CELLS: usize = 4096;
@@ -35,9 +35,9 @@ impl ReplaySetting<'_> {
         set: &str,
         rays: &[Ray],
         index: u32,
-    ) -> Result<String, AppError> {
+    ) -> Result<String, ExperimentError> {
         let Some(ray) = rays.get(index as usize) else {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!("there is no ray {index} in {set}, which has {}", rays.len()),
                 "rays are counted from 0; --rays says how many a set has",
             ));
@@ -68,7 +68,7 @@ pub(super) fn replay_sets(
     systems: &[SystemConfig],
     sets: impl Iterator<Item = (String, Vec<Ray>)>,
     index: u32,
-) -> Result<Comparison, AppError> {
+) -> Result<Comparison, ExperimentError> {
     let specs = systems.iter().map(SystemConfig::spec).collect::<Result<Vec<_>, _>>()?;
     let mut text = String::new();
     for (name, rays) in sets {
@@ -85,7 +85,7 @@ pub(super) fn replay_case(
     case: (&str, [f32; 3]),
     rays: Vec<Ray>,
     index: u32,
-) -> Result<Comparison, AppError> {
+) -> Result<Comparison, ExperimentError> {
     let (name, center) = case;
     let geometry = stage.scene.geometry().desc();
     let positions = device
@@ -115,7 +115,7 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
 }
 
 /// Cells a side of a system's cube of views; absent where it has none.
-fn cube_resolution(built: &Built) -> Result<Option<u32>, AppError> {
+fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
     let report = built.structure.report().map_err(device_error)?;
     let value = |name: &str| report.options.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
     let cube = value("views").is_some_and(|views| views.starts_with("cube"));

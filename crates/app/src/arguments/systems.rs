@@ -2,94 +2,12 @@
 //! options, and how options given once reach several systems.
 
 use crate::error::AppError;
-use crate::structure::StructureOptions;
-use clap::ValueEnum;
-use rasray_scene::needs::{Integrator, Workload};
-use rasray_scene::{Camera, Projection};
-use rasray_systems::{Preset, SYSTEMS, Spec, System};
+use rasray_experiment::{StructureOptions, SystemConfig};
+use rasray_systems::{Preset, SYSTEMS, System};
 
 mod assigned;
 
 use assigned::Assigned;
-
-/// Most columns and rows of a camera's view.
-const CAMERA_LIMIT: u32 = 8192;
-
-/// A system with what was asked of it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SystemConfig {
-    /// The system.
-    pub system: &'static System,
-    /// Its preset.
-    pub preset: Preset,
-    /// Options over the preset; only such that the system has.
-    pub options: StructureOptions,
-    /// The options of several values, where the system takes part once with each.
-    pub variant: Option<String>,
-}
-
-impl SystemConfig {
-    /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
-    /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
-    /// are compared beside the image.
-    #[must_use]
-    pub fn serving(mut self, workload: Workload) -> Self {
-        let occlusion = workload.integrator == Integrator::AmbientOcclusion;
-        if occlusion
-            && self.preset == Preset::Published
-            && self.options.text("payload").is_none()
-            && let Some(word) = self.system.occlusion_payload
-        {
-            self.options = self.options.with("payload", word);
-        }
-        self
-    }
-
-    /// The same where a camera looks at the scene: published structures whose paper draws the camera's view draw it, a cell
-    /// a pixel of the image, unless views were given. A parallel projection has no such view.
-    #[must_use]
-    pub fn seen_by(mut self, camera: &Camera, width: u32, height: u32) -> Self {
-        let perspective = matches!(camera.projection, Projection::Perspective { .. });
-        if let Some(views) = self.system.camera_views
-            && perspective
-            && self.preset == Preset::Published
-            && self.options.text("views").is_none()
-        {
-            self.options = self.options.with("views", views);
-            if self.options.text("camera-resolution").is_none() {
-                let [columns, rows] = [width, height].map(|side| side.min(CAMERA_LIMIT));
-                self.options = self.options.with("camera-resolution", format!("{columns}x{rows}"));
-            }
-        }
-        self
-    }
-
-    /// What images of a workload lack: a warning where they shade and fragments carry nothing to shade by.
-    pub fn shortcoming(&self, workload: Workload) -> Option<String> {
-        let payload =
-            self.options.text("payload").filter(|payload| ["normal", "plane"].contains(&payload.as_str()))?;
-        (workload.integrator != Integrator::AmbientOcclusion).then(|| {
-            let system = self.system.name;
-            format!("{system}: fragments with --payload {payload} carry nothing to shade by, so that surfaces are white")
-        })
-    }
-
-    /// What the registry makes the structure from.
-    ///
-    /// # Errors
-    /// A usage error for values that do not go together; none for a config that [`single`] or
-    /// [`several`] made.
-    pub fn spec(&self) -> Result<Spec, AppError> {
-        Spec::new(self.system.name, self.preset.name(), self.options.texts()).map_err(|error| {
-            AppError::usage(error.to_string(), "change the option, or leave it to the preset")
-        })
-    }
-}
-
-/// The word of a value on the command line and in reports.
-pub fn word(value: &impl ValueEnum) -> String {
-    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
-}
 
 /// One system with its options, each of which it must have.
 pub fn single(

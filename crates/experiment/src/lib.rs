@@ -1,0 +1,44 @@
+//! Experiments on the systems of the registry, as the command, the tests and the benchmarks run them: rays from a
+//! scene, systems traced in turns, hits and images held against an exact oracle, hard cases, replays of single rays.
+//!
+//! Jobs and results are plain data ([`CompareJob`], [`HardJob`], [`RenderJob`]; [`Comparison`], [`RenderOutput`]).
+//! [`open`] gives a [`Backend`] that carries them out on a device:
+//!
+//! ```no_run
+//! use rasray_experiment::{DeviceChoice, open};
+//!
+//! let mut backend = open(&DeviceChoice::default())?;
+//! for name in backend.info()?.devices {
+//!     println!("{name}");
+//! }
+//! # Ok::<(), rasray_experiment::ExperimentError>(())
+//! ```
+
+mod compare;
+mod contestant;
+mod describe;
+mod error;
+mod hard;
+mod hard_verdict;
+mod images;
+mod jobs;
+mod judge;
+mod passes;
+mod rays;
+mod render;
+mod renderer;
+mod replay;
+mod stage;
+mod system_config;
+mod traced_set;
+mod work_maps;
+
+pub use describe::requirements;
+pub use error::ExperimentError;
+pub use jobs::{
+    Answers, AovSelection, Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription,
+    FILE_SET, Feature, Frame, HardJob, Integrator, Kept, KeptSet, OnProgress, OpenBackend, Progress, RaySet,
+    RenderJob, RenderOutput, Sampler, TexelRoom,
+};
+pub use renderer::open;
+pub use system_config::{StructureOptions, SystemConfig};
