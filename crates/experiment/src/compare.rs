@@ -10,7 +10,7 @@ use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::images::{Setting, compare_images};
 use crate::jobs::{CompareJob, Comparison, FILE_SET, OnProgress, Progress, Sampler};
-use crate::rays::{RaySource, oracle_ray};
+use crate::rays::{RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
 use crate::stage::{Stage, device_error};
 use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
@@ -108,12 +108,6 @@ pub(super) fn compare(
         compare_images(&setting, &contestants, &mut comparison, progress)?;
     }
     Ok(comparison)
-}
-
-/// The corners of all triangles.
-pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
-    let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
-    indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
 }
 
 /// The views' centre of ray sets: a tenth of the way from the camera to the middle of the scene, so

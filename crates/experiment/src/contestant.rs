@@ -11,17 +11,23 @@ use crate::system_config::SystemConfig;
 use rasray_report::{Run, Times};
 
 /// One system of a comparison.
-pub(super) struct Contestant<'a> {
-    pub(super) config: &'a SystemConfig,
-    pub(super) spec: Spec,
-    pub(super) built: Built,
+pub struct Contestant<'a> {
+    /// Which system.
+    pub config: &'a SystemConfig,
+    /// What its structure was made from; it counts the work of rays.
+    pub spec: Spec,
+    /// Its structure.
+    pub built: Built,
 }
 
 impl<'a> Contestant<'a> {
     /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
     /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
     /// machine for a while slows all of them.
-    pub(super) fn all(
+    ///
+    /// # Errors
+    /// Options that do not go together, a device that lacks something or fails, a build that does not become complete.
+    pub fn all(
         device: &Device,
         stage: &Stage,
         systems: &'a [SystemConfig],
@@ -47,7 +53,10 @@ impl<'a> Contestant<'a> {
     }
 
     /// A run with names, options, build times and bytes of the system.
-    pub(super) fn run(&self, device: &Device) -> Result<Run, ExperimentError> {
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn run(&self, device: &Device) -> Result<Run, ExperimentError> {
         let (options, paths) = self.built.resolved()?;
         let mut times = Times::default();
         self.built.write_times(&mut times);

@@ -7,38 +7,24 @@ use serde_json::Value;
 
 use rasray_report::HardRecord;
 
-/// What of a run's answers neither oracle nor statement allows.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Judged {
-    pub(super) rays: u64,
-    /// Rays that got a hit.
-    pub(super) hits: u64,
-    pub(super) non_finite: u64,
-    /// Rays that a watertight test cannot miss and that got no hit.
-    pub(super) lost: u64,
-    /// Answers that are not allowed.
-    pub(super) rejected: u64,
-    pub(super) first_rejected: Option<u64>,
-    /// Of those, hits.
-    pub(super) rejected_hits: u64,
-    /// Of those, hits outside of the range of t that is all that is stated.
-    pub(super) out_of_range: u64,
-    /// The largest |dt| / t, and what the case bounds it by for structures that find triangles.
-    pub(super) dt: Option<(f64, f64)>,
-}
+use crate::measured::Measured;
+
+/// The largest |dt| / t of a run, and what its case bounds it by for structures that find triangles.
+type LargestDt = Option<(f64, f64)>;
 
 /// What a report says of a run on a case; `resolution` is the run's option of that name.
 pub(super) fn hard_record(
     case: &HardCase,
     kind: StructureKind,
-    judged: &Judged,
+    measured: &Measured,
+    dt: LargestDt,
     resolution: Option<&Value>,
 ) -> HardRecord {
     let target = match kind {
         StructureKind::Primitive | StructureKind::LossyPrimitive => case.target.primitives,
         StructureKind::Fragment => case.target.fragments,
     };
-    let (met, reason) = verdict(target, kind, judged, resolution.and_then(Value::as_f64));
+    let (met, reason) = verdict(target, kind, measured, dt, resolution.and_then(Value::as_f64));
     HardRecord {
         id: case.id.to_owned(),
         title: case.title.to_owned(),
@@ -47,9 +33,9 @@ pub(super) fn hard_record(
         triangles: case.triangles.len() as u64,
         met,
         reason,
-        rejected: Some(judged.rejected),
-        first_rejected: judged.first_rejected,
-        lost: Some(judged.lost),
+        rejected: Some(measured.rejected.len() as u64),
+        first_rejected: measured.rejected.first().map(|&ray| ray as u64),
+        lost: Some(measured.lost as u64),
     }
 }
 
@@ -57,10 +43,13 @@ pub(super) fn hard_record(
 fn verdict(
     target: Target,
     kind: StructureKind,
-    judged: &Judged,
+    measured: &Measured,
+    dt: LargestDt,
     resolution: Option<f64>,
 ) -> (Option<bool>, String) {
-    let Judged { rays, hits, non_finite, lost, rejected, rejected_hits, out_of_range, dt, .. } = *judged;
+    let Measured { hits, lost, out_of_range, .. } = *measured;
+    let (rays, non_finite) = (measured.confusion.rays, measured.confusion.non_finite.count);
+    let (rejected, rejected_hits) = (measured.rejected.len() as u64, measured.rejected_hits.len());
     let rate = Rate { count: rejected, total: rays };
     let share = match (rate.value(), rate.interval()) {
         (Some(value), Some([low, high])) => {
@@ -108,19 +97,22 @@ fn verdict(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_metrics::HitConfusion;
 
-    fn met(target: Target, kind: StructureKind, judged: Judged) -> Option<bool> {
-        verdict(target, kind, &judged, Some(64.0)).0
+    fn met(target: Target, kind: StructureKind, measured: &Measured) -> Option<bool> {
+        verdict(target, kind, measured, None, Some(64.0)).0
     }
 
     #[test]
     fn a_wrong_answer_breaks_the_target_that_it_is_about_and_no_other() {
         use StructureKind::{Fragment, LossyPrimitive, Primitive};
-        let right = Judged { rays: 100, hits: 60, ..Judged::default() };
-        let miss = Judged { rejected: 1, lost: 1, first_rejected: Some(7), ..right };
-        let false_hit = Judged { rejected: 1, rejected_hits: 1, ..right };
-        let out = Judged { out_of_range: 1, ..false_hit };
-        let broken = Judged { non_finite: 1, ..false_hit };
+        let confusion = HitConfusion { rays: 100, ..HitConfusion::default() };
+        let right = Measured { confusion, hits: 60, ..Measured::default() };
+        let miss = Measured { rejected: vec![7], lost: 1, ..right.clone() };
+        let false_hit = Measured { rejected: vec![7], rejected_hits: vec![7], ..right.clone() };
+        let out = Measured { out_of_range: 1, ..false_hit.clone() };
+        let mut broken = false_hit.clone();
+        broken.confusion.non_finite.count = 1;
         for (target, kind, by_miss, by_hit, by_range) in [
             (Target::NoneMissed, Primitive, Some(false), Some(false), Some(false)),
             (Target::Exact, Primitive, Some(false), Some(false), Some(false)),
@@ -130,17 +122,17 @@ mod tests {
             (Target::Counted, Primitive, None, None, None),
             (Target::Finite, Primitive, Some(true), Some(true), Some(false)),
         ] {
-            assert_ne!(met(target, kind, right), Some(false), "{target}");
-            assert_eq!(met(target, kind, miss), by_miss, "{target}");
-            assert_eq!(met(target, kind, false_hit), by_hit, "{target}");
-            assert_eq!(met(target, kind, out), by_range, "{target}");
-            assert_eq!(met(target, kind, broken), Some(false), "{target}");
+            assert_ne!(met(target, kind, &right), Some(false), "{target}");
+            assert_eq!(met(target, kind, &miss), by_miss, "{target}");
+            assert_eq!(met(target, kind, &false_hit), by_hit, "{target}");
+            assert_eq!(met(target, kind, &out), by_range, "{target}");
+            assert_eq!(met(target, kind, &broken), Some(false), "{target}");
         }
         for (largest, expected) in [(0.9, Some(true)), (1.1, Some(false))] {
-            let judged = Judged { dt: Some((largest, 1.0)), ..right };
-            assert_eq!(met(Target::NoneMissed, Primitive, judged), expected);
+            let dt = Some((largest, 1.0));
+            assert_eq!(verdict(Target::NoneMissed, Primitive, &right, dt, None).0, expected);
         }
-        let law = verdict(Target::Law, Fragment, &miss, Some(64.0)).1;
+        let law = verdict(Target::Law, Fragment, &miss, None, Some(64.0)).1;
         assert!(law.contains("1 of 100") && law.contains("0.640"), "{law}");
     }
 }

@@ -13,8 +13,8 @@ use rasray_report::figures::DepthErrors;
 const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
 
 /// Hits as the metrics know them; a miss is absent.
-pub(super) fn device_hits(hits: &[Hit]) -> Vec<Option<DeviceHit>> {
-    hits.iter()
+pub fn device_hits(hits: impl IntoIterator<Item = Hit>) -> Vec<Option<DeviceHit>> {
+    hits.into_iter()
         .map(|hit| {
             hit.is_hit().then(|| DeviceHit {
                 t: hit.t,
@@ -86,7 +86,8 @@ mod tests {
         let verdicts = [verdict(2.0), verdict(3.0)];
         let right = [(2.0, 0), (3.0, 0)].map(|(t, primitive)| Hit { t, primitive, a: 0.0, b: 0.0 });
         let judge = |hits: &[Hit]| {
-            accuracy(StructureKind::Primitive, &verdicts, &device_hits(hits)).expect("a hit a verdict")
+            accuracy(StructureKind::Primitive, &verdicts, &device_hits(hits.iter().copied()))
+                .expect("a hit a verdict")
         };
         let clean = judge(&right);
         assert_eq!((clean.missed, clean.wrong_primitive, clean.dt_rel_max), (0, Some(0), Some(0.0)));

@@ -23,7 +23,9 @@ mod hard_verdict;
 mod images;
 mod jobs;
 mod judge;
+mod measured;
 mod passes;
+mod placed;
 mod rays;
 mod render;
 mod renderer;
@@ -33,6 +35,7 @@ mod system_config;
 mod traced_set;
 mod work_maps;
 
+pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;
 pub use jobs::{
@@ -40,5 +43,11 @@ pub use jobs::{
     FILE_SET, Feature, Frame, HardJob, Integrator, Kept, KeptSet, OnProgress, OpenBackend, Progress, RaySet,
     RenderJob, RenderOutput, Sampler, TexelRoom,
 };
+pub use judge::device_hits;
+pub use measured::{Measured, ROUNDING, Tolerance};
+pub use placed::{Placed, case_camera};
+pub use rays::{incoherent_rays, oracle_ray};
 pub use renderer::open;
+pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
+pub use traced_set::{Traced, trace_in_turns};

@@ -25,7 +25,7 @@ impl RaySource<'_> {
     /// `count` rays of a set; fewer only where the camera sees too little to bounce off.
     pub(super) fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
         match set {
-            RaySet::Incoherent => (0..count).map(|i| self.incoherent(i)).collect(),
+            RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
             RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),
             RaySet::Camera => (0..count).map(|i| from_shading(&self.camera(i))).collect(),
             RaySet::Bounce => self.bounce(count),
@@ -67,15 +67,6 @@ impl RaySource<'_> {
 
     fn stream(&self, index: u32) -> RandomStream {
         RandomStream { seed: self.view.seed, pixel: index, sample: 0 }
-    }
-
-    fn incoherent(&self, index: u32) -> Ray {
-        let stream = self.stream(index);
-        let [lower, upper] = self.bounds;
-        let origin = std::array::from_fn(|axis| {
-            lower[axis] + (upper[axis] - lower[axis]) * stream.float(16 + axis as u32)
-        });
-        Ray::new(origin, direction(stream))
     }
 
     /// Rays through random points of the image.
@@ -131,6 +122,19 @@ impl RaySource<'_> {
     }
 }
 
+/// Rays with origins uniform in a box (corners in metres) and directions uniform on the sphere: the set
+/// [`RaySet::Incoherent`]. A ray depends on the seed and its index alone.
+pub fn incoherent_rays([lower, upper]: [[f32; 3]; 2], seed: u32, count: u32) -> Vec<Ray> {
+    let ray = |index| {
+        let stream = RandomStream { seed, pixel: index, sample: 0 };
+        let origin = std::array::from_fn(|axis| {
+            lower[axis] + (upper[axis] - lower[axis]) * stream.float(16 + axis as u32)
+        });
+        Ray::new(origin, direction(stream))
+    };
+    (0..count).map(ray).collect()
+}
+
 /// Uniform on the sphere.
 fn direction(stream: RandomStream) -> [f32; 3] {
     let z = 1.0 - 2.0 * stream.float(18);
@@ -153,7 +157,7 @@ fn from_shading(ray: &shading::Ray) -> Ray {
 }
 
 /// The same ray for the oracle.
-pub(super) fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
+pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
     rasray_reference::oracle::Ray {
         origin: ray.origin,
         t_min: ray.t_min,
@@ -161,4 +165,10 @@ pub(super) fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
         t_max: ray.t_max,
         exclude_primitive: (ray.exclude_primitive != PRIMITIVE_NONE).then_some(ray.exclude_primitive),
     }
+}
+
+/// The corners of all triangles.
+pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
+    let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
+    indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
 }

@@ -57,13 +57,21 @@ pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
 }
 
 /// A scene on the device.
-pub(super) struct Stage {
-    pub(super) scene: GpuScene,
-    pub(super) dropped_triangles: u64,
+#[derive(Debug)]
+pub struct Stage {
+    /// As it is there.
+    pub scene: GpuScene,
+    /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
+    pub dropped_triangles: u64,
 }
 
 impl Stage {
-    pub(super) fn new(
+    /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and the seed
+    /// are those of images.
+    ///
+    /// # Errors
+    /// The scene names what it does not have, or the device does not hold it.
+    pub fn new(
         device: &Device,
         scene: &Scene,
         camera: &Camera,
@@ -77,7 +85,10 @@ impl Stage {
     }
 
     /// As [`Stage::new`], with positions relative to `origin` (world, metres).
-    pub(super) fn around(
+    ///
+    /// # Errors
+    /// As [`Stage::new`].
+    pub fn around(
         device: &Device,
         scene: &Scene,
         origin: DVec3,
@@ -179,8 +190,9 @@ fn ads_error(error: AdsError) -> FirstBuild {
 type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
 
 /// A structure, built, with what the building cost.
-pub(super) struct Built {
-    pub(super) structure: Box<dyn Structure>,
+pub struct Built {
+    /// Whose last build was complete.
+    pub structure: Box<dyn Structure>,
     pub(super) outcome: BuildOutcome,
     pub(super) passes: Passes,
     viewpoint: Viewpoint,
@@ -196,7 +208,10 @@ impl Built {
     /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until
     /// complete. Where a pool exceeds what one binding can hold and nothing was said of addressing, the pools
     /// are reached by device address instead.
-    pub(super) fn new(
+    ///
+    /// # Errors
+    /// The device lacks something or fails, or the build does not become complete.
+    pub fn new(
         device: &Device,
         spec: &Spec,
         scene: &GpuScene,
@@ -231,8 +246,23 @@ impl Built {
         })
     }
 
+    /// Builds for what the scene's camera sees now, from where it is; times stay as they are.
+    ///
+    /// # Errors
+    /// As [`Built::build_again`].
+    pub fn follow_camera(&mut self, device: &Device, scene: &GpuScene) -> Result<(), ExperimentError> {
+        self.viewpoint = scene.viewpoint().at(scene.eye());
+        self.outcome =
+            build_until_complete(device, self.structure.as_mut(), self.viewpoint, device.best_timing())
+                .map_err(|e| tracer_error(&e))?;
+        Ok(())
+    }
+
     /// Builds once more and keeps the times.
-    pub(super) fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
+    ///
+    /// # Errors
+    /// The device fails, or the build does not become complete.
+    pub fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
         let regrows = self.outcome.regrows;
         let timing = device.best_timing();
         self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
@@ -249,7 +279,7 @@ impl Built {
     }
 
     /// Sets the times of the build in a run.
-    pub(super) fn write_times(&self, times: &mut Times) {
+    pub fn write_times(&self, times: &mut Times) {
         times.first_build_ms = Some(self.first_ms);
         if !self.whole.is_empty() {
             times.build_ms = Some(median(&self.whole));

@@ -44,12 +44,15 @@ pub(super) struct Wanted<'a> {
 }
 
 /// What one system answered to one set.
-#[derive(Default)]
-struct Traced {
-    hits: Vec<Hit>,
-    counters: QueueCounters,
-    milliseconds: Vec<f64>,
-    passes: Passes,
+#[derive(Debug, Default)]
+pub struct Traced {
+    /// One a ray.
+    pub hits: Vec<Hit>,
+    /// Of one trace of all rays.
+    pub counters: QueueCounters,
+    /// Of each timed trace.
+    pub milliseconds: Vec<f64>,
+    pub(super) passes: Passes,
 }
 
 /// Traces a set through all systems, in turns, and adds a run for each to the comparison. `name_hits`
@@ -78,7 +81,7 @@ pub(super) fn compare_set(
     }
     let mut answers = Vec::new();
     for (contestant, mut traced) in
-        contestants.iter().zip(trace_in_turns(device, contestants, set, wanted.repetitions)?)
+        contestants.iter().zip(trace_in_turns(device, contestants, &set.rays, wanted.repetitions)?)
     {
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
@@ -124,7 +127,7 @@ fn judge(
     figures: bool,
     comparison: &mut Comparison,
 ) -> Result<(), ExperimentError> {
-    let hits = device_hits(hits);
+    let hits = device_hits(hits.iter().copied());
     run.accuracy = Some(accuracy(kind, verdicts, &hits)?);
     if figures {
         comparison.figures.depth_errors.push(depth_errors(comparison.runs.len(), verdicts, &hits));
@@ -132,20 +135,23 @@ fn judge(
     Ok(())
 }
 
-fn trace_in_turns(
+/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. One answer for each contestant.
+///
+/// # Errors
+/// The device fails, or rays do not finish.
+pub fn trace_in_turns(
     device: &Device,
     contestants: &[Contestant<'_>],
-    set: &RaysWithTruth,
+    rays: &[Ray],
     repetitions: u32,
 ) -> Result<Vec<Traced>, ExperimentError> {
-    let tracer =
-        BatchTracer::new(device, set.rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let timing = device.best_timing();
     let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
             let outcome = tracer
-                .trace(contestant.built.structure.as_ref(), &set.rays, TraceMode::Closest, timing)
+                .trace(contestant.built.structure.as_ref(), rays, TraceMode::Closest, timing)
                 .map_err(|e| tracer_error(&e))?;
             if repetition == 0 {
                 traced.hits = outcome.hits;

@@ -3,7 +3,8 @@
 use rasray_systems::Preset;
 
 use super::deviations_dirt;
-use super::row::{Cases, Demand, Deviation, ROUNDING, Row, Tier};
+use super::row::{Cases, Demand, Deviation, Row, Tier};
+use rasray_experiment::ROUNDING;
 
 const fn published(
     name: &'static str,

@@ -1,6 +1,7 @@
 //! Random rays through ten thousand triangles against exact arithmetic. RASRAY_FULL=1 traces ten million.
 
 use rasray_bvh::{Builder, Bvh, Config};
+use rasray_experiment::ROUNDING;
 use rasray_gpu_scene::Posed;
 use rasray_reference::oracle;
 use rasray_tests::conformance::{Prepared, measure};
@@ -9,8 +10,6 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::tier::is_full;
 
-/// 64 units of rounding beyond the oracle's own bounds, as in the conformance table.
-const ROUNDING: f64 = 64.0 / 16_777_216.0;
 /// Rays of one batch.
 const BATCH: usize = 100_000;
 

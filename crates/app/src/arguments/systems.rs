@@ -6,8 +6,10 @@ use rasray_experiment::{StructureOptions, SystemConfig};
 use rasray_systems::{Preset, SYSTEMS, System};
 
 mod assigned;
+mod names;
 
 use assigned::Assigned;
+use names::{names, who_has};
 
 /// One system with its options, each of which it must have.
 pub fn single(
@@ -116,20 +118,6 @@ pub fn several(
         }
     }
     Ok(configs)
-}
-
-fn names<'a>(systems: impl IntoIterator<Item = &'a &'static System>) -> String {
-    systems.into_iter().map(|system| system.name).collect::<Vec<_>>().join(", ")
-}
-
-fn who_has(option: &str) -> String {
-    let having: Vec<_> =
-        SYSTEMS.iter().filter(|system| system.has(option)).map(|system| system.name).collect();
-    if having.is_empty() {
-        "no system has it".to_owned()
-    } else {
-        format!("it belongs to {}", having.join(", "))
-    }
 }
 
 #[cfg(test)]

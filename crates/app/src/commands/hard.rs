@@ -1,15 +1,14 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
-use super::compare::Targets;
-use super::{check_whole, open_device, stop_if_requested, with_progress};
+use super::steps::{check_whole, open_device, stop_if_requested, with_progress};
+use super::targets::Targets;
 use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
 use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use rasray_experiment::SystemConfig;
-use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend};
+use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig};
 use rasray_hard_cases::{HardFile, Loading, Scale};
 use rasray_ray_files::{HitsFile, load_hits};
 use rasray_report::{HardRecord, Report, Run, SceneRecord, columns};

@@ -1,6 +1,6 @@
 //! `rasray render`.
 
-use super::{
+use super::steps::{
     check_whole, destination, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
 };
 use crate::arguments::RenderArguments;
@@ -11,10 +11,8 @@ use crate::progress::during;
 use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
 use crate::texels;
-use rasray_experiment::SystemConfig;
-use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput};
-use rasray_report::json_shown;
-use rasray_report::{Report, Run};
+use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput, SystemConfig};
+use rasray_report::{Report, Run, json_shown};
 use std::io::IsTerminal;
 use std::path::Path;
 

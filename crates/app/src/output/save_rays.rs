@@ -1,6 +1,6 @@
 //! Writes what was traced and answered into folders.
 
-use super::Destination;
+use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use rasray_ads::PRIMITIVE_NONE;

@@ -3,7 +3,7 @@
 use clap::Parser;
 use rasray_systems::{Preset, SYSTEMS, System};
 
-use super::{names, who_has};
+use super::names::{names, who_has};
 use crate::arguments::mistakes::usage_error;
 use crate::arguments::structure::StructureArguments;
 use crate::error::AppError;

@@ -1,6 +1,6 @@
 //! The devices, what the one in use offers, and the way of each structure on it.
 
-use super::pair;
+use super::rows::pair;
 use rasray_experiment::DeviceDescription;
 use rasray_report::{Device, columns};
 use serde_json::{Map, Value, json};

@@ -1,6 +1,7 @@
 //! `rasray info`.
 
 mod device;
+mod rows;
 mod scene;
 mod texels;
 
@@ -12,7 +13,7 @@ use rasray_experiment::{Frame, OpenBackend, Sampler};
 use rasray_report::json_shown;
 use serde_json::Value;
 
-use super::open_device;
+use super::steps::open_device;
 use device::{device_json, device_text};
 use scene::SceneInfo;
 
@@ -58,8 +59,4 @@ fn show(as_json: bool, json: impl Fn() -> Value, text: impl Fn() -> String) -> R
     }
     let text = serde_json::to_string_pretty(&whole).expect("names and numbers");
     terminal::print(&format!("{}\n", json_shown(&text)))
-}
-
-fn pair(name: &str, value: impl ToString) -> Vec<String> {
-    vec![name.to_owned(), value.to_string()]
 }

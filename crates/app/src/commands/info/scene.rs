@@ -1,6 +1,6 @@
 //! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
 
-use super::pair;
+use super::rows::pair;
 use super::texels::TexelInfo;
 use crate::camera::Chosen;
 use crate::error::AppError;

@@ -1,6 +1,6 @@
 //! The texels of a scene's textures, and what a device that does not hold them all makes of them.
 
-use super::pair;
+use super::rows::pair;
 use crate::error::AppError;
 use crate::texels::{self, HELD_BY_EVERY_DEVICE, described, records};
 use rasray_experiment::TexelRoom;

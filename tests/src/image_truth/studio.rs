@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use rasray_abuffer::{ABuffer, Config};
-use rasray_ads::{BruteForce, RayQueue, Structure};
-use rasray_gpu::Timing;
-use rasray_gpu_scene::{GpuScene, Parts, Sampler, Sampling, SceneTables, View};
+use rasray_ads::RayQueue;
+use rasray_experiment::{Built, Stage};
+use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, Wave};
+use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
-use rasray_tracer::build_until_complete;
+use rasray_systems::Spec;
 
 use super::Estimate;
 use crate::harness::Bench;
@@ -22,6 +22,19 @@ pub enum System {
     MmrtRobust(u32),
 }
 
+impl System {
+    /// What the registry makes it from.
+    fn spec(self) -> Spec {
+        let spec = match self {
+            Self::BruteForce => Spec::new("brute-force", "robust", []),
+            Self::MmrtRobust(resolution) => {
+                Spec::new("mmrt", "robust", [("resolution".to_owned(), resolution.to_string())])
+            }
+        };
+        spec.expect("both systems are registered")
+    }
+}
+
 /// A rendered image.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
@@ -32,15 +45,15 @@ pub struct Picture {
 }
 
 /// Everything that renders one scene.
-pub struct Stage<'a> {
+pub struct Studio<'a> {
     bench: &'a Bench,
-    scene: GpuScene,
-    structure: Box<dyn Structure>,
+    stage: Stage,
+    built: Built,
     film: Film,
     view: View,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> Studio<'a> {
     /// Uploads the scene and builds the structure around the camera.
     ///
     /// # Panics
@@ -48,29 +61,12 @@ impl<'a> Stage<'a> {
     pub fn new(bench: &'a Bench, scene: &Scene, camera: Camera, size: u32, system: System) -> Self {
         let device = bench.device();
         let view = View { camera, width: size, height: size, seed: 1 };
-        let origin = SceneTables::default_frame_origin(scene, view.eye());
-        let tables = SceneTables::new(scene, origin, &Parts::ALL).expect("the scene is whole");
-        let scene = GpuScene::upload(device, &tables, &view).expect("the scene fits");
-        let (geometry, binding) = (scene.geometry(), Some(scene.binding()));
-        let structure: Box<dyn Structure> = match system {
-            System::BruteForce => {
-                Box::new(BruteForce::new(device, geometry, binding, false).expect("pipelines are made"))
-            }
-            System::MmrtRobust(resolution) => {
-                let config = Config::robust(resolution);
-                Box::new(ABuffer::new(device, config, geometry, binding).expect("pipelines are made"))
-            }
-        };
+        let stage = Stage::new(device, scene, &view.camera, [size, size], view.seed, &Needs::all())
+            .expect("the scene is whole and fits");
+        let built =
+            Built::new(device, &system.spec(), &stage.scene, stage.scene.eye()).expect("the build completes");
         let film = Film::new(device, size, size).expect("a small film fits");
-        let mut stage = Self { bench, scene, structure, film, view };
-        stage.build();
-        stage
-    }
-
-    fn build(&mut self) {
-        let eye = self.scene.eye();
-        build_until_complete(self.bench.device(), self.structure.as_mut(), eye, Timing::None)
-            .expect("the build completes");
+        Self { bench, stage, built, film, view }
     }
 
     /// Moves the camera, and the structure's eye with it.
@@ -79,8 +75,8 @@ impl<'a> Stage<'a> {
     /// If the device fails.
     pub fn look(&mut self, camera: Camera) {
         self.view.camera = camera;
-        self.scene.update_camera(&self.view).expect("the frame can be written");
-        self.build();
+        self.stage.scene.update_camera(&self.view).expect("the frame can be written");
+        self.built.follow_camera(self.bench.device(), &self.stage.scene).expect("the build completes");
     }
 
     /// Draws other random numbers from now on.
@@ -89,7 +85,7 @@ impl<'a> Stage<'a> {
     /// If the device fails.
     pub fn reseed(&mut self, seed: u32) {
         self.view.seed = seed;
-        self.scene.update_camera(&self.view).expect("the frame can be written");
+        self.stage.scene.update_camera(&self.view).expect("the frame can be written");
     }
 
     /// Draws independent random numbers from now on, whose errors have a law.
@@ -98,7 +94,7 @@ impl<'a> Stage<'a> {
     /// If the device fails.
     pub fn sample_independently(&mut self) {
         let sampling = Sampling { sampler: Sampler::Pcg, ..Sampling::default() };
-        self.scene.set_sampling(sampling).expect("the frame can be written");
+        self.stage.scene.set_sampling(sampling).expect("the frame can be written");
     }
 
     /// What is rendered.
@@ -108,7 +104,7 @@ impl<'a> Stage<'a> {
 
     /// The scene as uploaded.
     pub fn scene(&self) -> &GpuScene {
-        &self.scene
+        &self.stage.scene
     }
 
     /// Paths of at most `bounces` scatterings.
@@ -128,7 +124,7 @@ impl<'a> Stage<'a> {
     }
 
     fn desc(&self) -> IntegratorDesc<'_> {
-        IntegratorDesc::new(self.bench.device(), &self.scene, &self.film)
+        IntegratorDesc::new(self.bench.device(), &self.stage.scene, &self.film)
     }
 
     /// Renders the samples with these indices.
@@ -155,7 +151,7 @@ impl<'a> Stage<'a> {
         for sample in samples {
             let wave = Wave { first_pixel: 0, pixel_count, sample };
             let submitted = device
-                .submit(|recorder| integrator.record_wave(recorder, self.structure.as_ref(), wave))
+                .submit(|recorder| integrator.record_wave(recorder, self.built.structure.as_ref(), wave))
                 .expect("the device works");
             submitted.value.expect("the wave fits");
         }
