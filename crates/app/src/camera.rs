@@ -3,53 +3,14 @@
 use crate::arguments::ViewArguments;
 use crate::error::AppError;
 use glam::DVec3;
-use rasray_report::CameraRecord;
-use rasray_scene::default_view::{camera_looking_at, default_camera};
-use rasray_scene::{Camera, Projection, Scene};
+use rasray_experiment::{Chosen, default_view, named_view};
+use rasray_scene::Scene;
+use rasray_scene::default_view::camera_looking_at;
 
 /// Full vertical angle of view with `--eye`, degrees, unless told.
 const DEFAULT_FOV: f64 = 45.0;
 
-/// A camera, and whose it is.
-#[derive(Clone, Debug)]
-pub(crate) struct Chosen {
-    /// The camera.
-    pub(crate) camera: Camera,
-    /// Its position among the scene's cameras, if it is one of them.
-    pub(crate) index: Option<usize>,
-}
-
-impl Chosen {
-    /// What reports say of it.
-    pub(crate) fn record(&self) -> CameraRecord {
-        let frame = &self.camera.world_from_camera;
-        let (kind, fov_y_degrees, height_m) = match self.camera.projection {
-            Projection::Perspective { fov_y } => ("perspective", Some(f64::from(fov_y).to_degrees()), None),
-            Projection::Orthographic { half_height } => {
-                ("orthographic", None, Some(2.0 * f64::from(half_height)))
-            }
-        };
-        CameraRecord {
-            name: self.camera.name.clone(),
-            index: self.index.map(|index| index as u64),
-            kind: kind.to_owned(),
-            fov_y_degrees,
-            height_m,
-            eye: frame.translation.to_array(),
-            forward: (-frame.matrix3.z_axis).normalize_or_zero().to_array(),
-            up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
-        }
-    }
-}
-
-/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
-/// is, or outside and sees all of it.
-pub(crate) fn by_default(scene: &Scene) -> Chosen {
-    let first = scene.cameras.first().cloned().map(|camera| Chosen { camera, index: Some(0) });
-    first.unwrap_or_else(|| Chosen { camera: default_camera(scene), index: None })
-}
-
-/// The camera that was asked for; else [`by_default`].
+/// The camera that was asked for; else [`default_view`].
 ///
 /// # Errors
 /// A camera that the scene lacks, and an eye at its own target.
@@ -67,31 +28,16 @@ pub(crate) fn choose(scene: &Scene, view: &ViewArguments) -> Result<Chosen, AppE
         return Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None });
     }
     match &view.camera {
-        Some(name) => named(scene, name),
-        None => Ok(by_default(scene)),
+        Some(name) => Ok(named_view(scene, name)?),
+        None => Ok(default_view(scene)),
     }
-}
-
-fn named(scene: &Scene, name: &str) -> Result<Chosen, AppError> {
-    let by_name = scene.cameras.iter().position(|camera| camera.name == name);
-    let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
-    let index = by_name.or_else(by_position).ok_or_else(|| {
-        let known: Vec<_> =
-            scene.cameras.iter().enumerate().map(|(i, camera)| format!("{i} '{}'", camera.name)).collect();
-        let help = if known.is_empty() {
-            "the scene has no cameras; use --eye and --target".to_owned()
-        } else {
-            format!("its cameras: {}", known.join(", "))
-        };
-        AppError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
-    })?;
-    Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::report::described;
+    use rasray_scene::Projection;
 
     fn scene(names: &[&str]) -> Scene {
         let camera = |name: &&str| camera_looking_at(name, DVec3::X, DVec3::ZERO, 0.5);

@@ -10,14 +10,11 @@ mod interrupt;
 pub mod output;
 mod progress;
 pub mod report;
-mod scene_source;
 mod terminal;
-mod texels;
 mod version;
 
 pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE};
 pub use interrupt::Interrupt;
-pub use scene_source::LoadedScene;
 pub use version::{COMMIT, VERSION, version_text};
 
 use arguments::{Command, CommandLine, Refusal, TalkArguments};

@@ -1,6 +1,8 @@
 //! Everything that ends an experiment early.
 
+use rasray_scene::SceneError;
 use std::fmt::Display;
+use std::path::{Path, PathBuf};
 
 /// Why an experiment gave no result. Every variant says what is wrong and what to do about it; both are whole
 /// sentences without a full stop, and may name options of the command.
@@ -15,6 +17,19 @@ pub enum ExperimentError {
         /// What to do; may be empty.
         help: String,
     },
+    /// A file cannot be read.
+    #[error("{}: {message}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+        /// What to do; may be empty.
+        help: String,
+    },
+    /// A scene cannot be read.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
     /// The device is missing, lacks something required, or failed.
     #[error("{message}")]
     Device {
@@ -39,6 +54,11 @@ impl ExperimentError {
         Self::Usage { message: message.into(), help: help.into() }
     }
 
+    /// An error about a file that is read.
+    pub fn input(path: &Path, message: impl Display, help: impl Into<String>) -> Self {
+        Self::Input { path: path.to_owned(), message: message.to_string(), help: help.into() }
+    }
+
     /// An error of the device.
     pub fn device(message: impl Display, help: impl Into<String>) -> Self {
         Self::Device { message: message.to_string(), help: help.into() }
@@ -52,7 +72,33 @@ impl ExperimentError {
     /// What to do about it; may be empty.
     pub fn help(&self) -> &str {
         match self {
-            Self::Usage { help, .. } | Self::Device { help, .. } | Self::Refused { help, .. } => help,
+            Self::Scene(error) => scene_help(error),
+            Self::Usage { help, .. }
+            | Self::Input { help, .. }
+            | Self::Device { help, .. }
+            | Self::Refused { help, .. } => help,
         }
+    }
+}
+
+/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
+fn scene_help(error: &SceneError) -> &'static str {
+    match error {
+        SceneError::Read { .. } => "check the name and that you may read the file",
+        SceneError::Missing { .. } => {
+            "put that file where the scene looks for it, and check that you may read it"
+        }
+        SceneError::TooLarge { .. } => "split or simplify the scene",
+        SceneError::Syntax { .. }
+        | SceneError::Invalid { .. }
+        | SceneError::IndexOutOfRange { .. }
+        | SceneError::NoTriangles { .. } => {
+            "the file is damaged or breaks its format: correct it, or export it again"
+        }
+        SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
+        SceneError::Builtin { .. } => {
+            "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"
+        }
+        _ => "",
     }
 }

@@ -14,6 +14,7 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
+mod camera;
 mod compare;
 mod contestant;
 mod describe;
@@ -30,11 +31,14 @@ mod rays;
 mod render;
 mod renderer;
 mod replay;
+mod scene_source;
 mod stage;
 mod system_config;
+pub mod texels;
 mod traced_set;
 mod work_maps;
 
+pub use camera::{Chosen, default_view, named_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;
@@ -48,6 +52,7 @@ pub use measured::{Measured, ROUNDING, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rays::{incoherent_rays, oracle_ray};
 pub use renderer::open;
+pub use scene_source::{LoadedScene, load};
 pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
 pub use traced_set::{Traced, trace_in_turns};

@@ -1,16 +1,14 @@
 //! `rasray compare`.
 
 use super::hard;
-use super::steps::{check_whole, open_device, read_scene, stop_if_requested, with_progress};
+use super::steps::{check_whole, fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use super::targets::Targets;
 use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::progress::during;
 use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use crate::texels;
 use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
 use rasray_ray_files::{load_hits, load_rays};
 use rasray_report::Report;
@@ -60,7 +58,7 @@ pub(crate) fn compare(
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
-    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
+    fit_images(&mut loaded, &needs, backend.as_ref())?;
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {

@@ -1,16 +1,15 @@
 //! `rasray render`.
 
 use super::steps::{
-    check_whole, destination, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
+    check_whole, destination, fit_images, keep_inputs, open_device, read_scene, stop_if_requested,
+    with_progress,
 };
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::progress::during;
 use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use crate::texels;
 use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput, SystemConfig};
 use rasray_report::{Report, Run, json_shown};
 use std::io::IsTerminal;
@@ -46,7 +45,7 @@ pub(crate) fn render(
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
-    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
+    fit_images(&mut loaded, &needs, backend.as_ref())?;
     let job = RenderJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),

@@ -1,15 +1,17 @@
 //! Steps that several commands take.
 
+use crate::arguments::values::Switch;
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
-use crate::camera::{self, Chosen};
+use crate::camera;
+use crate::environment;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
-use crate::scene_source::{self, LoadedScene};
 use crate::terminal;
-use rasray_experiment::{Backend, ExperimentError, OpenBackend, Progress};
+use rasray_experiment::{Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load, texels};
 use rasray_report::Run;
+use rasray_scene::needs::Needs;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -45,10 +47,35 @@ pub(super) fn read_scene(
     reading: &SceneArguments,
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
-    let loaded = during("scene", "reading", || scene_source::prepare(name, reading))?;
+    let loaded = during("scene", "reading", || prepare(name, reading))?;
     let chosen = during("scene", "looking for a view", || camera::choose(&loaded.scene, view))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
     Ok((loaded, chosen))
+}
+
+/// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
+fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
+    // Cheap to refuse, so before the scene is read.
+    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
+    let mut loaded = load(name)?;
+    loaded.light(environment);
+    if reading.alpha == Switch::Off {
+        loaded.close_holes();
+    }
+    Ok(loaded)
+}
+
+/// Makes images smaller where the device does not hold all of them, and warns of it.
+pub(super) fn fit_images(
+    loaded: &mut LoadedScene,
+    needs: &Needs,
+    backend: &dyn Backend,
+) -> Result<(), AppError> {
+    let fitted = during("scene", "fitting images", || texels::fit(loaded, needs, &backend.texel_room()))?;
+    if let Some(text) = fitted {
+        terminal::warn(&format!("{}: {text} (smaller-images)", loaded.scene.name));
+    }
+    Ok(())
 }
 
 /// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on something

@@ -8,8 +8,8 @@ mod texels;
 use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
-use crate::{camera, scene_source, terminal};
-use rasray_experiment::{Frame, OpenBackend, Sampler};
+use crate::terminal;
+use rasray_experiment::{Frame, OpenBackend, Sampler, default_view, load};
 use rasray_report::json_shown;
 use serde_json::Value;
 
@@ -26,7 +26,7 @@ const SCHEMA: &str = "rasray-info/1";
 /// A scene that cannot be read, or no suitable device.
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     if let Some(name) = &given.scene {
-        let mut loaded = during("scene", "reading", || scene_source::load(name))?;
+        let mut loaded = during("scene", "reading", || load(name))?;
         let frame = Frame {
             integrator: given.integrator.by_default(),
             width: 1,
@@ -35,7 +35,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             seed: 0,
             sampler: Sampler::Sobol,
         };
-        let view = during("scene", "looking for a view", || camera::by_default(&loaded.scene));
+        let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         let room = || open_device(open, &given.device).map(|backend| backend.texel_room());
         let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
         show(given.json, || info.json(), || info.text())?;

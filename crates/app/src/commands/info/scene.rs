@@ -2,12 +2,10 @@
 
 use super::rows::pair;
 use super::texels::TexelInfo;
-use crate::camera::Chosen;
 use crate::error::AppError;
 use crate::report::described;
-use crate::scene_source::LoadedScene;
 use glam::DVec3;
-use rasray_experiment::{Frame, TexelRoom};
+use rasray_experiment::{Chosen, Frame, LoadedScene, TexelRoom};
 use rasray_report::in_line;
 use rasray_report::{CameraRecord, bytes, columns, grouped};
 use rasray_scene::facing::Facing;

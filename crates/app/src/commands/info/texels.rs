@@ -2,8 +2,8 @@
 
 use super::rows::pair;
 use crate::error::AppError;
-use crate::texels::{self, HELD_BY_EVERY_DEVICE, described, records};
 use rasray_experiment::TexelRoom;
+use rasray_experiment::texels::{self, HELD_BY_EVERY_DEVICE, described, records};
 use rasray_gpu_scene::{SmallerImage, TEXEL_BYTES};
 use rasray_report::bytes;
 use rasray_scene::Scene;

@@ -1,11 +1,8 @@
-//! From what was typed to a scene that can be rendered.
+//! From a name to a scene that can be rendered.
 
-use crate::arguments::SceneArguments;
-use crate::arguments::values::Switch;
-use crate::environment;
-use crate::error::AppError;
+use crate::error::ExperimentError;
 use rasray_report::{SceneRecord, SmallerImageRecord};
-use rasray_scene::{AlphaMode, LoadOptions, Scene, builtin, default_view};
+use rasray_scene::{AlphaMode, Environment, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
 use std::fs::File;
@@ -44,14 +41,14 @@ const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
 ///
 /// # Errors
 /// Names that are neither, and whatever is wrong with a file or a parameter.
-pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
+pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
     let path = Path::new(name);
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
     if is_file {
         let scene = rasray_scene::load(path, &LoadOptions::default())?;
         let sha256 = digest(path).map_err(|error| {
-            AppError::input(
+            ExperimentError::input(
                 path,
                 format!("cannot be read again: {error}"),
                 "leave the file in place while it is read",
@@ -68,40 +65,36 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, AppError> {
         builtin::NAMES.join(", ")
     );
     if path.exists() {
-        return Err(AppError::input(path, "is not a scene file by its name", kinds));
+        return Err(ExperimentError::input(path, "is not a scene file by its name", kinds));
     }
-    Err(AppError::input(path, "there is neither such a file nor such a built-in scene", kinds))
+    Err(ExperimentError::input(path, "there is neither such a file nor such a built-in scene", kinds))
 }
 
 fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
     LoadedScene { triangles: triangles(&scene), scene, sha256, smaller_images: Vec::new() }
 }
 
-/// Loads a scene as the command line asks: with its environment, its alpha masks, and light. An
-/// environment that was asked for stays as it is, a black one too; else a scene that nothing lights
-/// gets [`default_view::default_light`], with a warning.
-///
-/// # Errors
-/// Those of [`load`] and of the environment.
-pub fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
-    // Cheap to refuse, so before the scene is read.
-    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
-    let mut loaded = load(name)?;
-    if let Some(environment) = environment {
-        loaded.scene.environment = environment;
-    } else {
-        default_view::ensure_lit(&mut loaded.scene);
+impl LoadedScene {
+    /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a black one
+    /// too; else a scene that nothing lights gets [`default_view::default_light`], with a warning.
+    pub fn light(&mut self, environment: Option<Environment>) {
+        if let Some(environment) = environment {
+            self.scene.environment = environment;
+        } else {
+            default_view::ensure_lit(&mut self.scene);
+        }
     }
-    if reading.alpha == Switch::Off {
-        for material in &mut loaded.scene.materials {
+
+    /// Makes every surface opaque.
+    pub fn close_holes(&mut self) {
+        for material in &mut self.scene.materials {
             material.alpha_mode = AlphaMode::Opaque;
         }
     }
-    Ok(loaded)
 }
 
 /// Triangles over all instances.
-pub fn triangles(scene: &Scene) -> u64 {
+fn triangles(scene: &Scene) -> u64 {
     let of = |mesh: usize| scene.meshes.get(mesh).map_or(0, |mesh| mesh.triangle_count() as u64);
     scene.instances.iter().map(|instance| of(instance.mesh)).sum()
 }
@@ -141,19 +134,15 @@ mod tests {
     fn an_environment_that_was_asked_for_stays() {
         let mut file = tempfile::Builder::new().suffix(".obj").tempfile().expect("a file");
         std::io::Write::write_all(&mut file, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("bytes");
-        for (asked, expected) in [(None, None), (Some("0,0,0"), Some(0.0)), (Some("2,2,2"), Some(2.0))] {
-            let reading = SceneArguments {
-                environment: asked.map(str::to_owned),
-                alpha: Switch::On,
-                needs: crate::arguments::NeedsName::Observed,
+        for asked in [None, Some([0.0; 3]), Some([2.0; 3])] {
+            let mut loaded = load(file.path().as_os_str()).expect("a triangle");
+            loaded.light(asked.map(Environment::Constant));
+            let constant = match loaded.scene.environment {
+                Environment::Constant(radiance) => Some(radiance),
+                Environment::LatLong { .. } => None,
             };
-            let scene = prepare(file.path().as_os_str(), &reading).expect("a triangle").scene;
-            let constant = match scene.environment {
-                rasray_scene::Environment::Constant(radiance) => Some(radiance),
-                rasray_scene::Environment::LatLong { .. } => None,
-            };
-            assert_eq!(constant, expected.map(|radiance| [radiance; 3]), "{asked:?}");
-            let warned = scene.warnings.iter().any(|warning| warning.kind == "default-light");
+            assert_eq!(constant, asked);
+            let warned = loaded.scene.warnings.iter().any(|warning| warning.kind == "default-light");
             assert_eq!(warned, asked.is_none());
         }
     }
@@ -162,7 +151,7 @@ mod tests {
     fn a_name_that_is_nothing_lists_what_there_is() {
         for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
             let error = load(OsStr::new(bad)).expect_err(bad);
-            assert_eq!(error.exit_code(), 2);
+            assert!(matches!(error, ExperimentError::Input { .. } | ExperimentError::Scene(_)), "{error:?}");
             assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
         }
         assert!(load(OsStr::new("cornel")).expect_err("misspelt").help().contains("cornell"));

@@ -1,22 +1,21 @@
 //! Images that are made smaller because a device does not hold the texels of all.
 
-use crate::error::AppError;
+use crate::error::ExperimentError;
+use crate::jobs::TexelRoom;
 use crate::scene_source::LoadedScene;
-use crate::terminal;
-use rasray_experiment::TexelRoom;
 use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
 use rasray_report::{SmallerImageRecord, bytes};
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
 
 /// Bytes of texels that every device holds: Vulkan grants each of the buffers 128 MiB.
-pub(crate) const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
+pub const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
 
 /// The texels that the textures of a scene have as far as they are needed.
 ///
 /// # Errors
 /// The scene names what it does not have.
-pub(crate) fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, AppError> {
+pub fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> {
     TexelDemand::of(scene, &Parts::from(needs)).map_err(refused)
 }
 
@@ -24,27 +23,30 @@ pub(crate) fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, AppErr
 ///
 /// # Errors
 /// Even images of one texel each are too many.
-pub(crate) fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerImage>, AppError> {
+pub fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerImage>, ExperimentError> {
     demand.smaller_images(room.texels).map_err(refused)
 }
 
-/// Makes the largest images smaller until the device holds the texels of all, and warns once where it did.
+/// Makes the largest images smaller until the device holds the texels of all, and says in words what it did, if anything.
 /// Whoever reads the scene afterwards, the reference too, reads these images.
 ///
 /// # Errors
 /// Even images of one texel each are too many.
-pub(crate) fn fit(loaded: &mut LoadedScene, needs: &Needs, room: &TexelRoom) -> Result<(), AppError> {
+pub fn fit(
+    loaded: &mut LoadedScene,
+    needs: &Needs,
+    room: &TexelRoom,
+) -> Result<Option<String>, ExperimentError> {
     let demand = demand(&loaded.scene, needs)?;
     let smaller = smaller_images(&demand, room)?;
-    let Some(text) = described(&smaller, demand.bytes(), room) else { return Ok(()) };
+    let text = described(&smaller, demand.bytes(), room);
     smaller.iter().for_each(|image| image.apply(&mut loaded.scene));
     loaded.smaller_images = records(&smaller);
-    terminal::warn(&format!("{}: {text} (smaller-images)", loaded.scene.name));
-    Ok(())
+    Ok(text)
 }
 
 /// What is made smaller, and why; nothing where nothing is. The largest come first: they were so before, too.
-pub(crate) fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<String> {
+pub fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
     let what = match smaller {
@@ -61,7 +63,7 @@ pub(crate) fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom)
 }
 
 /// As reports and `rasray info --json` name them.
-pub(crate) fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
+pub fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
     let record = |image: &SmallerImage| SmallerImageRecord {
         name: image.name.clone(),
         from: image.from,
@@ -70,8 +72,8 @@ pub(crate) fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
     smaller.iter().map(record).collect()
 }
 
-fn refused(error: GpuSceneError) -> AppError {
-    AppError::device(error, "use fewer textures, or another --device")
+fn refused(error: GpuSceneError) -> ExperimentError {
+    ExperimentError::device(error, "use fewer textures, or another --device")
 }
 
 #[cfg(test)]
@@ -99,10 +101,10 @@ mod tests {
         };
         let before = sizes(&whole);
         let needed = needs(&whole);
-        fit(&mut whole, &needed, &room(asked.texels())).expect("room");
+        assert_eq!(fit(&mut whole, &needed, &room(asked.texels())).expect("room"), None);
         assert_eq!((sizes(&whole), whole.record().smaller_images), (before.clone(), Vec::new()));
 
-        fit(&mut whole, &needed, &room(asked.texels() / 8)).expect("room");
+        let said = fit(&mut whole, &needed, &room(asked.texels() / 8)).expect("room").expect("words");
         let records = whole.record().smaller_images;
         assert!(!records.is_empty() && sizes(&whole) != before);
         for record in &records {
@@ -111,6 +113,7 @@ mod tests {
         assert!(demand(&whole.scene, &needed).expect("whole").texels() <= asked.texels() / 8);
         let smaller = asked.smaller_images(asked.texels() / 8).expect("room");
         let text = described(&smaller, asked.bytes(), &room(asked.texels() / 8)).expect("something");
+        assert_eq!(said, text);
         let largest = records.iter().map(|record| record.from[0]).max().expect("some");
         assert!(
             text.contains(&format!(" instead of {largest}x")) && text.contains("a small device"),
