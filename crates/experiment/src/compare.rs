@@ -6,10 +6,11 @@ use rasray_gpu::Device;
 use rasray_reference::oracle::{Accept, Oracle};
 use rasray_reference::shading::{PosedScene, View};
 
+use crate::backend::{OnProgress, Progress};
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::images::{Setting, compare_images};
-use crate::jobs::{CompareJob, Comparison, FILE_SET, OnProgress, Progress, Sampler};
+use crate::jobs::{CompareJob, Comparison, FILE_SET, Sampler};
 use crate::rays::{RaySource, oracle_ray, triangles};
 use crate::replay::{ReplaySetting, replay_sets};
 use crate::stage::{Stage, device_error};

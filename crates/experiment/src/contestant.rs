@@ -4,8 +4,8 @@ use rasray_ads::Counters;
 use rasray_gpu::Device;
 use rasray_systems::Spec;
 
+use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{OnProgress, Progress};
 use crate::stage::{Built, Stage};
 use crate::system_config::SystemConfig;
 use rasray_report::{Run, Times};

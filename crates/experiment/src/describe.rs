@@ -4,8 +4,8 @@ use rasray_gpu::{Device, Feature as GpuFeature, Requirements};
 use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
 use rasray_systems::{SYSTEMS, Spec};
 
+use crate::backend::{ChosenPath, DeviceDescription, Feature};
 use crate::error::ExperimentError;
-use crate::jobs::{ChosenPath, DeviceDescription, Feature};
 use crate::stage::device_error;
 
 /// What any system may want of a device; each names what it cannot do without when it is made.

@@ -7,10 +7,11 @@ use rasray_hard_cases::{HardCase, Triangle};
 use rasray_reference::oracle::Oracle;
 use rasray_scene::needs::Needs;
 
+use crate::backend::{OnProgress, Progress};
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::hard_verdict::hard_record;
-use crate::jobs::{Comparison, HardJob, OnProgress, Progress};
+use crate::jobs::{Comparison, HardJob};
 use crate::judge::device_hits;
 use crate::measured::{Measured, Tolerance};
 use crate::placed::{Placed, case_camera};

@@ -5,9 +5,10 @@ use rasray_metrics as metrics;
 use rasray_reference::integrators::Image;
 use rasray_reference::shading::{PosedScene, View};
 
+use crate::backend::OnProgress;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
-use crate::jobs::{CompareJob, Comparison, Frame, Integrator, OnProgress};
+use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
 use crate::render::render_pixels;
 use crate::stage::{Built, Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};

@@ -14,12 +14,14 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
+mod backend;
 mod camera;
 mod compare;
 mod contestant;
 mod describe;
 mod error;
 mod hard;
+mod hard_file;
 mod hard_verdict;
 mod images;
 mod jobs;
@@ -38,17 +40,21 @@ pub mod texels;
 mod traced_set;
 mod work_maps;
 
+pub use backend::{
+    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
+    TexelRoom,
+};
 pub use camera::{Chosen, default_view, named_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;
+pub use hard_file::compare_file;
 pub use jobs::{
-    Answers, AovSelection, Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription,
-    FILE_SET, Feature, Frame, HardJob, Integrator, Kept, KeptSet, OnProgress, OpenBackend, Progress, RaySet,
-    RenderJob, RenderOutput, Sampler, TexelRoom,
+    Answers, AovSelection, CompareJob, Comparison, FILE_SET, Frame, HardJob, Integrator, Kept, KeptSet,
+    RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use judge::device_hits;
-pub use measured::{Measured, ROUNDING, Tolerance};
+pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rays::{incoherent_rays, oracle_ray};
 pub use renderer::open;

@@ -7,7 +7,7 @@ use rasray_reference::oracle::Verdict;
 
 /// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test itself,
 /// relative to t.
-pub const ROUNDING: f64 = 64.0 / 16_777_216.0;
+pub const HIT_ROUNDING: f64 = 64.0 / 16_777_216.0;
 
 /// Depth that a fragment may be off by and count as right, relative.
 const FRAGMENT_DEPTH: f64 = 1.0e-3;
@@ -25,7 +25,7 @@ impl Tolerance {
     /// What the command allows a kind of structure.
     pub fn of(kind: StructureKind) -> Self {
         let both = match kind {
-            StructureKind::Primitive | StructureKind::LossyPrimitive => ROUNDING,
+            StructureKind::Primitive | StructureKind::LossyPrimitive => HIT_ROUNDING,
             StructureKind::Fragment => FRAGMENT_DEPTH,
         };
         Self { depth: both, rounding: both }

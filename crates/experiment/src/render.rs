@@ -10,8 +10,9 @@ use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, 
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
+use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, Frame, Integrator, OnProgress, Progress, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, Frame, Integrator, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::stage::{Built, Stage, device_error, tracer_error};
 use rasray_report::{Counters, Times};

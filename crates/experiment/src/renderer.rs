@@ -3,12 +3,10 @@
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 use rasray_gpu_scene::TexelRuns;
 
+use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelRoom};
 use crate::describe::requirements;
 use crate::error::ExperimentError;
-use crate::jobs::{
-    Backend, CompareJob, Comparison, DeviceChoice, DeviceDescription, HardJob, OnProgress, RenderJob,
-    RenderOutput, TexelRoom,
-};
+use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use rasray_report::Device;
 
 /// A device and nothing else: everything made for a job goes with the job.

@@ -1,7 +1,7 @@
 //! Images that are made smaller because a device does not hold the texels of all.
 
+use crate::backend::TexelRoom;
 use crate::error::ExperimentError;
-use crate::jobs::TexelRoom;
 use crate::scene_source::LoadedScene;
 use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
 use rasray_report::{SmallerImageRecord, bytes};

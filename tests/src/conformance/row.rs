@@ -1,5 +1,5 @@
 use rasray_ads::{Geometry, Structure, StructureKind};
-use rasray_experiment::ROUNDING;
+use rasray_experiment::HIT_ROUNDING;
 use rasray_systems::{Preset, Spec};
 
 use crate::harness::Bench;
@@ -158,7 +158,7 @@ impl Row {
         tier: Tier,
         cases: Cases,
     ) -> Self {
-        let demand = Demand::Exact { rounding: ROUNDING };
+        let demand = Demand::Exact { rounding: HIT_ROUNDING };
         Self { name, system, preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
     }
 
