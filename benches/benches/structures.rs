@@ -1,44 +1,57 @@
 //! Build and trace times of every registered system: `cargo bench -- [SCENE] [RAYS]`.
+//!
+//! Prints, for every registered system and preset, the median build time and the median trace time of random rays,
+//! alternated between systems in one process. Times of software devices are for ratios on that device. For errors
+//! beside speed use `rasray compare`.
 
-use rasray_ads::TraceMode;
-use rasray_benches::{BenchError, Stage};
+use std::ops::ControlFlow;
+
+use rasray_experiment::{
+    Contestant, Stage, StructureOptions, SystemConfig, incoherent_rays, requirements, trace_in_turns,
+};
+use rasray_gpu::{Device, DeviceDesc};
 use rasray_metrics::median;
-use rasray_systems::{SYSTEMS, Spec};
-use rasray_tracer::{BatchTracer, build_until_complete};
+use rasray_scene::needs::{Integrator, Needs, Workload};
+use rasray_scene::{builtin, default_view};
+use rasray_systems::SYSTEMS;
 
-const REPETITIONS: usize = 5;
+const REPETITIONS: u32 = 5;
 
-fn main() -> Result<(), BenchError> {
+/// Of all random numbers.
+const SEED: u32 = 1;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
-    let scene = arguments.first().map_or("spheres:10k", String::as_str);
+    let name = arguments.first().map_or("spheres:10k", String::as_str);
     let rays: u32 = arguments.get(1).and_then(|text| text.parse().ok()).unwrap_or(4096);
-    let stage = Stage::new(scene)?;
-    let device = &stage.device;
-    println!("{}, {scene}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
+    let scene = builtin::builtin(name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
+    let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
+    let device = Device::create(&DeviceDesc { requirements: requirements(), ..DeviceDesc::default() })?;
+    println!("{}, {name}, {rays} incoherent rays, medians of {REPETITIONS}", device.name());
 
-    let timing = device.best_timing();
-    let rays = stage.incoherent_rays(rays);
-    let tracer = BatchTracer::new(device, rays.len().clamp(1, 131_072) as u32)?;
-    let mut rows = Vec::new();
-    for system in SYSTEMS {
-        for preset in system.presets {
-            let spec = Spec::new(system.name, preset.name(), [])?;
-            let mut structure = spec.create(device, stage.scene.geometry(), Some(stage.scene.binding()))?;
-            build_until_complete(device, structure.as_mut(), stage.scene.eye(), timing)?;
-            rows.push((format!("{} {}", system.name, preset.name()), structure, Vec::new(), Vec::new()));
-        }
-    }
-    for _ in 0..REPETITIONS {
-        for (_, structure, builds, traces) in &mut rows {
-            let outcome = build_until_complete(device, structure.as_mut(), stage.scene.eye(), timing)?;
-            builds.push(outcome.host_milliseconds);
-            let traced = tracer.trace(structure.as_ref(), &rays, TraceMode::Closest, timing)?;
-            traces.push(traced.milliseconds());
-        }
-    }
+    let needs = Needs::of(&scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
+    let stage = Stage::new(&device, &scene, &camera, [64, 64], SEED, &needs)?;
+    let systems: Vec<SystemConfig> = SYSTEMS
+        .iter()
+        .flat_map(|system| system.presets.iter().map(move |preset| (system, *preset)))
+        .map(|(system, preset)| SystemConfig {
+            system,
+            preset,
+            options: StructureOptions::default(),
+            variant: None,
+        })
+        .collect();
+    let contestants =
+        Contestant::all(&device, &stage, &systems, stage.scene.eye(), REPETITIONS, &mut |_| {
+            ControlFlow::Continue(())
+        })?;
+    let rays = incoherent_rays(stage.scene.geometry().bounds(), SEED, rays);
+    let traces = trace_in_turns(&device, &contestants, &rays, REPETITIONS)?;
     println!("{:<24} {:>12} {:>12} {:>14}", "system", "build ms", "trace ms", "Mrays/s");
-    for (name, _, builds, traces) in &rows {
-        let (build, trace) = (median(builds).unwrap_or(0.0), median(traces).unwrap_or(0.0));
+    for (contestant, traced) in contestants.iter().zip(&traces) {
+        let run = contestant.run(&device)?;
+        let name = format!("{} {}", run.system, run.preset);
+        let (build, trace) = (run.times.build_ms.unwrap_or(0.0), median(&traced.milliseconds).unwrap_or(0.0));
         println!("{name:<24} {build:>12.2} {trace:>12.2} {:>14.3}", rays.len() as f64 / trace / 1.0e3);
     }
     Ok(())

@@ -3,9 +3,10 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use rasray_ads::{
-    BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, PRIMITIVE_NONE, Ray, RayQueue, Structure,
-    Surface, TraceMode, Viewpoint,
+    BuildStatus, Domain, Draw, Geometry, GeometryDesc, Hit, Ray, RayQueue, Structure, Surface, TraceMode,
+    Viewpoint,
 };
+pub use rasray_experiment::oracle_ray;
 use rasray_gpu::{BufferUsage, Device, DeviceDesc, Feature, Requirements, Timing};
 use rasray_reference::oracle;
 use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
@@ -186,17 +187,6 @@ impl Drop for Bench {
 /// All bits of a hit, so that equal means equal in every one of them.
 pub fn bits(hit: &Hit) -> [u32; 4] {
     [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]
-}
-
-/// The same ray for the oracle.
-pub fn oracle_ray(ray: &Ray) -> oracle::Ray {
-    oracle::Ray {
-        origin: ray.origin,
-        t_min: ray.t_min,
-        direction: ray.direction,
-        t_max: ray.t_max,
-        exclude_primitive: (ray.exclude_primitive != PRIMITIVE_NONE).then_some(ray.exclude_primitive),
-    }
 }
 
 /// An oracle over the same triangles.

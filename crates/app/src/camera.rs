@@ -2,96 +2,15 @@
 
 use crate::arguments::ViewArguments;
 use crate::error::AppError;
-use crate::report::CameraRecord;
 use glam::DVec3;
-use rasray_scene::default_view::{camera_looking_at, default_camera};
-use rasray_scene::{Camera, Projection, Scene};
+use rasray_experiment::{Chosen, default_view, named_view};
+use rasray_scene::Scene;
+use rasray_scene::default_view::camera_looking_at;
 
 /// Full vertical angle of view with `--eye`, degrees, unless told.
 const DEFAULT_FOV: f64 = 45.0;
 
-/// A camera, and whose it is.
-#[derive(Clone, Debug)]
-pub(crate) struct Chosen {
-    /// The camera.
-    pub(crate) camera: Camera,
-    /// Its position among the scene's cameras, if it is one of them.
-    pub(crate) index: Option<usize>,
-}
-
-impl Chosen {
-    /// What reports say of it.
-    pub(crate) fn record(&self) -> CameraRecord {
-        let frame = &self.camera.world_from_camera;
-        let (kind, fov_y_degrees, height_m) = match self.camera.projection {
-            Projection::Perspective { fov_y } => ("perspective", Some(f64::from(fov_y).to_degrees()), None),
-            Projection::Orthographic { half_height } => {
-                ("orthographic", None, Some(2.0 * f64::from(half_height)))
-            }
-        };
-        CameraRecord {
-            name: self.camera.name.clone(),
-            index: self.index.map(|index| index as u64),
-            kind: kind.to_owned(),
-            fov_y_degrees,
-            height_m,
-            eye: frame.translation.to_array(),
-            forward: (-frame.matrix3.z_axis).normalize_or_zero().to_array(),
-            up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
-        }
-    }
-}
-
-/// A camera in a few words: whose it is, where it stands, and the options that put one there.
-pub(crate) fn described(record: &CameraRecord) -> String {
-    let whose = match record.index {
-        Some(index) => format!("{index} '{}'", record.name),
-        None => record.name.clone(),
-    };
-    format!("{whose}, {}", placed(record))
-}
-
-/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is rolled.
-pub(crate) fn placed(record: &CameraRecord) -> String {
-    let (eye, forward) = (DVec3::from_array(record.eye), DVec3::from_array(record.forward));
-    // A target as far away as the eye is from the origin keeps as many digits.
-    let target = eye + forward * eye.length().max(1.0);
-    let point = |point: DVec3| point.to_array().map(short).join(",");
-    match (record.fov_y_degrees, record.height_m) {
-        (Some(fov), _) => {
-            let upright = camera_looking_at("", eye, target, 1.0).world_from_camera.matrix3.y_axis;
-            let rolled =
-                if upright.dot(DVec3::from_array(record.up)) < 0.999_99 { ", and rolled" } else { "" };
-            format!("--eye {} --target {} --fov {}{rolled}", point(eye), point(target), short(fov))
-        }
-        (_, height) => format!(
-            "parallel, {} m high, from {} towards {}",
-            short(height.unwrap_or_default()),
-            point(eye),
-            point(target)
-        ),
-    }
-}
-
-/// A number with at most three digits after the point, or in powers of ten.
-fn short(value: f64) -> String {
-    let magnitude = value.abs();
-    if magnitude != 0.0 && !(1.0e-2..1.0e7).contains(&magnitude) && magnitude >= 1.0e-12 {
-        return format!("{value:.4e}");
-    }
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
-
-/// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
-/// is, or outside and sees all of it.
-pub(crate) fn by_default(scene: &Scene) -> Chosen {
-    let first = scene.cameras.first().cloned().map(|camera| Chosen { camera, index: Some(0) });
-    first.unwrap_or_else(|| Chosen { camera: default_camera(scene), index: None })
-}
-
-/// The camera that was asked for; else [`by_default`].
+/// The camera that was asked for; else [`default_view`].
 ///
 /// # Errors
 /// A camera that the scene lacks, and an eye at its own target.
@@ -109,30 +28,16 @@ pub(crate) fn choose(scene: &Scene, view: &ViewArguments) -> Result<Chosen, AppE
         return Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None });
     }
     match &view.camera {
-        Some(name) => named(scene, name),
-        None => Ok(by_default(scene)),
+        Some(name) => Ok(named_view(scene, name)?),
+        None => Ok(default_view(scene)),
     }
-}
-
-fn named(scene: &Scene, name: &str) -> Result<Chosen, AppError> {
-    let by_name = scene.cameras.iter().position(|camera| camera.name == name);
-    let by_position = || name.parse::<usize>().ok().filter(|position| *position < scene.cameras.len());
-    let index = by_name.or_else(by_position).ok_or_else(|| {
-        let known: Vec<_> =
-            scene.cameras.iter().enumerate().map(|(i, camera)| format!("{i} '{}'", camera.name)).collect();
-        let help = if known.is_empty() {
-            "the scene has no cameras; use --eye and --target".to_owned()
-        } else {
-            format!("its cameras: {}", known.join(", "))
-        };
-        AppError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
-    })?;
-    Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::described;
+    use rasray_scene::Projection;
 
     fn scene(names: &[&str]) -> Scene {
         let camera = |name: &&str| camera_looking_at(name, DVec3::X, DVec3::ZERO, 0.5);

@@ -1,7 +1,7 @@
 //! Everything that ends the command early, with its exit code.
 
-use crate::terminal::one_line;
-use rasray_scene::SceneError;
+use rasray_experiment::ExperimentError;
+use rasray_report::one_line;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -41,9 +41,6 @@ pub enum AppError {
         /// What to do.
         help: String,
     },
-    /// A scene cannot be read. Exit code 2.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
     /// The device is missing, lacks something required, or failed. Exit code 3.
     #[error("{message}")]
     Device {
@@ -76,6 +73,19 @@ pub enum AppError {
         /// What to do.
         help: String,
     },
+}
+
+impl From<ExperimentError> for AppError {
+    fn from(error: ExperimentError) -> Self {
+        let help = error.help().to_owned();
+        match error {
+            ExperimentError::Usage { message, .. } => Self::Usage { message, help },
+            ExperimentError::Scene(error) => Self::Usage { message: error.to_string(), help },
+            ExperimentError::Input { path, message, .. } => Self::Input { path, message, help },
+            ExperimentError::Refused { message, .. } => Self::Refused { message, help },
+            error => Self::Device { message: error.to_string(), help },
+        }
+    }
 }
 
 impl From<rasray_ray_files::FileError> for AppError {
@@ -113,7 +123,7 @@ impl AppError {
     /// The exit code of the command.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Usage { .. } | Self::Input { .. } | Self::Scene(_) => EXIT_USAGE,
+            Self::Usage { .. } | Self::Input { .. } => EXIT_USAGE,
             Self::Device { .. } => EXIT_DEVICE,
             Self::Refused { .. } => EXIT_REFUSED,
             Self::Target { .. } => EXIT_TARGET,
@@ -124,7 +134,6 @@ impl AppError {
     /// What to do about it.
     pub fn help(&self) -> &str {
         match self {
-            Self::Scene(error) => scene_help(error),
             Self::Usage { help, .. }
             | Self::Input { help, .. }
             | Self::Device { help, .. }
@@ -142,28 +151,6 @@ impl AppError {
             lines += &format!("help: {}\n", one_line(self.help()));
         }
         lines
-    }
-}
-
-/// What to do about a scene that cannot be read. Messages that already end in what to do get none.
-fn scene_help(error: &SceneError) -> &'static str {
-    match error {
-        SceneError::Read { .. } => "check the name and that you may read the file",
-        SceneError::Missing { .. } => {
-            "put that file where the scene looks for it, and check that you may read it"
-        }
-        SceneError::TooLarge { .. } => "split or simplify the scene",
-        SceneError::Syntax { .. }
-        | SceneError::Invalid { .. }
-        | SceneError::IndexOutOfRange { .. }
-        | SceneError::NoTriangles { .. } => {
-            "the file is damaged or breaks its format: correct it, or export it again"
-        }
-        SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
-        SceneError::Builtin { .. } => {
-            "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"
-        }
-        _ => "",
     }
 }
 

@@ -1,8 +1,7 @@
 //! The `rasray` command as a library: the command line, scenes, images, reports, signals and exit
-//! codes. What renders is behind [`backend::Backend`].
+//! codes. What renders and compares is behind [`rasray_experiment::Backend`].
 
 pub mod arguments;
-pub mod backend;
 mod camera;
 mod commands;
 mod environment;
@@ -10,37 +9,18 @@ mod error;
 mod interrupt;
 pub mod output;
 mod progress;
-mod renderer;
 pub mod report;
-mod scene_source;
-pub mod structure;
-pub mod systems;
 mod terminal;
-mod texels;
+mod version;
 
 pub use error::{AppError, EXIT_DEVICE, EXIT_INTERRUPTED, EXIT_OK, EXIT_REFUSED, EXIT_TARGET, EXIT_USAGE};
 pub use interrupt::Interrupt;
-pub use scene_source::LoadedScene;
+pub use version::{COMMIT, VERSION, version_text};
 
 use arguments::{Command, CommandLine, Refusal, TalkArguments};
-use backend::OpenBackend;
+use rasray_experiment::OpenBackend;
 use std::ffi::OsString;
 use terminal::Talk;
-
-/// Version of the command.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// Commit that the command was built from, where git knew it.
-pub const COMMIT: Option<&str> = option_env!("RASRAY_COMMIT");
-
-/// Version and, where known, commit.
-pub fn version_text() -> &'static str {
-    static TEXT: std::sync::LazyLock<String> = std::sync::LazyLock::new(|| match COMMIT {
-        Some(commit) => format!("{VERSION} ({commit})"),
-        None => VERSION.to_owned(),
-    });
-    &TEXT
-}
 
 /// Runs the command: program name first in `arguments`, `open` makes what renders. Returns the exit code: 0
 /// done, 1 missed targets with `--check`, 2 bad input or usage, 3 device, 4 refused to lose data, 130 stopped

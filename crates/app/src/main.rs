@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(rasray_app::run(std::env::args_os(), &mut rasray_app::backend::open))
+    ExitCode::from(rasray_app::run(std::env::args_os(), &mut rasray_experiment::open))
 }

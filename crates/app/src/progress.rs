@@ -1,9 +1,9 @@
 //! What is being done, on stderr: a line that moves on a terminal, else a line now and then where something takes
 //! long. Nothing where quiet was asked for.
 
-use crate::backend::Progress;
 use crate::terminal::{self, Talk};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use rasray_experiment::Progress;
 use std::io::{self, IsTerminal};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
@@ -31,7 +31,7 @@ impl ProgressLine {
 
     /// Shows how far the work is.
     pub fn show(&mut self, progress: Progress<'_>) {
-        let task = terminal::one_line(&format!("{} ({})", progress.task, progress.unit));
+        let task = rasray_report::one_line(&format!("{} ({})", progress.task, progress.unit));
         if let Some(signs) = &self.signs {
             signs.set(&task, progress);
         }

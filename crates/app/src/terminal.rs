@@ -2,7 +2,7 @@
 //! that no name in a file can steer a terminal: nothing before this layer escapes them.
 
 use crate::error::AppError;
-use rasray_report::{in_line, shown, shown_but};
+use rasray_report::{one_line, shown, shown_but};
 use rasray_scene::Scene;
 use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
@@ -32,11 +32,6 @@ pub(crate) fn set_talk(talk: Talk) {
 /// Whether so much is said.
 pub(crate) fn says(talk: Talk) -> bool {
     TALK.load(Ordering::Relaxed) >= talk as u8
-}
-
-/// The words of a text, with single spaces between them.
-pub(crate) fn one_line(text: &str) -> String {
-    in_line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
 }
 
 /// Writes bytes to stdout as they are. A reader that has gone away, such as `head`, wants no more and is no error.
@@ -151,11 +146,6 @@ impl Write for Log {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn words_stand_on_one_line() {
-        assert_eq!(one_line(" a\n  b\u{7} "), r"a b\u{7}");
-    }
 
     #[test]
     fn colours_are_for_terminals_whose_owner_does_not_mind() {

@@ -4,7 +4,7 @@ use super::axes;
 use super::markup::plot_text;
 use super::names::{by_workload, look};
 use super::section::{Plot, Section};
-use crate::figures::{DepthErrors, Figures};
+use rasray_report::figures::{DepthErrors, Figures};
 use rasray_report::{Accuracy, Report};
 use serde_json::{Value, json};
 

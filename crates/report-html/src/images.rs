@@ -5,9 +5,9 @@ use super::misfit;
 use super::picture::{MAGMA, address, colour, ramp};
 use super::section::Section;
 use crate::HtmlError;
-use crate::figures::{Figures, Images, SystemImage};
 use rasray_metrics::tone_map;
 use rasray_report::Report;
+use rasray_report::figures::{Figures, Images, SystemImage};
 
 /// The images; absent unless images were compared.
 ///

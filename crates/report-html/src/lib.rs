@@ -20,10 +20,8 @@ mod speed_error;
 mod summary;
 mod work;
 
-pub mod figures;
-
-use figures::Figures;
 use rasray_report::Report;
+use rasray_report::figures::Figures;
 
 /// The page as UTF-8 text.
 ///

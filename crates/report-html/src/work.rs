@@ -4,8 +4,8 @@ use super::markup::Markup;
 use super::picture::{VIRIDIS, address, colour, ramp};
 use super::section::Section;
 use crate::HtmlError;
-use crate::figures::{Figures, WorkMap};
 use rasray_report::Report;
+use rasray_report::figures::{Figures, WorkMap};
 use rasray_report::grouped;
 
 /// A quantity that the maps hold.

@@ -1,6 +1,7 @@
 //! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write.
 
 mod accuracy;
+pub mod figures;
 mod schema;
 #[cfg(test)]
 mod tests;
@@ -13,7 +14,7 @@ pub use schema::{
     Spread, Statistics, Timer, Times,
 };
 
-pub use text::{in_line, json_shown, shown, shown_but};
+pub use text::{in_line, json_shown, one_line, shown, shown_but};
 pub use words::{bytes, columns, grouped};
 
 use rasray_metrics::confidence_of_each;

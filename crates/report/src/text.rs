@@ -18,6 +18,11 @@ pub fn in_line(text: &str) -> Cow<'_, str> {
     written_out(text, &[])
 }
 
+/// The words of a text with single spaces between them, for one line.
+pub fn one_line(text: &str) -> String {
+    in_line(&text.split_whitespace().collect::<Vec<_>>().join(" ")).into_owned()
+}
+
 fn written_out<'a>(text: &'a str, kept: &[char]) -> Cow<'a, str> {
     let is_written_out = |character: char| is_obeyed(character) && !kept.contains(&character);
     if !text.contains(is_written_out) {
@@ -67,6 +72,7 @@ mod tests {
         let plain = "Wände, 壁\n\tand 🧱";
         assert!(matches!(shown(plain), Cow::Borrowed(text) if text == plain));
         assert_eq!(in_line("a\nb\tc\u{2028}d"), r"a\nb\tc\u{2028}d");
+        assert_eq!(one_line(" a\n  b\u{7} "), r"a b\u{7}");
     }
 
     #[test]

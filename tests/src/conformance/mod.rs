@@ -33,8 +33,9 @@ mod rows_mmrt;
 mod rows_voxel;
 
 pub use judge::{FALSE_ALARM, confidence, judge};
-pub use measure::{Measured, answers, compare, device_hit, first_other, measure};
-pub use prepare::{Prepared, loadable};
+pub use measure::{answers, compare, first_other, measure};
+pub use prepare::Prepared;
+pub use rasray_experiment::Measured;
 pub use rounds::trace_in_rounds;
 pub use row::{Cases, Curve, DEEP, Demand, Deviation, Law, Row, Tier};
 pub use rows::{ROWS, comparisons};

@@ -1,12 +1,11 @@
 use bytemuck::Zeroable;
 use glam::DVec3;
-use rasray_ads::{Geometry, PRIMITIVE_NONE, Ray, Viewpoint};
+use rasray_ads::{Geometry, Ray, Viewpoint};
+use rasray_experiment::{Placed, case_camera};
 use rasray_gpu_scene::{View, layout::Frame};
-use rasray_reference::oracle::{self, COORDINATE_LIMIT, Oracle, Verdict};
+use rasray_reference::oracle::{Oracle, Verdict};
 
-use rasray_scene::default_view::camera_looking_at;
-
-use crate::hard_cases::{CAMERA_TOWARDS, Expectation, HardCase, Triangle};
+use crate::hard_cases::{Expectation, HardCase};
 use crate::harness::Bench;
 
 /// A hard case with its truth and its triangles on the device, for all rows.
@@ -24,14 +23,8 @@ pub struct Prepared {
     pub viewpoint: Viewpoint,
     /// Only what the camera sees is judged.
     pub only_camera: bool,
-    /// The case's id of each triangle on the device.
-    kept: Vec<u32>,
-}
-
-/// Indices of the triangles that loaders keep: those whose coordinates are finite and have finite squares.
-pub fn loadable(triangles: &[Triangle]) -> Vec<u32> {
-    let good = |triangle: &Triangle| triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT);
-    (0..triangles.len() as u32).filter(|&index| good(&triangles[index as usize])).collect()
+    /// Which triangles these are.
+    pub placed: Placed,
 }
 
 impl Prepared {
@@ -43,12 +36,11 @@ impl Prepared {
         let (positions, indices) = case.buffers();
         let oracle = Oracle::new(&positions, &indices, None).expect("indices are in order");
         let verdicts = oracle.closest_batch(&case.rays);
-        let kept = loadable(&case.triangles);
-        let triangles: Vec<Triangle> = kept.iter().map(|&index| case.triangles[index as usize]).collect();
-        let rays = case.rays.iter().map(|ray| device_ray(ray, &kept)).collect();
+        let placed = Placed::new(&case.triangles);
+        let rays = case.rays.iter().map(|ray| placed.device_ray(ray)).collect();
         let viewpoint = viewpoint(case.eye);
-        let geometry = bench.geometry(&triangles);
-        Self { geometry, verdicts, rays, viewpoint, only_camera: false, kept, case }
+        let geometry = bench.geometry(&placed.triangles(&case.triangles));
+        Self { geometry, verdicts, rays, viewpoint, only_camera: false, placed, case }
     }
 
     /// Keeps only the first rays, for structures whose work grows with all triangles.
@@ -82,30 +74,11 @@ impl Prepared {
         let candidates = verdict.candidates.iter().flat_map(|one| [one.t_low, one.t_high]);
         verdict.outcome.hit().map(|(_, t)| t).into_iter().chain(candidates).any(is_outside)
     }
-
-    /// The case's id of a triangle on the device; absent if there is no such triangle.
-    pub fn primitive(&self, on_device: u32) -> Option<u32> {
-        self.kept.get(on_device as usize).copied()
-    }
 }
 
 /// An eye with the camera that all hard cases have.
 fn viewpoint(eye: [f32; 3]) -> Viewpoint {
-    let at = DVec3::from_array(eye.map(f64::from));
-    let target = at + DVec3::from_array(CAMERA_TOWARDS);
-    let camera = camera_looking_at("hard case", at, target, std::f32::consts::FRAC_PI_2);
     let mut frame = Frame::zeroed();
-    View { camera, width: 1, height: 1, seed: 0 }.write(&mut frame, DVec3::ZERO);
+    View { camera: case_camera(eye), width: 1, height: 1, seed: 0 }.write(&mut frame, DVec3::ZERO);
     frame.viewpoint().at(eye)
-}
-
-fn device_ray(ray: &oracle::Ray, kept: &[u32]) -> Ray {
-    // An excluded triangle that was dropped excludes nothing.
-    let exclude = ray.exclude_primitive.and_then(|id| kept.binary_search(&id).ok());
-    Ray {
-        t_min: ray.t_min,
-        t_max: ray.t_max,
-        exclude_primitive: exclude.map_or(PRIMITIVE_NONE, |index| index as u32),
-        ..Ray::new(ray.origin, ray.direction)
-    }
 }

@@ -1,4 +1,5 @@
 use rasray_ads::{Geometry, Structure, StructureKind};
+use rasray_experiment::HIT_ROUNDING;
 use rasray_systems::{Preset, Spec};
 
 use crate::harness::Bench;
@@ -157,7 +158,7 @@ impl Row {
         tier: Tier,
         cases: Cases,
     ) -> Self {
-        let demand = Demand::Exact { rounding: ROUNDING };
+        let demand = Demand::Exact { rounding: HIT_ROUNDING };
         Self { name, system, preset: Preset::Robust, options, tier, cases, demand, deviations: &[] }
     }
 
@@ -241,9 +242,6 @@ impl Row {
         )
     }
 }
-
-/// 64 units of rounding: what a hit may differ by beyond the bounds that the oracle derives from the test itself.
-pub(super) const ROUNDING: f64 = 64.0 / 16_777_216.0;
 
 /// What the published presets of fragment structures are held to.
 pub(super) const fn published_law(resolution: u32) -> Demand {

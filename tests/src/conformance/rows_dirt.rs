@@ -3,14 +3,15 @@
 use rasray_systems::Preset;
 
 use super::deviations_dirt;
-use super::row::{Cases, Demand, Deviation, ROUNDING, Row, Tier};
+use super::row::{Cases, Demand, Deviation, Row, Tier};
+use rasray_experiment::HIT_ROUNDING;
 
 const fn published(
     name: &'static str,
     options: &'static [(&'static str, &'static str)],
     deviations: &'static [Deviation],
 ) -> Row {
-    let demand = Demand::Loss { share: deviations_dirt::SHARE, rounding: ROUNDING };
+    let demand = Demand::Loss { share: deviations_dirt::SHARE, rounding: HIT_ROUNDING };
     let (preset, tier, cases) = (Preset::Published, Tier::Quick, Cases::Shallow);
     Row { name, system: "dirt", preset, options, tier, cases, demand, deviations }
 }

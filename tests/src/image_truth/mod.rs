@@ -5,7 +5,7 @@ mod albedo;
 mod closed_forms;
 mod estimate;
 mod scenes;
-mod stage;
+mod studio;
 
 pub use albedo::{Plastic, metal_albedo, plastic_albedo};
 pub use closed_forms::{
@@ -17,4 +17,4 @@ pub use scenes::{
     box_around, box_faces, diffuse, glass, glowing, looking, octahedron_sphere, parallel, scene_of, square,
     unlit,
 };
-pub use stage::{Picture, Stage, System};
+pub use studio::{Picture, Studio, System};

@@ -1,7 +1,5 @@
-use rasray_ads::{Hit, Ray, StructureKind, TraceMode};
-use rasray_gpu::Timing;
+use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_systems::{Preset, SYSTEMS, Spec};
-use rasray_tracer::{BatchTracer, build_until_complete};
 
 use crate::harness::Bench;
 use crate::shapes::Triangle;
@@ -111,14 +109,9 @@ impl Subject {
     /// If the device fails, rays do not finish, or the build finds its own lists corrupted.
     pub fn answers(&self, bench: &Bench, eye: [f32; 3], triangles: &[Triangle], rays: &[Ray]) -> Answers {
         let geometry = bench.geometry(triangles);
-        let device = bench.device();
-        let mut structure = self.spec.create(device, &geometry, None).expect("the options are valid");
-        build_until_complete(device, structure.as_mut(), eye, Timing::None).expect("the build completes");
-        let tracer = BatchTracer::new(device, rays.len().clamp(1, 65_536) as u32).expect("a queue fits");
-        let trace =
-            |mode| tracer.trace(structure.as_ref(), rays, mode, Timing::None).expect("all rays finish").hits;
-        let closest = trace(TraceMode::Closest);
-        let occluded = trace(TraceMode::Occluded);
+        let mut structure = self.spec.create(bench.device(), &geometry, None).expect("the options are valid");
+        let closest = bench.build_and_trace(structure.as_mut(), eye, rays);
+        let occluded = bench.occluded(structure.as_ref(), rays);
         assert_eq!(structure.status(0).expect("the status is readable").corrupted, 0, "{}", self.name());
         let key = |hit: &Hit| match self.kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => {
@@ -127,10 +120,7 @@ impl Subject {
             // a and b say where a fragment lies, which is not part of the answer.
             StructureKind::Fragment => [hit.t.to_bits(), hit.primitive, 0, 0],
         };
-        Answers {
-            closest: closest.iter().map(key).collect(),
-            occluded: occluded.iter().map(Hit::is_hit).collect(),
-        }
+        Answers { closest: closest.iter().map(key).collect(), occluded }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Random rays through ten thousand triangles against exact arithmetic. RASRAY_FULL=1 traces ten million.
 
 use rasray_bvh::{Builder, Bvh, Config};
+use rasray_experiment::HIT_ROUNDING;
 use rasray_gpu_scene::Posed;
 use rasray_reference::oracle;
 use rasray_tests::conformance::{Prepared, measure};
@@ -9,8 +10,6 @@ use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::tier::is_full;
 
-/// 64 units of rounding beyond the oracle's own bounds, as in the conformance table.
-const ROUNDING: f64 = 64.0 / 16_777_216.0;
 /// Rays of one batch.
 const BATCH: usize = 100_000;
 
@@ -58,7 +57,7 @@ fn every_hit_is_the_one_of_exact_arithmetic() {
     for seed in 0..batches() as u64 {
         let mut prepared = Prepared::new(&bench, batch(&triangles, 100 + seed));
         for tree in &mut trees {
-            let measured = measure(&bench, tree, &prepared, 0.0, ROUNDING);
+            let measured = measure(&bench, tree, &prepared, 0.0, HIT_ROUNDING);
             assert_eq!(measured.rejected, Vec::<usize>::new(), "batch {seed}: {:?}", measured.confusion);
             let unambiguous = measured.confusion.rays - measured.confusion.ambiguous;
             assert!(unambiguous * 1000 > measured.confusion.rays * 999, "{:?}", measured.confusion);
@@ -72,7 +71,7 @@ fn every_hit_is_the_one_of_exact_arithmetic() {
             let mut moved = triangles.clone();
             moved[first as usize] = moved[first as usize].map(|p| p.map(|x| x + 0.5));
             prepared.geometry = bench.geometry(&moved);
-            let measured = measure(&bench, &mut trees[0], &prepared, 0.0, ROUNDING);
+            let measured = measure(&bench, &mut trees[0], &prepared, 0.0, HIT_ROUNDING);
             assert!(measured.rejected.contains(&ray), "{:?}", measured.rejected);
         }
     }

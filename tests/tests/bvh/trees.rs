@@ -2,11 +2,12 @@
 
 use rasray_ads::{Check, Ray, Structure, TraceMode};
 use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, Fault, Shape, plan, well_formed};
+use rasray_experiment::Placed;
 use rasray_gpu::Timing;
 use rasray_hard_cases as hard_cases;
 use rasray_hard_cases::Scale;
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF;
-use rasray_tests::conformance::{loadable, trace_in_rounds};
+use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -86,8 +87,7 @@ fn all_trees_of(builder: Builder) {
     }
     for id in hard_cases::ids() {
         let case = hard_cases::case(id, Scale::QUICK).expect("the id is in the catalogue");
-        let kept = loadable(&case.triangles).iter().map(|&index| case.triangles[index as usize]).collect();
-        let kept: Vec<Triangle> = kept;
+        let kept: Vec<Triangle> = Placed::new(&case.triangles).triangles(&case.triangles);
         if is_full() || kept.len() <= LARGEST {
             scenes.push((id.to_owned(), kept));
         }

@@ -247,7 +247,7 @@ fn bad_coordinates_are_dropped_before_they_poison_anything() {
     let on_device = prepared.geometry.triangle_count() as usize;
     assert_eq!(prepared.case.triangles.len() - on_device, hard_cases::POISONED_DROPPED);
     assert!(prepared.geometry.bounds().iter().flatten().all(|x| x.abs() < 1e3));
-    assert_ne!(prepared.primitive(on_device as u32 - 1), Some(on_device as u32 - 1));
+    assert_ne!(prepared.placed.id(on_device as u32 - 1), on_device as u32 - 1);
     let empty = Prepared::new(&bench, hard_cases::case("C1", Scale::QUICK).expect("it exists"));
     assert_eq!(empty.geometry.triangle_count(), 0);
 }

@@ -2,9 +2,10 @@
 
 use super::ray_files::RayFileArguments;
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
-use crate::backend::RaySet;
-use crate::structure::{StructureOptions, preset_parser, system_parser};
+use super::structure::{StructureArguments, preset_parser, ray_set_parser, system_parser};
+use super::values;
 use clap::Args;
+use rasray_experiment::RaySet;
 use rasray_systems::{Preset, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -44,13 +45,13 @@ pub struct CompareArguments {
     #[arg(long, value_parser = preset_parser(), value_delimiter = ',', default_value = Preset::Robust.name())]
     pub presets: Vec<Preset>,
     /// Where the rays come from [default: incoherent,camera; none with --rays-file]
-    #[arg(long, value_enum, value_delimiter = ',')]
+    #[arg(long, value_parser = ray_set_parser(), value_delimiter = ',')]
     pub ray_set: Vec<RaySet>,
     /// Rays per set, 1 to 100000000 [default: 200000; 2000 for hard cases]
-    #[arg(long, value_name = "N", value_parser = crate::arguments::values::whole(1, 100_000_000))]
+    #[arg(long, value_name = "N", value_parser = values::whole(1, 100_000_000))]
     pub rays: Option<u32>,
     /// Times that each build and each set of rays is timed, after once to warm up, 1 to 10000
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = crate::arguments::values::whole(1, 10_000))]
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = values::whole(1, 10_000))]
     pub repetitions: u32,
     /// With a hard case: meshes in the size of the catalogue
     #[arg(long)]
@@ -87,7 +88,7 @@ pub struct CompareArguments {
     pub reading: SceneArguments,
     /// Options of the structures.
     #[command(flatten)]
-    pub structure: StructureOptions,
+    pub structure: StructureArguments,
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,

@@ -3,9 +3,12 @@
 mod compare;
 mod documents;
 mod info;
+mod mistakes;
 mod ray_files;
 mod render;
 mod shared;
+mod structure;
+mod systems;
 pub mod values;
 
 pub use compare::CompareArguments;
@@ -16,11 +19,13 @@ pub use render::{Aov, RenderArguments};
 pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
 };
+pub use structure::StructureArguments;
+pub(crate) use systems::several;
 
 use crate::error::AppError;
-use crate::terminal::one_line;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory, FromArgMatches, Parser, Subcommand, error::ErrorKind};
+use mistakes::usage_error;
 use std::ffi::OsString;
 
 const ABOUT: &str = "Traces rays through structures that the rasterizer builds, on any Vulkan 1.2 device.";
@@ -46,7 +51,7 @@ RASRAY_LOG sets the log filter, for example RASRAY_LOG=debug. NO_COLOR=1 keeps c
 
 /// The whole command line.
 #[derive(Debug, Parser)]
-#[command(name = "rasray", version = crate::version_text(), about = ABOUT, after_help = AFTER_HELP)]
+#[command(name = "rasray", version = crate::version::version_text(), about = ABOUT, after_help = AFTER_HELP)]
 #[command(arg_required_else_help = true, disable_help_flag = true)]
 pub struct CommandLine {
     /// What to do.
@@ -118,29 +123,6 @@ fn read(arguments: &[OsString]) -> Result<CommandLine, clap::Error> {
 fn typed(matches: &ArgMatches) -> Vec<String> {
     let on_line = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
     matches.ids().filter(on_line).map(|id| id.as_str().replace('_', "-")).collect()
-}
-
-/// Turns an answer of the parser into one line of error and one of help; the help names the command
-/// whose options are meant.
-pub(crate) fn usage_error(error: &clap::Error, prefix: &str, command: Option<&str>) -> AppError {
-    let text = error.render().to_string();
-    let (mut message, mut help) = (String::new(), String::new());
-    for paragraph in text.split("\n\n") {
-        let paragraph = paragraph.trim();
-        if let Some(rest) = paragraph.strip_prefix("error: ") {
-            message = one_line(rest);
-        } else if paragraph.starts_with("tip: ") {
-            let tips = paragraph.lines().filter_map(|line| line.trim().strip_prefix("tip: "));
-            help = tips.collect::<Vec<_>>().join("; ");
-        }
-    }
-    if help.is_empty() {
-        help = match command {
-            Some(command) => format!("'rasray {command} --help' lists what it takes, --help-all everything"),
-            None => "'rasray --help' lists what there is".to_owned(),
-        };
-    }
-    AppError::usage(format!("{prefix}{message}"), help)
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! Options of `rasray render`.
 
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
-use super::values;
-use crate::backend::AovSelection;
+use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::{systems, values};
 use crate::error::AppError;
 use crate::output::ImageFormat;
-use crate::structure::{StructureOptions, preset_parser, system_parser};
-use crate::systems::{self, SystemConfig};
 use clap::{Args, ValueEnum};
+use rasray_experiment::{AovSelection, SystemConfig};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -72,7 +71,7 @@ pub struct RenderArguments {
     pub reading: SceneArguments,
     /// Options of the structure.
     #[command(flatten)]
-    pub structure: StructureOptions,
+    pub structure: StructureArguments,
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,
@@ -95,7 +94,7 @@ impl RenderArguments {
     /// # Errors
     /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
-        systems::single(self.system, self.preset, &self.structure)
+        systems::single(self.system, self.preset, &self.structure.0)
     }
 
     /// The images wanted in addition to the colours.

@@ -1,10 +1,10 @@
 //! Groups of options that several commands take.
 
-use super::values::{self, Size};
-use crate::arguments::values::Switch;
-use crate::backend::{DeviceChoice, Frame, Integrator, Sampler};
+use super::structure::sampler_parser;
+use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
+use rasray_experiment::{DeviceChoice, Frame, Integrator, Sampler};
 use rasray_scene::Scene;
 use rasray_scene::needs::{Needs, Workload};
 
@@ -75,7 +75,7 @@ pub struct FrameArguments {
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
     /// Where random numbers come from
-    #[arg(long, value_enum, default_value_t = Sampler::Sobol)]
+    #[arg(long, value_parser = sampler_parser(), default_value = Sampler::Sobol.name())]
     pub sampler: Sampler,
 }
 

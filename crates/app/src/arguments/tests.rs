@@ -1,9 +1,8 @@
 //! The command line as a person types it.
 
 use super::*;
-use crate::backend::{Integrator, RaySet};
-use crate::structure::StructureOptions;
 use clap::CommandFactory;
+use rasray_experiment::{Integrator, RaySet};
 use rasray_systems::Preset;
 
 fn arguments(line: &str) -> Vec<OsString> {
@@ -45,7 +44,7 @@ fn defaults_are_the_documented_ones() {
     assert_eq!(system.spec().expect("known").structure(), "bricks");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
     assert_eq!(frame.integrator, Integrator::Path { bounces: 8 });
-    assert_eq!(given.structure, StructureOptions::default());
+    assert_eq!(given.structure, StructureArguments::default());
 }
 
 #[test]

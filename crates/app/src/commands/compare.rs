@@ -1,23 +1,17 @@
 //! `rasray compare`.
 
-use super::{
-    check_whole, destination, hard, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
-};
-use crate::arguments::CompareArguments;
-use crate::backend::{CompareJob, Comparison, OpenBackend, RaySet};
+use super::hard;
+use super::steps::{check_whole, fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::targets::Targets;
+use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::Destination;
-use crate::output::{self, SaveTargets};
-use crate::progress::during;
-use crate::report::{Report, markdown, origin, table};
-use crate::systems;
+use crate::output;
+use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use crate::texels;
+use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
 use rasray_ray_files::{load_hits, load_rays};
-use rasray_report::json_shown;
-use rasray_report_html::figures::Figures;
-use std::ffi::OsStr;
+use rasray_report::Report;
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -47,7 +41,7 @@ pub(crate) fn compare(
         ));
     }
     let frame = given.frame.frame()?;
-    let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
+    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
     let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;
@@ -64,7 +58,7 @@ pub(crate) fn compare(
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
-    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
+    fit_images(&mut loaded, &needs, backend.as_ref())?;
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {
@@ -75,11 +69,11 @@ pub(crate) fn compare(
         rays: given.rays.unwrap_or(DEFAULT_RAYS),
         frame,
         image: given.image,
-        figures: targets.html.is_some(),
+        figures: targets.has_page(),
         repetitions: given.repetitions,
         rays_file,
         hits_files,
-        keep: targets.save.any(),
+        keep: targets.save().any(),
         replay: given.replay,
         needs,
     };
@@ -95,7 +89,7 @@ pub(crate) fn compare(
 
     let report =
         Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
-    output::save(&targets.save, &kept, interrupt)?;
+    output::save(targets.save(), &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
     terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     report.runs.iter().try_for_each(check_whole)?;
@@ -107,85 +101,6 @@ pub(crate) fn compare(
         ));
     }
     Ok(())
-}
-
-/// Where results go.
-pub(super) struct Targets {
-    report: Option<Destination>,
-    html: Option<Destination>,
-    markdown: Option<Destination>,
-    save: SaveTargets,
-}
-
-impl Targets {
-    /// Checks every place before anything is begun.
-    pub(super) fn check(given: &CompareArguments, scene: &OsStr) -> Result<Self, AppError> {
-        let report = destination(given.report.as_deref())?;
-        let html = destination(given.html.as_deref())?;
-        let markdown = destination(given.markdown.as_deref())?;
-        let named = [("--report", &report), ("--html", &html), ("--markdown", &markdown)];
-        for (index, (option, place)) in named.iter().enumerate() {
-            for (other, twin) in &named[..index] {
-                if let (Some(place), Some(twin)) = (place, twin)
-                    && place.same_as(twin)
-                {
-                    return Err(AppError::usage(
-                        format!("{other} and {option} name the same file"),
-                        "name two files",
-                    ));
-                }
-            }
-        }
-        keep_inputs("--report", report.as_ref(), scene)?;
-        keep_inputs("--html", html.as_ref(), scene)?;
-        keep_inputs("--markdown", markdown.as_ref(), scene)?;
-        let save = SaveTargets::check(given.files.save_rays.as_deref(), given.files.save_hits.as_deref())?;
-        Ok(Self { report, html, markdown, save })
-    }
-
-    /// Whether a page is wanted, and with it figures.
-    pub(super) fn has_page(&self) -> bool {
-        self.html.is_some()
-    }
-
-    /// Whether a file goes to standard output, which then carries nothing else.
-    pub(super) fn take_stdout(&self) -> bool {
-        [&self.report, &self.html, &self.markdown].into_iter().flatten().any(Destination::is_stdout)
-    }
-
-    /// Where rays and hits go.
-    pub(super) fn save(&self) -> &SaveTargets {
-        &self.save
-    }
-
-    /// Whether a file keeps the runs.
-    fn any(&self) -> bool {
-        self.report.is_some() || self.html.is_some() || self.markdown.is_some()
-    }
-
-    /// Writes the report and the page where they are wanted.
-    pub(super) fn write(
-        &self,
-        report: &Report,
-        figures: &Figures,
-        interrupt: &Interrupt,
-    ) -> Result<(), AppError> {
-        if let Some(place) = &self.report {
-            place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
-        }
-        if let Some(place) = &self.markdown {
-            place.write(markdown(report).as_bytes(), interrupt)?;
-        }
-        if let Some(place) = &self.html {
-            let page = rasray_report_html::page(report, figures).map_err(|error| {
-                let help =
-                    "the page was not written; this is a defect, please report it with the command line";
-                AppError::refused(error.to_string(), help)
-            })?;
-            place.write(&page, interrupt)?;
-        }
-        Ok(())
-    }
 }
 
 /// The generated sets that are wanted, each once, in the order given.

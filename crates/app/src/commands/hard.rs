@@ -1,18 +1,17 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
-use super::compare::Targets;
-use super::{check_whole, open_device, stop_if_requested, with_progress};
-use crate::arguments::CompareArguments;
-use crate::backend::{Backend, Comparison, HardJob, OpenBackend};
+use super::steps::{check_whole, open_device, stop_if_requested, with_progress};
+use super::targets::Targets;
+use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{HardRecord, Report, Run, SceneRecord, columns, origin, table};
-use crate::systems::{self, SystemConfig};
+use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use rasray_hard_cases::{HardFile, Loading, Scale};
+use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, compare_file};
+use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
-use rasray_scene::LoadOptions;
+use rasray_report::{Report, Run, SceneRecord, columns};
 use std::ffi::OsStr;
 
 /// Rays of generated cases unless told.
@@ -40,7 +39,7 @@ pub(super) fn compare(
 ) -> Result<(), AppError> {
     let ids = ids(id)?;
     refuse_options_of_scenes(given)?;
-    let systems = systems::several(&given.systems, &given.presets, &given.structure, &given.assignments)?;
+    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
     let mut backend = open_device(open, &given.device)?;
@@ -55,7 +54,7 @@ pub(super) fn compare(
             break;
         }
         if let Some(file) = rasray_hard_cases::files().find(|file| file.id == *id) {
-            whole.runs.push(read_file(&file)?);
+            whole.runs.push(compare_file(&file)?);
         } else {
             let subject = Subject { id, systems: &systems, hits_files: &hits_files, targets: &targets };
             let (one, count) = match trace(given, subject, backend.as_mut(), interrupt) {
@@ -72,7 +71,7 @@ pub(super) fn compare(
             }
             output::save(targets.save(), &one.kept, interrupt)?;
             triangles += count;
-            append(&mut whole, one);
+            whole.append(one);
         }
         finished += 1;
     }
@@ -206,65 +205,6 @@ fn trace(
     Ok((comparison, case.triangles.len() as u64))
 }
 
-/// Adds the runs of a case, and its figures with their runs counted on.
-fn append(whole: &mut Comparison, one: Comparison) {
-    let before = whole.runs.len();
-    let errors = one.figures.depth_errors.into_iter().map(|mut errors| {
-        errors.run += before;
-        errors
-    });
-    whole.figures.depth_errors.extend(errors);
-    whole.runs.extend(one.runs);
-}
-
-/// Loads a file that must be refused, or read as stated.
-fn read_file(file: &HardFile) -> Result<Run, AppError> {
-    let folder = std::env::temp_dir().join(format!("rasray-{}-{}", std::process::id(), file.id));
-    let place = folder.join(file.name);
-    let failed = |error: std::io::Error| {
-        AppError::input(
-            &place,
-            format!("cannot be written: {error}"),
-            "set TMPDIR to a folder for temporary files",
-        )
-    };
-    std::fs::create_dir_all(&folder).map_err(failed)?;
-    let loaded =
-        std::fs::write(&place, &file.bytes).map(|()| rasray_scene::load(&place, &LoadOptions::default()));
-    // What is left behind there does no harm.
-    _ = std::fs::remove_dir_all(&folder);
-    let loaded = loaded.map_err(failed)?;
-    let reason = match &loaded {
-        // The folder's name says nothing to anybody.
-        Err(error) => format!(
-            "refused: {}",
-            error.to_string().replace(&*folder.to_string_lossy(), "").trim_start_matches('/')
-        ),
-        Ok(scene) => format!("read, with {} warnings", scene.warnings.len()),
-    };
-    let wanted = match file.loading {
-        Loading::Refused(_) => "refused with a typed error",
-        Loading::Read { .. } => "read as stated",
-    };
-    Ok(Run {
-        system: "loader".to_owned(),
-        structure: "scene".to_owned(),
-        preset: "file".to_owned(),
-        ray_set: Some(file.id.to_owned()),
-        hard: Some(HardRecord {
-            id: file.id.to_owned(),
-            title: file.title.to_owned(),
-            measure: file.measure.to_owned(),
-            target: wanted.to_owned(),
-            triangles: 0,
-            met: Some(file.loading.describes(&loaded)),
-            reason,
-            ..HardRecord::default()
-        }),
-        ..Run::default()
-    })
-}
-
 /// Says which targets were not met.
 fn check_targets(runs: &[Run]) -> Result<(), AppError> {
     let missed: Vec<_> = runs
@@ -284,6 +224,7 @@ fn check_targets(runs: &[Run]) -> Result<(), AppError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_report::HardRecord;
 
     fn run(met: Option<bool>) -> Run {
         let hard = HardRecord { id: "E5".to_owned(), met, ..Default::default() };
@@ -299,15 +240,5 @@ mod tests {
             error.to_string().contains("1 targets") && error.to_string().contains("E5 by mmrt"),
             "{error}"
         );
-    }
-
-    #[test]
-    fn files_of_the_catalogue_are_refused_as_stated_and_another_demand_is_not_met() {
-        let mut file = rasray_hard_cases::files().next().expect("a file");
-        let hard = read_file(&file).expect("a temporary file").hard.expect("a verdict");
-        assert_eq!(hard.met, Some(true), "{hard:?}");
-        file.loading = Loading::Read { triangles: 1, warning: None };
-        let hard = read_file(&file).expect("a temporary file").hard.expect("a verdict");
-        assert_eq!(hard.met, Some(false), "{hard:?}");
     }
 }

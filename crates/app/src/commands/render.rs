@@ -1,20 +1,17 @@
 //! `rasray render`.
 
-use super::{
-    bounces, check_whole, destination, integrator_name, keep_inputs, open_device, read_scene,
-    stop_if_requested, with_progress,
+use super::steps::{
+    check_whole, destination, fit_images, keep_inputs, open_device, read_scene, stop_if_requested,
+    with_progress,
 };
 use crate::arguments::RenderArguments;
-use crate::backend::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::progress::during;
-use crate::report::{Report, Run, origin, table};
-use crate::systems::SystemConfig;
+use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use crate::texels;
-use rasray_report::json_shown;
+use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput, SystemConfig};
+use rasray_report::{Report, Run, json_shown};
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -48,7 +45,7 @@ pub(crate) fn render(
     let mut backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
-    during("scene", "fitting images", || texels::fit(&mut loaded, &needs, &backend.texel_room()))?;
+    fit_images(&mut loaded, &needs, backend.as_ref())?;
     let job = RenderJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),
@@ -84,7 +81,7 @@ pub(crate) fn render(
             scene: loaded.scene.name.clone(),
             system: system.system.name.to_owned(),
             preset: system.preset.name().to_owned(),
-            integrator: integrator_name(&frame).to_owned(),
+            integrator: frame.integrator.name().to_owned(),
             spp: frame.spp,
             samples: output.samples_done,
             seed: frame.seed,
@@ -188,11 +185,11 @@ fn run_of(system: &SystemConfig, structure: &str, frame: &Frame, output: &Render
         preset: system.preset.name().to_owned(),
         options: output.options.clone(),
         paths: output.paths.clone(),
-        integrator: Some(integrator_name(frame).to_owned()),
+        integrator: Some(frame.integrator.name().to_owned()),
         width: Some(output.width),
         height: Some(output.height),
         spp: Some(output.samples_done),
-        bounces: bounces(frame),
+        bounces: frame.integrator.bounces(),
         seed: Some(frame.seed),
         times: output.times,
         spread: output.spread.clone(),

@@ -2,8 +2,8 @@
 //! from the eye along the ray in metres (0: miss); N.X, N.Y, N.Z unit geometric normal in the world,
 //! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss).
 
-use crate::backend::RenderOutput;
 use exr::prelude::*;
+use rasray_experiment::RenderOutput;
 use smallvec::SmallVec;
 use std::io::Cursor;
 
@@ -61,7 +61,7 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
         ("system", &metadata.system),
         ("preset", &metadata.preset),
         ("integrator", &metadata.integrator),
-        ("rasrayVersion", &crate::version_text().to_owned()),
+        ("rasrayVersion", &crate::version::version_text().to_owned()),
     ];
     for (name, value) in words {
         attributes.other.insert(Text::from(name), AttributeValue::Text(text(value)));
@@ -110,7 +110,7 @@ fn order_attributes(bytes: &mut [u8]) -> Option<()> {
 }
 
 fn software() -> String {
-    format!("rasray {}", crate::version_text())
+    format!("rasray {}", crate::version::version_text())
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Whether a finished image shows anything, and what to do if it does not.
 
-use super::ImageFormat;
-use crate::backend::RenderOutput;
+use super::format::ImageFormat;
+use rasray_experiment::RenderOutput;
 
 /// The mean of a PNG's linear values, clamped to 0 to 1, below which it is nearly black. Single bright pixels, as noise
 /// makes them, do not hide that.

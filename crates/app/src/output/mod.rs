@@ -2,52 +2,20 @@
 
 mod destination;
 mod exr;
+mod format;
 mod levels;
 mod png;
 mod save_rays;
 
 pub use self::exr::{Metadata, encode as encode_exr};
 pub use destination::Destination;
+pub use format::ImageFormat;
 pub use levels::hint;
 pub use png::encode as encode_png;
 pub(crate) use save_rays::{SaveTargets, save};
 
-use crate::backend::{AovSelection, RenderOutput};
 use crate::error::AppError;
-use std::path::Path;
-
-/// How an image is stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub enum ImageFormat {
-    /// 8-bit sRGB
-    Png,
-    /// Linear 32-bit floats, with further images beside the colours
-    Exr,
-}
-
-impl ImageFormat {
-    /// The format that a file's extension names.
-    ///
-    /// # Errors
-    /// An extension that is neither `.png` nor `.exr`.
-    pub fn of(path: &Path) -> Result<Self, AppError> {
-        let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
-        match extension.as_deref() {
-            Some("png") => Ok(Self::Png),
-            Some("exr") => Ok(Self::Exr),
-            Some(other) => Err(AppError::input(
-                path,
-                format!("images are not written as .{other}"),
-                "end the name in .png (8-bit sRGB) or .exr (linear floats)",
-            )),
-            None => Err(AppError::input(
-                path,
-                "the name has no extension that says how to write the image",
-                "end the name in .png (8-bit sRGB) or .exr (linear floats)",
-            )),
-        }
-    }
-}
+use rasray_experiment::{AovSelection, RenderOutput};
 
 /// Refuses an output that lacks pixels or a wanted image.
 ///
@@ -80,6 +48,7 @@ pub fn non_finite_pixels(output: &RenderOutput) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
     #[test]
     fn the_extension_decides() {

@@ -1,9 +1,9 @@
 //! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1], then the sRGB curve, rounded to the
 //! nearest step. No further tone mapping and no dithering: other programs can reproduce every value.
 
-use crate::backend::RenderOutput;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use rasray_experiment::RenderOutput;
 use rasray_metrics::tone_map;
 
 /// The bytes of a PNG file of the colours.

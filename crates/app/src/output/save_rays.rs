@@ -1,10 +1,10 @@
 //! Writes what was traced and answered into folders.
 
-use super::Destination;
-use crate::backend::Kept;
+use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use rasray_ads::PRIMITIVE_NONE;
+use rasray_experiment::Kept;
 use rasray_ray_files::{hits_to_npy, ids_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
 use std::path::{Path, PathBuf};
 

@@ -121,7 +121,7 @@ fn relation(report: &Report, run: &Run) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Device, Memory, SceneRecord, Times};
+    use rasray_report::{Device, Memory, SceneRecord, Times};
 
     fn run(system: &str, storage: &str, rate: f64) -> Run {
         Run {

@@ -1,7 +1,7 @@
 //! The report as text for people.
 
+use super::camera::described;
 use super::run_text::{heading, run_text, verdict};
-use crate::camera::described;
 use rasray_report::in_line;
 use rasray_report::{HardRecord, Report, Run, Statistics};
 use rasray_report::{bytes, columns, grouped};
@@ -172,9 +172,9 @@ fn verdicts(runs: &[Run]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Accuracy, Device, Origin, SceneRecord, Spread, Times};
     use rasray_metrics::Rate;
     use rasray_report::RateRecord;
+    use rasray_report::{Accuracy, Device, Origin, SceneRecord, Spread, Times};
 
     #[test]
     fn several_runs_get_a_line_each_and_what_is_missing_a_dash() {

@@ -1,6 +1,6 @@
 //! The built command on a device: what it saves can be traced again, and what others find is judged.
 
-use rasray_app::report::{Accuracy, Report};
+use rasray_report::{Accuracy, Report};
 use std::path::Path;
 use std::process::{Command, Output};
 

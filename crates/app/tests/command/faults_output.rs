@@ -3,8 +3,8 @@
 
 use crate::scripted::{command, entries, stderr};
 use rasray_app::Interrupt;
-use rasray_app::backend::RenderOutput;
 use rasray_app::output::{Destination, Metadata, encode_exr, encode_png};
+use rasray_experiment::RenderOutput;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! The built command on the hard cases: what it makes of their triangles is what they are, to the last bit, for all of
 //! them in one run.
 
-use rasray_app::report::Report;
+use rasray_report::Report;
 use std::process::Command;
 
 /// The report of a comparison that must hold what the cases demand.

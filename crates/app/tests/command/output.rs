@@ -2,7 +2,7 @@
 //! would obey, completions and pages.
 
 use crate::scripted::{command, entries, stderr};
-use rasray_app::report::Report;
+use rasray_report::Report;
 use serde_json::Value;
 use std::io::Read;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! What the command leaves behind: images, reports, exit codes.
 
 use crate::scripted::{command, entries, stderr};
-use rasray_app::report::{Report, SCHEMA};
+use rasray_report::{Report, SCHEMA};
 use std::path::Path;
 use std::process::Output;
 

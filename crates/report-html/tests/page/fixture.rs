@@ -7,10 +7,10 @@
 )]
 
 use rasray_metrics::Rate;
+use rasray_report::figures::{DepthErrors, Figures, Images, SystemImage, WorkMap};
 use rasray_report::{
     Accuracy, Counters, HardRecord, ImageError, Memory, Pass, RateRecord, Report, Run, SCHEMA, Spread, Times,
 };
-use rasray_report_html::figures::{DepthErrors, Figures, Images, SystemImage, WorkMap};
 use serde_json::json;
 
 /// Pixels a row of all pictures.

@@ -2,8 +2,8 @@
 
 use crate::fixture::{everything, hard_runs};
 use rasray_report::Report;
+use rasray_report::figures::Figures;
 use rasray_report_html as html;
-use rasray_report_html::figures::Figures;
 
 fn page(report: &Report, figures: &Figures) -> String {
     String::from_utf8(html::page(report, figures).expect("figures that fit")).expect("UTF-8")

@@ -2,7 +2,7 @@
 
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_tests::harness::Bench;
-use rasray_tests::image_truth::{Stage, System};
+use rasray_tests::image_truth::{Studio, System};
 
 use super::{SIZE, cornell, reference, rendered};
 
@@ -40,7 +40,7 @@ fn exact_hits_leave_rounding_and_fragments_leave_their_law() {
     let systems = [System::BruteForce, System::MmrtRobust(64), System::MmrtRobust(256)];
     let mut shares = Vec::new();
     for system in systems {
-        let mut stage = Stage::new(&bench, &scene, camera.clone(), SIZE, system);
+        let mut stage = Studio::new(&bench, &scene, camera.clone(), SIZE, system);
         let origin = stage.scene().frame_origin();
         stage.reseed(5);
         let image = rendered(&stage);
@@ -70,7 +70,7 @@ fn wrong_occlusion_falls_with_the_size_of_a_cell() {
         (System::MmrtRobust(64), 12.0 / 64.0),
         (System::MmrtRobust(256), 12.0 / 256.0),
     ] {
-        let mut stage = Stage::new(&bench, &scene, camera.clone(), SIZE, system);
+        let mut stage = Studio::new(&bench, &scene, camera.clone(), SIZE, system);
         stage.reseed(5);
         let image = stage.render(&stage.occlusion(f32::INFINITY), 0..1).pixels;
         let share = |seed| {

@@ -2,7 +2,7 @@
 
 use rasray_metrics::{Image, ImageError, flip};
 use rasray_tests::harness::Bench;
-use rasray_tests::image_truth::{Stage, System};
+use rasray_tests::image_truth::{Studio, System};
 
 use super::{SIZE, cornell, reference, rendered};
 
@@ -31,7 +31,7 @@ fn flip_of_exposures(test: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
 fn every_figure_sees_noise_and_none_sees_rounding() {
     let bench = Bench::new();
     let (scene, camera) = cornell();
-    let mut stage = Stage::new(&bench, &scene, camera.clone(), SIZE, System::BruteForce);
+    let mut stage = Studio::new(&bench, &scene, camera.clone(), SIZE, System::BruteForce);
     let origin = stage.scene().frame_origin();
     stage.reseed(5);
     let image = rendered(&stage);

@@ -8,7 +8,7 @@ mod slope;
 use glam::DVec3;
 use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{Camera, Scene};
-use rasray_tests::image_truth::Stage;
+use rasray_tests::image_truth::Studio;
 
 /// Pixels a side.
 const SIZE: u32 = 24;
@@ -36,7 +36,7 @@ fn reference(scene: &Scene, camera: &Camera, origin: DVec3, seed: u32) -> Vec<[f
 }
 
 /// What the device shows.
-fn rendered(stage: &Stage<'_>) -> Vec<[f32; 3]> {
+fn rendered(stage: &Studio<'_>) -> Vec<[f32; 3]> {
     let picture = stage.render(&stage.path(BOUNCES), 0..SAMPLES);
     assert_eq!(picture.non_finite, 0);
     picture.pixels

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rasray_integrators::Integrator;
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    SIGMAS, Stage, System, box_around, diffuse, enclosure, glowing, looking, parallel, polygon_irradiance,
+    SIGMAS, Studio, System, box_around, diffuse, enclosure, glowing, looking, parallel, polygon_irradiance,
     scene_of, square,
 };
 use rasray_tests::tier::is_full;
@@ -32,7 +32,7 @@ impl Slope {
 
 /// Of the error against `truth` over 2^k samples, k = 0 to `octaves`; every k takes samples of its own.
 /// `repeat` renders one sample again and again instead.
-fn slope(stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64, repeat: bool) -> Slope {
+fn slope(stage: &mut Studio<'_>, integrator: &dyn Integrator, truth: f64, repeat: bool) -> Slope {
     let octaves = if is_full() { 9 } else { 5 };
     let mut points = Vec::new();
     for octave in 0..=octaves {
@@ -59,7 +59,7 @@ fn slope(stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64, repeat:
     Slope { value, sigma }
 }
 
-fn check(name: &str, stage: &mut Stage<'_>, integrator: &dyn Integrator, truth: f64) {
+fn check(name: &str, stage: &mut Studio<'_>, integrator: &dyn Integrator, truth: f64) {
     stage.sample_independently();
     let found = slope(stage, integrator, truth, false);
     let repeated = slope(stage, integrator, truth, true);
@@ -80,7 +80,7 @@ fn direct_light_converges() {
     let floor = square(DVec3::ZERO, DVec3::X, DVec3::NEG_Z, 0);
     let scene = scene_of(vec![floor, light], vec![diffuse([1.0; 3]), glowing([0.0; 3], [1.0; 3])]);
     let camera = parallel(DVec3::Y * 0.5, DVec3::ZERO, 1e-5);
-    let mut stage = Stage::new(&bench, &scene, camera, SIZE, System::BruteForce);
+    let mut stage = Studio::new(&bench, &scene, camera, SIZE, System::BruteForce);
     let path = stage.path(1);
     check("direct light", &mut stage, &path, polygon_irradiance(DVec3::ZERO, DVec3::Y, &corners) / PI);
 }
@@ -97,7 +97,7 @@ fn occlusion_converges() {
     let scene = scene_of(walls.to_vec(), vec![diffuse([0.5; 3])]);
     let point = DVec3::X;
     let camera = parallel(point + DVec3::new(2.0, 2.0, 1.0), point, 1e-5);
-    let mut stage = Stage::new(&bench, &scene, camera, SIZE, System::BruteForce);
+    let mut stage = Studio::new(&bench, &scene, camera, SIZE, System::BruteForce);
     let occlusion = stage.occlusion(f32::INFINITY);
     let truth = 1.0 - polygon_irradiance(point, DVec3::Y, &corners) / PI;
     check("occlusion", &mut stage, &occlusion, truth);
@@ -108,7 +108,7 @@ fn paths_converge() {
     let bench = Bench::new();
     let scene = scene_of(box_around(DVec3::ZERO, DVec3::ONE, 0), vec![glowing([0.7; 3], [1.0; 3])]);
     let camera = looking(DVec3::new(0.1, -0.2, 0.3), DVec3::new(-0.5, 0.3, -0.9), 1.0);
-    let mut stage = Stage::new(&bench, &scene, camera, SIZE, System::BruteForce);
+    let mut stage = Studio::new(&bench, &scene, camera, SIZE, System::BruteForce);
     let path = stage.path(3);
     check("paths in a furnace", &mut stage, &path, enclosure(1.0, f64::from(0.7_f32), 3));
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rasray_scene::{Camera, Environment, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Plastic, Stage, System, assert_refused, assert_truth, metal_albedo, parallel, plastic_albedo, scene_of,
+    Plastic, Studio, System, assert_refused, assert_truth, metal_albedo, parallel, plastic_albedo, scene_of,
     square,
 };
 use rasray_tests::tier::is_full;
@@ -58,7 +58,7 @@ fn metal_and_plastic_reflect_what_their_lobes_integrate_to() {
         scene(MATERIALS.into_iter().map(|(color, metallic, rough)| (color, metallic, rough * 0.8)));
     let darker = scene(MATERIALS.into_iter().map(|(color, metallic, rough)| (color * 0.96, metallic, rough)));
     let [mut stage, mut smoother, mut darker] =
-        [right, smoother, darker].map(|s| Stage::new(&bench, &s, camera(0, 0.9), SIZE, System::BruteForce));
+        [right, smoother, darker].map(|s| Studio::new(&bench, &s, camera(0, 0.9), SIZE, System::BruteForce));
     let paths = [stage.path(1), smoother.path(1), darker.path(1)];
     for (index, material) in MATERIALS.into_iter().enumerate() {
         for cosine in [0.9, 0.3] {

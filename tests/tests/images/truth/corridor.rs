@@ -5,7 +5,7 @@ use glam::DVec3;
 use rasray_scene::{Camera, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Estimate, Stage, System, assert_refused, assert_truth, parallel, scene_of, square, unlit,
+    Estimate, Studio, System, assert_refused, assert_truth, parallel, scene_of, square, unlit,
 };
 use rasray_tests::tier::Counts;
 
@@ -66,7 +66,7 @@ struct Run {
 
 fn run(bench: &Bench, run: &Run) -> Estimate {
     let scene = corridor(run.reflections, run.step, run.half, run.reflectance);
-    let stage = Stage::new(bench, &scene, camera(run.rise), by_system(run.system, 64, 32), run.system);
+    let stage = Studio::new(bench, &scene, camera(run.rise), by_system(run.system, 64, 32), run.system);
     stage.estimate(&stage.path(run.reflections), run.samples)
 }
 

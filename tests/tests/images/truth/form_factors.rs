@@ -6,9 +6,9 @@ use glam::DVec3;
 use rasray_scene::{Camera, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Estimate, Stage, System, assert_refused, assert_truth, beside_sphere, convex_occlusion, diffuse, glowing,
-    octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles, polygon_irradiance, scene_of,
-    square,
+    Estimate, Studio, System, assert_refused, assert_truth, beside_sphere, convex_occlusion, diffuse,
+    glowing, octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles, polygon_irradiance,
+    scene_of, square,
 };
 
 use super::{RESOLUTION, SYSTEMS, by_system, grey, law, samples};
@@ -33,7 +33,7 @@ fn above(height: f64) -> Camera {
 }
 
 fn direct(bench: &Bench, scene: &Scene, camera: Camera, system: System) -> Estimate {
-    let stage = Stage::new(bench, scene, camera, by_system(system, 64, 32), system);
+    let stage = Studio::new(bench, scene, camera, by_system(system, 64, 32), system);
     stage.estimate(&stage.path(1), samples(bench, by_system(system, 12, 16)))
 }
 
@@ -58,7 +58,7 @@ fn floor() -> Mesh {
     square(DVec3::ZERO, DVec3::X * 50.0, DVec3::NEG_Z * 50.0, 0)
 }
 
-fn occlusion(bench: &Bench, stage: &Stage<'_>) -> Estimate {
+fn occlusion(bench: &Bench, stage: &Studio<'_>) -> Estimate {
     stage.estimate(&stage.occlusion(f32::INFINITY), samples(bench, 8))
 }
 
@@ -77,8 +77,8 @@ fn a_sphere_on_a_plane_hides_its_share() {
     // Low from the side: the sphere does not hide the point.
     let camera =
         |distance: f64| parallel(DVec3::new(distance + 4.7, 1.71, 0.0), DVec3::new(distance, 0.0, 0.0), 1e-3);
-    let mut stage = Stage::new(&bench, &scene(1.0), camera(0.5), 64, System::BruteForce);
-    let mut broken = Stage::new(&bench, &scene(1.1), camera(0.5), 64, System::BruteForce);
+    let mut stage = Studio::new(&bench, &scene(1.0), camera(0.5), 64, System::BruteForce);
+    let mut broken = Studio::new(&bench, &scene(1.1), camera(0.5), 64, System::BruteForce);
     let truth = |distance: f64| grey(1.0 - convex_occlusion(DVec3::X * distance, DVec3::Y, &facets));
     for distance in [0.5, 1.0, 2.0, 4.0] {
         let hidden = 1.0 - truth(distance)[0];
@@ -98,9 +98,9 @@ fn a_sphere_on_a_plane_hides_its_share() {
     let slack = 1.5 * 10.0 / f64::from(resolution) / truth(1.0)[0];
     let fragments = System::MmrtRobust(resolution);
     let name = format!("sphere 1 m beside, {fragments:?}");
-    let stage = Stage::new(&bench, &scene(1.0), camera(1.0), 32, fragments);
+    let stage = Studio::new(&bench, &scene(1.0), camera(1.0), 32, fragments);
     assert_truth(&name, &occlusion(&bench, &stage), truth(1.0), slack);
-    let broken = Stage::new(&bench, &scene(1.5), camera(1.0), 32, fragments);
+    let broken = Studio::new(&bench, &scene(1.5), camera(1.0), 32, fragments);
     assert_refused(&name, &occlusion(&bench, &broken), truth(1.0), slack);
 }
 
@@ -128,13 +128,13 @@ fn walls_and_corners_hide_a_half_and_three_quarters() {
         scene_of(meshes, vec![diffuse([0.5; 3])])
     };
     let edge = DVec3::new(4.0, 0.0, 3.0);
-    let mut stage = Stage::new(&bench, &make(2, 10.0), camera(corner), 64, System::BruteForce);
+    let mut stage = Studio::new(&bench, &make(2, 10.0), camera(corner), 64, System::BruteForce);
     for (name, point) in [("corner", corner), ("wall", wall), ("open", edge)] {
         stage.look(camera(point));
         let truth = grey(1.0 - hidden(&walls(10.0), point));
         assert_truth(name, &occlusion(&bench, &stage), truth, 0.0);
     }
-    let mut broken = Stage::new(&bench, &make(1, 10.0), camera(corner), 64, System::BruteForce);
+    let mut broken = Studio::new(&bench, &make(1, 10.0), camera(corner), 64, System::BruteForce);
     for (name, point) in [("corner", corner), ("open", edge)] {
         broken.look(camera(point));
         let truth = grey(1.0 - hidden(&walls(10.0), point));

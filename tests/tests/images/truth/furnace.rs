@@ -4,7 +4,7 @@ use glam::DVec3;
 use rasray_scene::{Environment, Material, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, System, assert_refused, assert_truth, box_around, enclosure, glass, glowing, looking,
+    Studio, System, assert_refused, assert_truth, box_around, enclosure, glass, glowing, looking,
     octahedron_sphere, scene_of,
 };
 
@@ -27,7 +27,7 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
     let camera = looking(DVec3::new(0.1, -0.2, 0.3), DVec3::new(-0.5, 0.3, -0.9), 1.0);
     for system in SYSTEMS {
         let size = by_system(system, 64, 32);
-        let stage = Stage::new(&bench, &room(ALBEDO), camera.clone(), size, system);
+        let stage = Studio::new(&bench, &room(ALBEDO), camera.clone(), size, system);
         let bounces: &[u32] = by_system(system, &[0, 1, 3, 24], &[0, 3]);
         let samples = samples(&bench, 8);
         let slack = |bounces| law(system, 2 * bounces + 1);
@@ -37,7 +37,7 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
             assert_truth(&name, &found, truth(ALBEDO, bounces), slack(bounces.min(3)));
         }
         let factor = by_system(system, 1.01, 1.2);
-        let broken = Stage::new(&bench, &room(ALBEDO.map(|x| x * factor)), camera.clone(), size, system);
+        let broken = Studio::new(&bench, &room(ALBEDO.map(|x| x * factor)), camera.clone(), size, system);
         let found = broken.estimate(&broken.path(3), samples);
         assert_refused(&format!("furnace, {system:?}"), &found, truth(ALBEDO, 3), slack(3));
     }
@@ -70,7 +70,7 @@ fn lossless_mirrors_and_glass_vanish_in_a_white_sky() {
         looking(place + DVec3::new(0.3, 0.4, 4.0), place, 0.6)
     };
     let [mut stage, mut broken] =
-        [1.0, 0.97].map(|color| Stage::new(&bench, &lossless(color), camera(0), 32, System::BruteForce));
+        [1.0, 0.97].map(|color| Studio::new(&bench, &lossless(color), camera(0), 32, System::BruteForce));
     let (path, broken_path) = (stage.path(SCATTERINGS), broken.path(SCATTERINGS));
     let samples = samples(&bench, 8);
     for (i, name) in ["mirror", "glass", "thin glass"].into_iter().enumerate() {

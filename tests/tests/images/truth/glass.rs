@@ -4,7 +4,7 @@ use glam::DVec3;
 use rasray_scene::{Camera, Environment, Material, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, System, assert_refused, assert_truth, box_around, box_faces, glass, interface_transmission,
+    Studio, System, assert_refused, assert_truth, box_around, box_faces, glass, interface_transmission,
     normal_reflectance, parallel, scene_of, square, unlit,
 };
 use rasray_tests::tier::is_full;
@@ -85,7 +85,7 @@ fn camera(number: usize) -> Camera {
 fn stacks_of_glass_let_through_what_their_interfaces_leave() {
     let bench = Bench::new();
     let [mut stage, mut broken] =
-        [1.5, 1.6].map(|ior| Stage::new(&bench, &before_lamp(ior), camera(0), SIZE, System::BruteForce));
+        [1.5, 1.6].map(|ior| Studio::new(&bench, &before_lamp(ior), camera(0), SIZE, System::BruteForce));
     for (number, stack) in stacks().iter().enumerate() {
         // The quick tier leaves out the four plates.
         if number == 2 && !is_full() {
@@ -111,7 +111,7 @@ fn fragments_show_light_through_two_plates() {
     // One trace an interface, and one to the lamp.
     let slack = law(system, 5);
     for (ior, right) in [(1.5, true), (2.0, false)] {
-        let stage = Stage::new(&bench, &before_lamp(ior), camera(1), SIZE, system);
+        let stage = Studio::new(&bench, &before_lamp(ior), camera(1), SIZE, system);
         let check = if right { assert_truth } else { assert_refused };
         check("2 plates, fragments", &stage.estimate(&stage.path(8), samples(&bench, 4)), truth, slack);
     }
@@ -139,8 +139,8 @@ fn the_critical_angle_is_met_without_a_jump() {
         if outer >= 1.0 { 0.0 } else { (1.0 - f0) * (1.0 - (1.0 - (1.0 - outer * outer).sqrt()).powi(5)) }
     };
     let critical = 1.0 / f64::from(ior);
-    let mut stage = Stage::new(&bench, &make(ior), camera(0.0), SIZE, System::BruteForce);
-    let mut broken = Stage::new(&bench, &make(1.45), camera(0.0), SIZE, System::BruteForce);
+    let mut stage = Studio::new(&bench, &make(ior), camera(0.0), SIZE, System::BruteForce);
+    let mut broken = Studio::new(&bench, &make(1.45), camera(0.0), SIZE, System::BruteForce);
     let (path, broken_path) = (stage.path(1), broken.path(1));
     let ulp = f64::from(f32::EPSILON);
     for sine in [0.3, 0.5, 0.6, 0.66, critical * (1.0 - 1e-4), 0.7, 0.9] {

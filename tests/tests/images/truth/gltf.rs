@@ -6,7 +6,7 @@ use glam::DVec3;
 use rasray_scene::{LoadOptions, Mesh, Scene, gltf};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, System, assert_refused, assert_truth, box_around, enclosure, looking,
+    Studio, System, assert_refused, assert_truth, box_around, enclosure, looking,
 };
 
 /// One mesh of several.
@@ -60,7 +60,7 @@ fn a_glowing_room_from_a_file_obeys_its_series() {
         [(1.0, 0.5), (2.0, 0.25), (0.5, 0.75)].map(|(emission, albedo)| enclosure(emission, albedo, 3));
     let samples = super::samples(&bench, 8);
     for (strength, right) in [(2.0, true), (2.1, false)] {
-        let stage = Stage::new(&bench, &room(strength), camera.clone(), 64, System::BruteForce);
+        let stage = Studio::new(&bench, &room(strength), camera.clone(), 64, System::BruteForce);
         let found = stage.estimate(&stage.path(3), samples);
         let check = if right { assert_truth } else { assert_refused };
         check("room from a file", &found, truth, 0.0);

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rasray_scene::{Environment, Light, Material, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Picture, SIGMAS, Stage, System, box_around, diffuse, glowing, looking, scene_of, square,
+    Picture, SIGMAS, Studio, System, box_around, diffuse, glowing, looking, scene_of, square,
 };
 use rasray_tests::tier::Counts;
 
@@ -26,7 +26,7 @@ fn closed_box() -> Scene {
 fn inside(bench: &Bench, scene: &Scene, system: System, paths: u32) -> Picture {
     const SIZE: u32 = 32;
     let camera = looking(DVec3::new(0.1, -0.2, 0.3), DVec3::new(-0.5, 0.3, -0.9), 2.0);
-    let stage = Stage::new(bench, scene, camera, SIZE, system);
+    let stage = Studio::new(bench, scene, camera, SIZE, system);
     stage.render(&stage.path(4), 0..paths.div_ceil(SIZE * SIZE))
 }
 
@@ -76,25 +76,25 @@ fn coarse_sphere(material: usize) -> Mesh {
     }
 }
 
-fn stage<'a>(bench: &'a Bench, material: Material, light: Option<Light>) -> Stage<'a> {
+fn stage<'a>(bench: &'a Bench, material: Material, light: Option<Light>) -> Studio<'a> {
     let mut scene = scene_of(vec![coarse_sphere(0)], vec![material]);
     match light {
         Some(light) => scene.lights.push(light),
         None => scene.environment = Environment::Constant([1.0; 3]),
     }
     let camera = looking(DVec3::new(0.0, 0.5, 4.0), DVec3::ZERO, 0.6);
-    Stage::new(bench, &scene, camera, 32, System::BruteForce)
+    Studio::new(bench, &scene, camera, 32, System::BruteForce)
 }
 
 /// Whether all samples are finite, no pixel is negative, and the terminator is in the picture.
-fn sound(stage: &Stage<'_>) -> bool {
+fn sound(stage: &Studio<'_>) -> bool {
     let picture = stage.render(&stage.path(3), 0..16);
     let mut values = picture.pixels.iter().flatten();
     picture.non_finite == 0 && values.all(|x| *x >= 0.0) && mean(&picture) > 0.0
 }
 
 /// Standard errors by which the picture is brighter than the sky.
-fn surplus(stage: &Stage<'_>) -> f64 {
+fn surplus(stage: &Studio<'_>) -> f64 {
     let found = stage.estimate(&stage.path(3), 32);
     (found.mean[0] - 1.0) / found.sigma[0].max(1e-7)
 }

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rasray_scene::{Camera, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Stage, assert_refused, assert_truth, diffuse, glowing, parallel, polygon_irradiance, scene_of, square,
+    Studio, assert_refused, assert_truth, diffuse, glowing, parallel, polygon_irradiance, scene_of, square,
 };
 
 use super::{SYSTEMS, by_system, grey, law, samples};
@@ -76,8 +76,8 @@ fn a_polygon_lights_points_by_the_sum_over_its_edges() {
         let size = by_system(system, 64, 32);
         let samples = samples(&bench, by_system(system, 12, 16));
         let scale = by_system(system, 1.04, 1.1);
-        let mut stage = Stage::new(&bench, &scene(1.0), camera(receivers()[0]), size, system);
-        let mut broken = Stage::new(&bench, &scene(scale), camera(receivers()[0]), size, system);
+        let mut stage = Studio::new(&bench, &scene(1.0), camera(receivers()[0]), size, system);
+        let mut broken = Studio::new(&bench, &scene(scale), camera(receivers()[0]), size, system);
         let (path, broken_path) = (stage.path(1), broken.path(1));
         let slack = law(system, 2);
         for (number, receiver) in receivers().into_iter().enumerate().take(by_system(system, 6, 3)) {

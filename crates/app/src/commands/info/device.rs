@@ -1,8 +1,8 @@
 //! The devices, what the one in use offers, and the way of each structure on it.
 
-use super::pair;
-use crate::backend::DeviceDescription;
-use crate::report::{Device, columns};
+use super::rows::pair;
+use rasray_experiment::DeviceDescription;
+use rasray_report::{Device, columns};
 use serde_json::{Map, Value, json};
 use std::fmt::Write;
 

@@ -1,18 +1,19 @@
 //! `rasray info`.
 
 mod device;
+mod rows;
 mod scene;
 mod texels;
 
 use crate::arguments::InfoArguments;
-use crate::backend::{Frame, OpenBackend, Sampler};
 use crate::error::AppError;
 use crate::progress::during;
-use crate::{camera, scene_source, terminal};
+use crate::terminal;
+use rasray_experiment::{Frame, OpenBackend, Sampler, default_view, load};
 use rasray_report::json_shown;
 use serde_json::Value;
 
-use super::open_device;
+use super::steps::open_device;
 use device::{device_json, device_text};
 use scene::SceneInfo;
 
@@ -25,7 +26,7 @@ const SCHEMA: &str = "rasray-info/1";
 /// A scene that cannot be read, or no suitable device.
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     if let Some(name) = &given.scene {
-        let mut loaded = during("scene", "reading", || scene_source::load(name))?;
+        let mut loaded = during("scene", "reading", || load(name))?;
         let frame = Frame {
             integrator: given.integrator.by_default(),
             width: 1,
@@ -34,7 +35,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             seed: 0,
             sampler: Sampler::Sobol,
         };
-        let view = during("scene", "looking for a view", || camera::by_default(&loaded.scene));
+        let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         let room = || open_device(open, &given.device).map(|backend| backend.texel_room());
         let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
         show(given.json, || info.json(), || info.text())?;
@@ -58,8 +59,4 @@ fn show(as_json: bool, json: impl Fn() -> Value, text: impl Fn() -> String) -> R
     }
     let text = serde_json::to_string_pretty(&whole).expect("names and numbers");
     terminal::print(&format!("{}\n", json_shown(&text)))
-}
-
-fn pair(name: &str, value: impl ToString) -> Vec<String> {
-    vec![name.to_owned(), value.to_string()]
 }

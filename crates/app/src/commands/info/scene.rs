@@ -1,15 +1,13 @@
 //! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
 
-use super::pair;
+use super::rows::pair;
 use super::texels::TexelInfo;
-use crate::backend::{Frame, TexelRoom};
-use crate::camera::{Chosen, described};
-use crate::commands::integrator_name;
 use crate::error::AppError;
-use crate::report::{CameraRecord, bytes, columns, grouped};
-use crate::scene_source::LoadedScene;
+use crate::report::described;
 use glam::DVec3;
+use rasray_experiment::{Chosen, Frame, LoadedScene, TexelRoom};
 use rasray_report::in_line;
+use rasray_report::{CameraRecord, bytes, columns, grouped};
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Environment, Scene, default_view};
@@ -60,7 +58,7 @@ impl SceneInfo {
             sha256: loaded.sha256.clone(),
             cameras: scene.cameras.iter().enumerate().map(camera).collect(),
             view: view.record(),
-            integrator: integrator_name(frame),
+            integrator: frame.integrator.name(),
             needs,
             texels,
         })

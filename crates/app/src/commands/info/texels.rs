@@ -1,11 +1,11 @@
 //! The texels of a scene's textures, and what a device that does not hold them all makes of them.
 
-use super::pair;
-use crate::backend::TexelRoom;
+use super::rows::pair;
 use crate::error::AppError;
-use crate::report::bytes;
-use crate::texels::{self, HELD_BY_EVERY_DEVICE, described, records};
+use rasray_experiment::TexelRoom;
+use rasray_experiment::texels::{self, HELD_BY_EVERY_DEVICE, described, records};
 use rasray_gpu_scene::{SmallerImage, TEXEL_BYTES};
+use rasray_report::bytes;
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
 use serde_json::{Value, json};

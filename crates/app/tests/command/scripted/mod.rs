@@ -3,12 +3,11 @@
 //! The process is this test program again: the test named `as_command` becomes the command when the
 //! environment says so, and passes otherwise.
 
-use rasray_app::AppError;
-use rasray_app::backend::{
-    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, Feature, HardJob,
-    OnProgress, Progress, RenderJob, RenderOutput, TexelRoom,
+use rasray_experiment::{
+    Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
+    HardJob, OnProgress, Progress, RenderJob, RenderOutput, TexelRoom,
 };
-use rasray_app::report::{Counters, Device, HardRecord, Run, Times};
+use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -39,9 +38,9 @@ impl Backend for Scripted {
         &mut self,
         job: &RenderJob<'_>,
         progress: &mut OnProgress<'_>,
-    ) -> Result<RenderOutput, AppError> {
+    ) -> Result<RenderOutput, ExperimentError> {
         if self.device == "broken" {
-            return Err(AppError::device("the device was lost", "restart it"));
+            return Err(ExperimentError::device("the device was lost", "restart it"));
         }
         let (width, height) = (job.frame.width, job.frame.height);
         let pixels = width as usize * height as usize;
@@ -81,7 +80,7 @@ impl Backend for Scripted {
         &mut self,
         job: &CompareJob<'_>,
         progress: &mut OnProgress<'_>,
-    ) -> Result<Comparison, AppError> {
+    ) -> Result<Comparison, ExperimentError> {
         say_ready();
         let mut runs = Vec::new();
         for system in &job.systems {
@@ -95,7 +94,7 @@ impl Backend for Scripted {
                 runs.push(Run {
                     system: system.system.name.to_owned(),
                     preset: system.preset.name().to_owned(),
-                    ray_set: Some(rasray_app::systems::word(set)),
+                    ray_set: Some(set.name().to_owned()),
                     options: system.options.given().clone().into_iter().collect(),
                     ..Default::default()
                 });
@@ -104,13 +103,17 @@ impl Backend for Scripted {
         Ok(Comparison { runs, ..Comparison::default() })
     }
 
-    fn hard(&mut self, job: &HardJob<'_>, progress: &mut OnProgress<'_>) -> Result<Comparison, AppError> {
+    fn hard(
+        &mut self,
+        job: &HardJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError> {
         say_ready();
         if self.device == "broken" && job.case.id == "G3" {
-            return Err(AppError::device("the device was lost", "restart it"));
+            return Err(ExperimentError::device("the device was lost", "restart it"));
         }
         // The first system meets its target, the others do not.
-        let run = |(place, system): (usize, &rasray_app::systems::SystemConfig)| Run {
+        let run = |(place, system): (usize, &rasray_experiment::SystemConfig)| Run {
             system: system.system.name.to_owned(),
             preset: system.preset.name().to_owned(),
             ray_set: Some(job.case.id.to_owned()),
@@ -128,7 +131,7 @@ impl Backend for Scripted {
         Ok(Comparison { runs, ..Comparison::default() })
     }
 
-    fn info(&mut self) -> Result<DeviceDescription, AppError> {
+    fn info(&mut self) -> Result<DeviceDescription, ExperimentError> {
         let feature = |name: &str, present, required| Feature {
             name: name.to_owned(),
             present,
@@ -159,10 +162,10 @@ fn say_ready() {
 /// Becomes the command if the environment says so; otherwise returns.
 pub fn become_the_command() {
     let Ok(arguments) = std::env::var(ARGUMENTS) else { return };
-    let mut open = |choice: &DeviceChoice| -> Result<Box<dyn Backend>, AppError> {
+    let mut open = |choice: &DeviceChoice| -> Result<Box<dyn Backend>, ExperimentError> {
         let device = choice.device.clone().unwrap_or_default();
         if device == "absent" {
-            return Err(AppError::device("no device 'absent'", "see 'rasray info'"));
+            return Err(ExperimentError::device("no device 'absent'", "see 'rasray info'"));
         }
         Ok(Box::new(Scripted { device }))
     };

@@ -1,0 +1,168 @@
+//! Systems, presets and options of structures on the command line, made from the rows of the registry.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use rasray_experiment::{RaySet, Sampler, StructureOptions};
+use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
+use serde_json::Value;
+
+use super::values;
+
+/// Reads the name of a system.
+pub fn system_parser() -> impl TypedValueParser<Value = &'static System> {
+    let names = SYSTEMS.iter().map(|system| PossibleValue::new(system.name).help(system.doc));
+    PossibleValuesParser::new(names)
+        .map(|name| System::named(&name).expect("only names of systems are possible values"))
+}
+
+/// Reads the name of a preset.
+pub fn preset_parser() -> impl TypedValueParser<Value = Preset> {
+    let names = Preset::ALL.map(|preset| PossibleValue::new(preset.name()).help(preset.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Preset::named(&name).expect("only names of presets are possible values"))
+}
+
+/// Reads the name of a set of rays.
+pub fn ray_set_parser() -> impl TypedValueParser<Value = RaySet> {
+    let names = RaySet::ALL.map(|set| PossibleValue::new(set.name()).help(set.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| RaySet::named(&name).expect("only names of sets are possible values"))
+}
+
+/// Reads the name of a sampler.
+pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
+    let names = Sampler::ALL.map(|sampler| PossibleValue::new(sampler.name()).help(sampler.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Sampler::named(&name).expect("only names of samplers are possible values"))
+}
+
+/// The options of a structure on the command line.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StructureArguments(
+    /// What was given.
+    pub StructureOptions,
+);
+
+fn heading(group: Group) -> &'static str {
+    match group {
+        Group::Size => "Structure: sizes (defaults follow the system and its preset)",
+        Group::Method => "Structure: methods",
+        Group::Speed => "Structure: speed",
+        Group::Limit => "Structure: limits",
+        Group::Diagnostic => "Structure: diagnostics",
+    }
+}
+
+/// A word that stands for the value `off` of an option.
+fn off_argument(row: &'static OptionRow, name: &'static str) -> Arg {
+    Arg::new(name)
+        .long(name)
+        .action(ArgAction::SetTrue)
+        .conflicts_with(row.name)
+        .help(format!("The same as --{}=off", row.name))
+}
+
+/// The argument of an option.
+fn argument(row: &'static OptionRow) -> Arg {
+    let argument = Arg::new(row.name).long(row.name).help(row.doc);
+    let argument = match row.values {
+        Values::Words(words) => {
+            let words = words.iter().map(|(word, doc)| PossibleValue::new(*word).help(*doc));
+            argument.value_name("WORD").value_parser(PossibleValuesParser::new(words))
+        }
+        Values::Whole(lowest, highest) => {
+            argument.value_name("N").value_parser(values::whole(lowest, highest))
+        }
+        Values::Metres => argument.value_name("METRES").value_parser(values::not_negative),
+        Values::Share => argument.value_name("SHARE").value_parser(values::not_negative),
+        Values::Cells => argument.value_name("WxH").value_parser(values::cells),
+    };
+    match row.off_name {
+        Some(_) => argument.num_args(0..=1).require_equals(true).default_missing_value("on"),
+        None => argument,
+    }
+}
+
+/// What was given for an option.
+fn value(row: &OptionRow, matches: &ArgMatches) -> Option<Value> {
+    match row.values {
+        Values::Words(_) | Values::Cells => matches.get_one::<String>(row.name).cloned().map(Value::from),
+        Values::Whole(..) => matches.get_one::<u32>(row.name).copied().map(Value::from),
+        Values::Metres | Values::Share => matches.get_one::<f32>(row.name).map(|number| {
+            // By way of text, which is as short as it can be: 0.1, not 0.10000000149.
+            serde_json::from_str(&number.to_string()).expect("a finite number")
+        }),
+    }
+}
+
+impl Args for StructureArguments {
+    fn augment_args(command: Command) -> Command {
+        Group::ALL.into_iter().fold(command, |command, group| {
+            let rows = OPTIONS.iter().filter(|row| row.group == group);
+            let arguments = rows.flat_map(|row| {
+                [Some(argument(row)), row.off_name.map(|name| off_argument(row, name))].into_iter().flatten()
+            });
+            // Sizes first; what else there is, is shown where everything is asked for.
+            let arguments = arguments
+                .map(|argument| argument.help_heading(heading(group)).hide_short_help(group != Group::Size));
+            command.args(arguments)
+        })
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for StructureArguments {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut options = Self::default();
+        options.update_from_arg_matches(matches)?;
+        Ok(options)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        for row in OPTIONS {
+            let given = value(row, matches);
+            let off = row.off_name.is_some_and(|name| matches.get_flag(name)).then(|| Value::from("off"));
+            if let Some(given) = given.or(off) {
+                self.0 = std::mem::take(&mut self.0).with(row.name, given);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(words: &[&str]) -> Result<StructureOptions, clap::Error> {
+        let command = StructureArguments::augment_args(Command::new("options").no_binary_name(true));
+        Ok(StructureArguments::from_arg_matches(&command.try_get_matches_from(words)?)?.0)
+    }
+
+    #[test]
+    fn values_keep_what_was_typed() {
+        let given = read(&["--buckets", "8", "--thickness", "0.1", "--sort", "on"]).expect("valid");
+        assert_eq!(given.given().len(), 3);
+        assert_eq!(given.given()["buckets"], 8);
+        assert_eq!(given.given()["thickness"].to_string(), "0.1");
+        assert_eq!(given.text("sort").as_deref(), Some("on"));
+        let cells = read(&["--camera-resolution", "12"]).expect("valid");
+        assert_eq!(cells.text("camera-resolution").as_deref(), Some("12x12"));
+        for bad in [["--buckets", "65"], ["--sort", "maybe"], ["--thickness", "-1"], ["--grid", "x"]] {
+            assert!(read(&bad).is_err(), "{bad:?}");
+        }
+    }
+
+    #[test]
+    fn a_word_of_its_own_turns_an_option_off() {
+        let of = |words: &[&str]| read(words).expect("valid").text("inline");
+        assert_eq!(of(&["--inline"]).as_deref(), Some("on"));
+        assert_eq!(of(&["--inline=off"]).as_deref(), Some("off"));
+        assert_eq!(of(&["--decoupled"]).as_deref(), Some("off"));
+        assert_eq!(of(&[]), None);
+        assert!(read(&["--decoupled", "--inline"]).is_err());
+    }
+}

@@ -1,0 +1,124 @@
+//! From the words of the command line to rows of the registry: which system has which presets and
+//! options, and how options given once reach several systems.
+
+use crate::error::AppError;
+use rasray_experiment::{StructureOptions, SystemConfig};
+use rasray_systems::{Preset, SYSTEMS, System};
+
+mod assigned;
+mod names;
+
+use assigned::Assigned;
+use names::{names, who_has};
+
+/// One system with its options, each of which it must have.
+pub fn single(
+    system: &'static System,
+    preset: Preset,
+    options: &StructureOptions,
+) -> Result<SystemConfig, AppError> {
+    if !system.presets.contains(&preset) {
+        let own: Vec<_> = system.presets.iter().map(|preset| preset.name()).collect();
+        let having: Vec<_> = SYSTEMS
+            .iter()
+            .filter(|system| system.presets.contains(&preset))
+            .map(|system| system.name)
+            .collect();
+        return Err(AppError::usage(
+            format!("system {} has no preset {}", system.name, preset.name()),
+            format!("its presets: {}; choose another --system for it: {}", own.join(", "), having.join(", ")),
+        ));
+    }
+    for option in options.given().keys() {
+        if !system.has(option) {
+            return Err(AppError::usage(
+                format!("system {} has no option --{option}", system.name),
+                format!("{}; leave it out or choose another --system", who_has(option)),
+            ));
+        }
+    }
+    let config = SystemConfig { system, preset, options: options.clone(), variant: None };
+    config.spec()?;
+    Ok(config)
+}
+
+/// Every named system with every named preset that it has. An option goes to the systems that have it;
+/// `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`),
+/// which takes part once with each of several values (`mmrt.samples=50,100`) and with every combination of
+/// them.
+///
+/// # Errors
+/// A preset or an option that none of the named systems has, and a malformed assignment.
+pub fn several(
+    systems: &[&'static System],
+    presets: &[Preset],
+    options: &StructureOptions,
+    assignments: &[String],
+) -> Result<Vec<SystemConfig>, AppError> {
+    for option in options.given().keys() {
+        if !systems.iter().any(|system| system.has(option)) {
+            return Err(AppError::usage(
+                format!("none of the systems {} has an option --{option}", names(systems)),
+                format!("{}; leave it out or add such a system to --systems", who_has(option)),
+            ));
+        }
+    }
+    for preset in presets {
+        if !systems.iter().any(|system| system.presets.contains(preset)) {
+            return Err(AppError::usage(
+                format!("none of the systems {} has the preset {}", names(systems), preset.name()),
+                "leave it out of --presets or add a system that has it to --systems",
+            ));
+        }
+    }
+    let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(Assigned { system, .. }) =
+        assigned.iter().find(|assigned| !systems.contains(&assigned.system))
+    {
+        return Err(AppError::usage(
+            format!("an option addresses {}, which is not compared", system.name),
+            format!("add {} to --systems or leave the option out", system.name),
+        ));
+    }
+    let mut addressed = assigned.iter().filter_map(|assigned| assigned.preset);
+    if let Some(preset) = addressed.find(|preset| !presets.contains(preset)) {
+        return Err(AppError::usage(
+            format!("an option addresses the preset {}, which is not compared", preset.name()),
+            format!("add {} to --presets or leave the option out", preset.name()),
+        ));
+    }
+    let mut configs = Vec::new();
+    for (position, system) in systems.iter().enumerate() {
+        if systems[..position].contains(system) {
+            continue;
+        }
+        for (position, preset) in presets.iter().enumerate() {
+            if !system.presets.contains(preset) || presets[..position].contains(preset) {
+                continue;
+            }
+            let addressed = |assigned: &&Assigned| {
+                assigned.system == *system && assigned.preset.is_none_or(|addressed| addressed == *preset)
+            };
+            let mut variants = vec![(options.filtered(|option| system.has(option)), String::new())];
+            for Assigned { values, .. } in assigned.iter().filter(addressed) {
+                let combined = variants.iter().flat_map(|(own, variant)| {
+                    values.iter().map(move |(over, word)| {
+                        let words = [variant.as_str(), word.as_str()];
+                        let several = words.into_iter().filter(|word| values.len() > 1 || *word != words[1]);
+                        let variant = several.filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+                        (own.overlaid(over), variant)
+                    })
+                });
+                variants = combined.collect();
+            }
+            for (own, variant) in variants {
+                let variant = (!variant.is_empty()).then_some(variant);
+                configs.push(SystemConfig { variant, ..single(system, *preset, &own)? });
+            }
+        }
+    }
+    Ok(configs)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,100 @@
+//! Options that address one of the systems of a comparison.
+
+use clap::Parser;
+use rasray_systems::{Preset, SYSTEMS, System};
+
+use super::names::{names, who_has};
+use crate::arguments::mistakes::usage_error;
+use crate::arguments::structure::StructureArguments;
+use crate::error::AppError;
+use rasray_experiment::StructureOptions;
+
+/// An option of one system, or of one preset of it, with values that it takes in turns.
+pub(super) struct Assigned {
+    pub(super) system: &'static System,
+    pub(super) preset: Option<Preset>,
+    /// The option with each value, and how both were written.
+    pub(super) values: Vec<(StructureOptions, String)>,
+}
+
+impl Assigned {
+    /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50` with the parser of the
+    /// command line, so that both know the same values.
+    pub(super) fn read(text: &str) -> Result<Self, AppError> {
+        #[derive(Parser)]
+        #[command(no_binary_name = true, disable_help_flag = true)]
+        struct One {
+            #[command(flatten)]
+            options: StructureArguments,
+        }
+        let shape = || {
+            AppError::usage(
+                format!("'{text}' is not of the form SYSTEM.OPTION=VALUE or SYSTEM-PRESET.OPTION=VALUE"),
+                "write for example mmrt.samples=50",
+            )
+        };
+        let (target, values) = text.split_once('=').ok_or_else(shape)?;
+        let (system, option) = target.split_once('.').ok_or_else(shape)?;
+        // Names of systems may have a hyphen of their own.
+        let with_preset = || {
+            let (system, preset) = system.rsplit_once('-')?;
+            Some((System::named(system)?, Some(Preset::named(preset)?)))
+        };
+        let known = System::named(system).map(|system| (system, None)).or_else(with_preset);
+        let (system, preset) = known.ok_or_else(|| {
+            AppError::usage(
+                format!("'{text}': there is no system {system}"),
+                format!("the systems: {}", names(&SYSTEMS.iter().collect::<Vec<_>>())),
+            )
+        })?;
+        if !system.has(option) {
+            return Err(AppError::usage(
+                format!("'{text}': system {} has no option {option}", system.name),
+                who_has(option),
+            ));
+        }
+        let parse = |value: &str| {
+            One::try_parse_from([format!("--{option}={value}")])
+                .map(|parsed| (parsed.options.0, format!("{option}={value}")))
+                .map_err(|error| usage_error(&error, &format!("'{text}': "), Some("compare")))
+        };
+        Ok(Self { system, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::several;
+    use super::*;
+
+    #[test]
+    fn an_option_may_address_one_preset() {
+        let assigned = |text: &str| {
+            let presets = [Preset::Robust, Preset::Published];
+            let names = ["mmrt", "brute-force"].map(|name| System::named(name).expect("a system"));
+            several(&names, &presets, &StructureOptions::default(), &[text.to_owned()])
+        };
+        let configs = assigned("mmrt-robust.accept=interval,plane")
+            .expect("published keeps no plane and is left alone");
+        let shape: Vec<_> = configs.iter().map(|c| (c.system.name, c.preset, c.variant.as_deref())).collect();
+        assert_eq!(
+            shape,
+            [
+                ("mmrt", Preset::Robust, Some("accept=interval")),
+                ("mmrt", Preset::Robust, Some("accept=plane")),
+                ("mmrt", Preset::Published, None),
+                ("brute-force", Preset::Robust, None),
+            ]
+        );
+        assert!(assigned("mmrt.accept=interval,plane").is_err(), "published keeps no plane");
+        assert_eq!(assigned("brute-force-robust.buckets=4").expect_err("not its option").exit_code(), 2);
+        assert_eq!(assigned("mmrt-other.samples=4").expect_err("no preset").exit_code(), 2);
+        let one = several(
+            &[System::named("mmrt").expect("a system")],
+            &[Preset::Robust],
+            &StructureOptions::default(),
+            &["mmrt-published.samples=4".to_owned()],
+        );
+        assert!(one.expect_err("not compared").to_string().contains("published"));
+    }
+}

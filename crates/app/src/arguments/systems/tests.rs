@@ -1,0 +1,170 @@
+use super::*;
+use crate::arguments::structure::StructureArguments;
+use rasray_scene::needs::{Integrator, Workload};
+use rasray_scene::{Camera, Projection};
+use rasray_systems::Spec;
+
+fn options(given: &[(&str, &str)]) -> StructureOptions {
+    given.iter().fold(StructureOptions::default(), |options, (name, word)| options.with(name, *word))
+}
+
+fn with_buckets() -> StructureOptions {
+    options(&[("buckets", "4")])
+}
+
+fn system(name: &str) -> &'static System {
+    System::named(name).expect("a system of the registry")
+}
+
+#[test]
+fn every_value_of_the_command_line_is_one_of_the_registry() {
+    let command = <StructureArguments as clap::Args>::augment_args(clap::Command::new("options"));
+    let mut tried = 0;
+    // `--decoupled` is another word for `--inline=off` and has no values.
+    for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {
+        for value in argument.get_possible_values() {
+            let option = argument.get_long().expect("every option has a name");
+            let takes = |system: &System, preset: &str, accept: &str| {
+                let options = [("accept", accept), (option, value.get_name())]
+                    .into_iter()
+                    .filter(|(name, _)| system.has(name) || *name == option)
+                    .map(|(name, word)| (name.to_owned(), word.to_owned()));
+                Spec::new(system.name, preset, options).is_ok()
+            };
+            // Planes exclude attributes and samples; fringes need planes.
+            let accepted = SYSTEMS.iter().any(|system| {
+                let accepts = ["interval", "plane", "parity", "tolerance", "t"];
+                let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));
+                system.presets.iter().any(|preset| takes(preset.name()))
+            });
+            assert!(accepted, "no system takes --{option} {}", value.get_name());
+            tried += 1;
+        }
+    }
+    assert!(tried > 10);
+}
+
+#[test]
+fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
+    let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
+    let path = Workload { integrator: Integrator::Path, bounces: 1 };
+    let plain = StructureOptions::default();
+    for system in SYSTEMS {
+        let Ok(config) = single(system, Preset::Published, &plain) else { continue };
+        let payload = config.clone().serving(occlusion).options.text("payload");
+        assert_eq!(payload.as_deref(), system.occlusion_payload);
+        assert!(config.clone().serving(occlusion).spec().is_ok());
+        assert_eq!(config.clone().serving(path), config);
+    }
+    let given = options(&[("payload", "attributes")]);
+    for (preset, options) in [(Preset::Published, &given), (Preset::Robust, &plain)] {
+        let config = single(system("mmrt"), preset, options).expect("valid");
+        assert_eq!(config.clone().serving(occlusion), config);
+    }
+    assert_eq!(system("mmrt").occlusion_payload, Some("normal"));
+    let plane = options(&[("payload", "plane")]);
+    let plane = single(system("mmrt"), Preset::Robust, &plane).expect("valid");
+    assert!(plane.shortcoming(path).expect("white surfaces").contains("--payload plane"));
+    assert_eq!(plane.shortcoming(occlusion), None);
+    let attributes = single(system("mmrt"), Preset::Published, &given).expect("valid");
+    assert_eq!(attributes.shortcoming(path), None);
+}
+
+#[test]
+fn published_views_are_those_of_the_paper() {
+    let eye = glam::DVec3::new(0.0, 0.0, 4.0);
+    let camera = rasray_scene::default_view::camera_looking_at("", eye, glam::DVec3::ZERO, 1.0);
+    let plain = StructureOptions::default();
+    for system in SYSTEMS {
+        for preset in [Preset::Robust, Preset::Published] {
+            let Ok(config) = single(system, preset, &plain) else { continue };
+            let seen = config.clone().seen_by(&camera, 720, 480);
+            let views = system.camera_views.filter(|_| preset == Preset::Published);
+            assert_eq!(seen.options.text("views").as_deref(), views);
+            assert_eq!(seen.options.text("camera-resolution").as_deref(), views.map(|_| "720x480"));
+            seen.spec().expect("the options go together");
+        }
+    }
+    assert_eq!(system("mmrt").camera_views, Some("cube+camera"));
+    let published = single(system("mmrt"), Preset::Published, &plain).expect("valid");
+    let parallel = Camera { projection: Projection::Orthographic { half_height: 1.0 }, ..camera.clone() };
+    assert_eq!(published.clone().seen_by(&parallel, 720, 480), published);
+    let given = options(&[("views", "cube")]);
+    let given = single(system("mmrt"), Preset::Published, &given).expect("valid");
+    assert_eq!(given.clone().seen_by(&camera, 720, 480), given);
+}
+
+#[test]
+fn values_that_do_not_go_together_are_refused_before_a_device_is_opened() {
+    let options = options(&[("accept", "plane")]);
+    let error = single(system("mmrt"), Preset::Published, &options).expect_err("no plane in attributes");
+    assert_eq!(error.exit_code(), 2);
+    assert!(error.to_string().contains("payload"), "{error}");
+    assert!(single(system("mmrt"), Preset::Robust, &options).is_ok());
+}
+
+#[test]
+fn an_option_of_another_system_is_refused_by_name() {
+    let error = single(system("brute-force"), Preset::Robust, &with_buckets()).expect_err("not its option");
+    assert_eq!(error.exit_code(), 2);
+    assert!(error.to_string().contains("--buckets") && error.help().contains("mmrt"), "{error}");
+    assert!(single(system("mmrt"), Preset::Robust, &with_buckets()).is_ok());
+}
+
+#[test]
+fn in_a_comparison_an_option_goes_to_those_who_have_it() {
+    let names = [system("mmrt"), system("brute-force"), system("mmrt")];
+    let presets = [Preset::Published, Preset::Robust];
+    let configs = several(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()]).expect("valid");
+    let shape: Vec<_> =
+        configs.iter().map(|c| (c.system.name, c.preset, c.options.text("buckets"))).collect();
+    assert_eq!(
+        shape,
+        [
+            ("mmrt", Preset::Published, Some("4".to_owned())),
+            ("mmrt", Preset::Robust, Some("4".to_owned())),
+            ("brute-force", Preset::Robust, None),
+        ]
+    );
+    assert_eq!(configs[0].options.text("samples").as_deref(), Some("50"));
+}
+
+#[test]
+fn several_values_make_as_many_contestants() {
+    let assigned = ["mmrt.samples=50,100".to_owned(), "mmrt.sort=on,off".to_owned()];
+    let names = [system("mmrt"), system("brute-force")];
+    let configs = several(&names, &[Preset::Robust], &StructureOptions::default(), &assigned).expect("valid");
+    let shape: Vec<_> =
+        configs.iter().map(|c| (c.system.name, c.options.text("samples"), c.options.text("sort"))).collect();
+    assert_eq!(shape.len(), 5);
+    assert_eq!(shape[4], ("brute-force", None, None));
+    let variants: Vec<_> = configs.iter().map(|config| config.variant.as_deref()).collect();
+    let of = |samples, sort| format!("samples={samples} sort={sort}");
+    assert_eq!(variants[0], Some(of(50, "on").as_str()));
+    assert_eq!(variants[3], Some(of(100, "off").as_str()));
+    assert_eq!(variants[4], None);
+    for (index, samples) in [(0, 50), (1, 50), (2, 100), (3, 100)] {
+        assert_eq!((shape[index].0, shape[index].1.clone()), ("mmrt", Some(samples.to_string())));
+    }
+    assert!(shape[0].2.is_some() && shape[0].2 != shape[1].2 && shape[0].2 == shape[2].2);
+}
+
+#[test]
+fn in_a_comparison_what_nobody_has_is_refused() {
+    let judge = [system("brute-force")];
+    let plain = StructureOptions::default();
+    assert!(several(&judge, &[Preset::Robust], &with_buckets(), &[]).is_err());
+    assert!(several(&judge, &[Preset::Published], &plain, &[]).is_err());
+    for bad in [
+        "mmrt.samples=50",
+        "mmrt",
+        "nobody.sort=on",
+        "brute-force.sort=on",
+        "mmrt.sort=x",
+        "mmrt.sort=on,x",
+        "mmrt.sort=on,",
+    ] {
+        let error = several(&judge, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
+        assert_eq!(error.exit_code(), 2);
+    }
+}

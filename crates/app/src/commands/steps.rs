@@ -1,0 +1,127 @@
+//! Steps that several commands take.
+
+use crate::arguments::values::Switch;
+use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
+use crate::camera;
+use crate::environment;
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use crate::output::Destination;
+use crate::progress::{ProgressLine, during};
+use crate::terminal;
+use rasray_experiment::{Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load, texels};
+use rasray_report::Run;
+use rasray_scene::needs::Needs;
+use std::ffi::OsStr;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+/// Checks the place of an output that was asked for.
+pub(super) fn destination(path: Option<&Path>) -> Result<Option<Destination>, AppError> {
+    path.map(Destination::check).transpose()
+}
+
+/// Refuses to write what `option` asks for over the scene that it is about.
+pub(super) fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
+    let scene = Path::new(scene);
+    match output {
+        Some(output) if scene.is_file() && output.is(scene) => Err(AppError::usage(
+            format!("{option} names the scene file"),
+            "name another file, such as result.png or report.json",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Opens the wanted device.
+pub(super) fn open_device(
+    open: &mut OpenBackend<'_>,
+    given: &DeviceArguments,
+) -> Result<Box<dyn Backend>, AppError> {
+    during("device", "opening", || Ok(open(&given.choice())?))
+}
+
+/// Reads a scene as the command line asks and chooses the camera; warns of what was left out of it.
+pub(super) fn read_scene(
+    name: &OsStr,
+    reading: &SceneArguments,
+    view: &ViewArguments,
+) -> Result<(LoadedScene, Chosen), AppError> {
+    let loaded = during("scene", "reading", || prepare(name, reading))?;
+    let chosen = during("scene", "looking for a view", || camera::choose(&loaded.scene, view))?;
+    terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+    Ok((loaded, chosen))
+}
+
+/// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
+fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
+    // Cheap to refuse, so before the scene is read.
+    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
+    let mut loaded = load(name)?;
+    loaded.light(environment);
+    if reading.alpha == Switch::Off {
+        loaded.close_holes();
+    }
+    Ok(loaded)
+}
+
+/// Makes images smaller where the device does not hold all of them, and warns of it.
+pub(super) fn fit_images(
+    loaded: &mut LoadedScene,
+    needs: &Needs,
+    backend: &dyn Backend,
+) -> Result<(), AppError> {
+    let fitted = during("scene", "fitting images", || texels::fit(loaded, needs, &backend.texel_room()))?;
+    if let Some(text) = fitted {
+        terminal::warn(&format!("{}: {text} (smaller-images)", loaded.scene.name));
+    }
+    Ok(())
+}
+
+/// Does `work` with a progress line; a signal asks it to end early. `is_kept` says from which progress on something
+/// is finished that an early end keeps: before that, a signal does not wait for it.
+pub(super) fn with_progress<T>(
+    interrupt: &Interrupt,
+    is_kept: impl Fn(&Progress<'_>) -> bool,
+    work: impl FnOnce(&mut dyn FnMut(Progress<'_>) -> ControlFlow<()>) -> Result<T, ExperimentError>,
+) -> Result<T, AppError> {
+    let mut line = ProgressLine::new();
+    let result = work(&mut |progress| {
+        line.show(progress);
+        if is_kept(&progress) {
+            interrupt.keep();
+        }
+        if interrupt.requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    interrupt.keep();
+    line.finish();
+    Ok(result?)
+}
+
+/// Stops before anything is begun, if a signal asked for it.
+pub(super) fn stop_if_requested(interrupt: &Interrupt) -> Result<(), AppError> {
+    if interrupt.requested() {
+        return Err(AppError::interrupted("stopped before the first sample; nothing was written", ""));
+    }
+    Ok(())
+}
+
+/// Refuses what was traced through a structure with holes, or with rays left unanswered.
+pub(super) fn check_whole(run: &Run) -> Result<(), AppError> {
+    let Some(counters) = &run.counters else { return Ok(()) };
+    let system = format!("{} {}", run.system, run.preset);
+    if let Some(missing) = counters.overflow.filter(|count| *count > 0) {
+        return Err(AppError::refused(
+            format!("{system}: {missing} entries were missing from what was traced"),
+            "its results are not kept; lower --resolution, or use a device with more memory",
+        ));
+    }
+    if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
+        return Err(AppError::refused(
+            format!("{system}: {unfinished} rays had no answer after the last round"),
+            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
+             please report it with the command line",
+        ));
+    }
+    Ok(())
+}

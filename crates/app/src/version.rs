@@ -1,0 +1,16 @@
+//! Which build of the command this is.
+
+/// Version of the command.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Commit that the command was built from, where git knew it.
+pub const COMMIT: Option<&str> = option_env!("RASRAY_COMMIT");
+
+/// Version and, where known, commit.
+pub fn version_text() -> &'static str {
+    static TEXT: std::sync::LazyLock<String> = std::sync::LazyLock::new(|| match COMMIT {
+        Some(commit) => format!("{VERSION} ({commit})"),
+        None => VERSION.to_owned(),
+    });
+    &TEXT
+}

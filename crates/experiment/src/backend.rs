@@ -1,0 +1,120 @@
+//! What carries jobs out: the wanted device, what it is told of progress, what is known of the device.
+
+use crate::error::ExperimentError;
+use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
+use rasray_report::Device;
+use std::ops::ControlFlow;
+
+/// Which device is wanted.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviceChoice {
+    /// A position in the driver's list, or part of a device's name, case ignored. Absent: the first
+    /// suitable one, hardware before software.
+    pub device: Option<String>,
+    /// Validation layers on; a message of theirs is an error.
+    pub validation: bool,
+}
+
+/// How far the work is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress<'a> {
+    /// What is being done, such as `build` or `mmrt robust incoherent`.
+    pub task: &'a str,
+    /// Units finished.
+    pub done: u64,
+    /// Units in all; 0 where that is not known.
+    pub total: u64,
+    /// What a unit is, in the plural, such as `samples`.
+    pub unit: &'a str,
+}
+
+/// Told of progress at least once per wave of samples or rays; `Break` asks for an early end.
+pub type OnProgress<'a> = dyn FnMut(Progress<'_>) -> ControlFlow<()> + 'a;
+
+/// A feature of the device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Feature {
+    /// Name in the Vulkan specification.
+    pub name: String,
+    /// Whether the device has it.
+    pub present: bool,
+    /// Whether nothing runs without it.
+    pub required: bool,
+    /// What it is for.
+    pub purpose: String,
+}
+
+/// The way a structure takes on a device.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ChosenPath {
+    /// The system.
+    pub system: String,
+    /// What is chosen, such as `addressing`.
+    pub choice: String,
+    /// What was chosen.
+    pub chosen: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// The device in use and what it means for each structure.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DeviceDescription {
+    /// Names of all devices in the driver's order; positions are what `--device` takes.
+    pub devices: Vec<String>,
+    /// Vulkan version of the device in use, such as `1.3.230`.
+    pub api_version: String,
+    /// Features that something here asks for.
+    pub features: Vec<Feature>,
+    /// Limits that decide something here, with their units in the text.
+    pub limits: Vec<(String, String)>,
+    /// What each structure does here.
+    pub paths: Vec<ChosenPath>,
+}
+
+/// How many texels a device holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TexelRoom {
+    /// At most, of all levels of all textures.
+    pub texels: u64,
+    /// Name of the device.
+    pub device: String,
+}
+
+/// What renders. Every method reports failure of the device as [`ExperimentError::Device`], and lost data
+/// as [`ExperimentError::Refused`].
+pub trait Backend {
+    /// The device in use, for reports.
+    fn device(&self) -> Device;
+
+    /// How many texels the device in use holds.
+    fn texel_room(&self) -> TexelRoom;
+
+    /// Renders an image. When `progress` breaks, the samples done so far are the result.
+    fn render(
+        &mut self,
+        job: &RenderJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<RenderOutput, ExperimentError>;
+
+    /// Compares systems: a run per system, preset and ray set, and per image where wanted. When
+    /// `progress` breaks, the complete runs so far are the result.
+    fn compare(
+        &mut self,
+        job: &CompareJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError>;
+
+    /// Compares systems on a hard case: a run per system and preset, each with its verdict.
+    fn hard(
+        &mut self,
+        job: &HardJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError>;
+
+    /// Describes the device.
+    fn info(&mut self) -> Result<DeviceDescription, ExperimentError>;
+}
+
+/// Makes a [`Backend`] on the wanted device.
+pub type OpenBackend<'a> = dyn FnMut(&DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> + 'a;

@@ -1,0 +1,77 @@
+//! The systems of a comparison: each with its structure, built in turns with the others.
+
+use rasray_ads::Counters;
+use rasray_gpu::Device;
+use rasray_systems::Spec;
+
+use crate::backend::{OnProgress, Progress};
+use crate::error::ExperimentError;
+use crate::stage::{Built, Stage};
+use crate::system_config::SystemConfig;
+use rasray_report::{Run, Times};
+
+/// One system of a comparison.
+pub struct Contestant<'a> {
+    /// Which system.
+    pub config: &'a SystemConfig,
+    /// What its structure was made from; it counts the work of rays.
+    pub spec: Spec,
+    /// Its structure.
+    pub built: Built,
+}
+
+impl<'a> Contestant<'a> {
+    /// Makes the structures of all systems around `center` (metres, relative to the frame origin) and
+    /// builds each `repetitions` times for its medians: one build of each in turn, so that what slows the
+    /// machine for a while slows all of them.
+    ///
+    /// # Errors
+    /// Options that do not go together, a device that lacks something or fails, a build that does not become complete.
+    pub fn all(
+        device: &Device,
+        stage: &Stage,
+        systems: &'a [SystemConfig],
+        center: [f32; 3],
+        repetitions: u32,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Vec<Self>, ExperimentError> {
+        let mut contestants = Vec::new();
+        let mut says = |task: &str, unit: &str| _ = progress(Progress { task, done: 0, total: 0, unit });
+        for config in systems {
+            says("build", config.system.name);
+            let spec = config.spec()?.with_counters(Counters::Sums);
+            let built = Built::new(device, &spec, &stage.scene, center)?;
+            contestants.push(Self { config, spec, built });
+        }
+        says("build", "timed builds");
+        for _ in 0..repetitions {
+            for contestant in &mut contestants {
+                contestant.built.build_again(device)?;
+            }
+        }
+        Ok(contestants)
+    }
+
+    /// A run with names, options, build times and bytes of the system.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn run(&self, device: &Device) -> Result<Run, ExperimentError> {
+        let (options, paths) = self.built.resolved()?;
+        let mut times = Times::default();
+        self.built.write_times(&mut times);
+        Ok(Run {
+            system: self.config.system.name.to_owned(),
+            structure: self.spec.structure().to_owned(),
+            preset: self.config.preset.name().to_owned(),
+            variant: self.config.variant.clone(),
+            options,
+            paths,
+            times,
+            spread: self.built.spread().collect(),
+            passes: self.built.passes.report(),
+            memory: Some(self.built.memory(device)?),
+            ..Run::default()
+        })
+    }
+}

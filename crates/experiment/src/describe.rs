@@ -1,0 +1,74 @@
+//! What `rasray info` says of the device.
+
+use rasray_gpu::{Device, Feature as GpuFeature, Requirements};
+use rasray_gpu_scene::{TEXEL_BYTES, TexelRuns};
+use rasray_systems::{SYSTEMS, Spec};
+
+use crate::backend::{ChosenPath, DeviceDescription, Feature};
+use crate::error::ExperimentError;
+use crate::stage::device_error;
+
+/// What any system may want of a device; each names what it cannot do without when it is made.
+pub fn requirements() -> Requirements {
+    let mut requirements = Requirements::floor();
+    requirements.optional.push((GpuFeature::FragmentStoresAndAtomics, "structures built by the rasterizer"));
+    requirements
+        .optional
+        .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));
+    requirements
+}
+
+/// The devices, and what the one in use means for each system.
+pub(super) fn describe(device: &Device) -> Result<DeviceDescription, ExperimentError> {
+    let wanted = requirements();
+    let devices = Device::list(&wanted).map_err(device_error)?;
+    let required = wanted.required.iter().map(|feature| (feature, true, "nothing runs without it"));
+    let optional = wanted.optional.iter().map(|(feature, purpose)| (feature, false, *purpose));
+    let features = required
+        .chain(optional)
+        .map(|(feature, required, purpose)| Feature {
+            name: feature.name().to_owned(),
+            present: device.has(*feature),
+            required,
+            purpose: purpose.to_owned(),
+        })
+        .collect();
+    let limits = device.limits();
+    let mut paths = Vec::new();
+    for system in SYSTEMS {
+        for preset in system.presets {
+            let spec = Spec::new(system.name, preset.name(), []).map_err(device_error)?;
+            let missing = device.lacks(&spec.requirements().map_err(device_error)?);
+            let (chosen, reason) = if missing.is_empty() {
+                ("runs".to_owned(), "the device has every feature and limit that it requires".to_owned())
+            } else {
+                ("cannot run".to_owned(), format!("the device lacks {}", missing.join(", ")))
+            };
+            paths.push(ChosenPath {
+                system: system.name.to_owned(),
+                choice: preset.name().to_owned(),
+                chosen,
+                reason,
+            });
+        }
+    }
+    Ok(DeviceDescription {
+        devices: devices.iter().map(|summary| summary.name.clone()).collect(),
+        api_version: version_text(device.api_version()),
+        features,
+        limits: vec![
+            ("largest pool per binding".to_owned(), format!("{} bytes", limits.max_storage_buffer_range)),
+            (
+                "texels of a scene".to_owned(),
+                format!("{} bytes", TEXEL_BYTES * TexelRuns::of(limits).most_texels()),
+            ),
+            ("storage buffers per shader stage".to_owned(), limits.max_storage_buffers_per_stage.to_string()),
+        ],
+        paths,
+    })
+}
+
+/// Major, minor and patch of a packed Vulkan version.
+fn version_text(version: u32) -> String {
+    format!("{}.{}.{}", version >> 22 & 0x7F, version >> 12 & 0x3FF, version & 0xFFF)
+}

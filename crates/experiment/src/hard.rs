@@ -1,0 +1,103 @@
+//! A hard case through all systems, judged by the oracle and by what is stated of the case.
+
+use glam::DVec3;
+use rasray_ads::{Hit, StructureKind};
+use rasray_gpu::Device;
+use rasray_hard_cases::{HardCase, Triangle};
+use rasray_reference::oracle::Oracle;
+use rasray_scene::needs::Needs;
+
+use crate::backend::{OnProgress, Progress};
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::hard_verdict::hard_record;
+use crate::jobs::{Comparison, HardJob};
+use crate::judge::device_hits;
+use crate::measured::{Measured, Tolerance};
+use crate::placed::{Placed, case_camera};
+use crate::rays::triangles;
+use crate::replay::replay_case;
+use crate::stage::{Stage, device_error};
+use crate::traced_set::{RaysWithTruth, Wanted, compare_set};
+
+/// Runs all systems on the rays of a case.
+pub(super) fn hard(
+    device: &Device,
+    job: &HardJob<'_>,
+    progress: &mut OnProgress<'_>,
+) -> Result<Comparison, ExperimentError> {
+    let case = job.case;
+    let placed = Placed::new(&case.triangles);
+    let scene = placed.scene(case);
+    let camera = case_camera(case.eye);
+    // Relative to the world's own origin, so that positions are those of the case bit for bit.
+    let stage = Stage::around(device, &scene, DVec3::ZERO, &camera, [1, 1], job.seed, &Needs::all())?;
+    check_positions(device, &stage, case, &placed)?;
+    if let Some(index) = job.replay {
+        let rays = case.rays.iter().map(|ray| placed.device_ray(ray)).collect();
+        return replay_case(device, &stage, job.systems, (case.id, case.eye), rays, index);
+    }
+    let (positions, indices) = case.buffers();
+    let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
+    let set = RaysWithTruth {
+        name: case.id.to_owned(),
+        rays: case.rays.iter().map(|ray| placed.device_ray(ray)).collect(),
+        verdicts: oracle.closest_batch(&case.rays),
+    };
+    let contestants = Contestant::all(device, &stage, job.systems, case.eye, job.repetitions, progress)?;
+    let mut comparison = Comparison::default();
+    if job.keep {
+        comparison.kept.triangles = case.triangles.clone();
+        comparison.kept.case = Some(case.id.to_owned());
+    }
+    let wanted = Wanted {
+        repetitions: job.repetitions,
+        seed: job.seed,
+        figures: job.figures,
+        keep: job.keep,
+        given_hits: job.hits_files,
+    };
+    let name = |hits: Vec<Hit>| hits.into_iter().map(|hit| placed.named(hit)).collect();
+    let answers = compare_set(device, &contestants, &set, wanted, name, &mut comparison)?;
+    for ray in comparison.kept.sets.iter_mut().flat_map(|set| &mut set.rays) {
+        ray.exclude_primitive = placed.id(ray.exclude_primitive);
+    }
+    for (run, answer) in comparison.runs.iter_mut().zip(&answers) {
+        let hits = device_hits(answer.hits.iter().copied());
+        let tolerance = Tolerance::of(answer.kind);
+        let measured =
+            Measured::of(case, &set.verdicts, &hits, tolerance, |_| false).map_err(device_error)?;
+        let largest_dt = run.accuracy.as_ref().and_then(|accuracy| accuracy.dt_rel_max);
+        let dt = largest_dt.zip(case.largest_dt.filter(|_| answer.kind == StructureKind::Primitive));
+        run.hard = Some(hard_record(case, answer.kind, &measured, dt, run.options.get("resolution")));
+    }
+    let done = comparison.runs.len() as u64;
+    // Nothing follows that an early end could spare.
+    _ = progress(Progress { task: case.id, done, total: done, unit: "runs" });
+    Ok(comparison)
+}
+
+/// That the device has the case's triangles and no others, bit for bit.
+fn check_positions(
+    device: &Device,
+    stage: &Stage,
+    case: &HardCase,
+    placed: &Placed,
+) -> Result<(), ExperimentError> {
+    let geometry = stage.scene.geometry().desc();
+    let positions = device
+        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
+        .map_err(device_error)?;
+    let indices = device
+        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
+        .map_err(device_error)?;
+    let bits = |triangle: &Triangle| triangle.map(|corner| corner.map(f32::to_bits));
+    let expected = placed.triangles(&case.triangles);
+    if triangles(&positions, &indices).iter().map(bits).eq(expected.iter().map(bits)) {
+        return Ok(());
+    }
+    Err(ExperimentError::device(
+        format!("the triangles of {} are not the same on the device", case.id),
+        "this is a defect; please report it with the command line",
+    ))
+}

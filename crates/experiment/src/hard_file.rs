@@ -1,0 +1,72 @@
+//! Hard cases that are files: whether a loader refuses them, or reads them, as stated.
+
+use crate::error::ExperimentError;
+use rasray_hard_cases::{HardFile, Loading};
+use rasray_report::{HardRecord, Run};
+use rasray_scene::LoadOptions;
+
+/// Loads a file that must be refused, or read as stated: a run with its verdict.
+///
+/// # Errors
+/// The folder for temporary files takes none.
+pub fn compare_file(file: &HardFile) -> Result<Run, ExperimentError> {
+    let folder = std::env::temp_dir().join(format!("rasray-{}-{}", std::process::id(), file.id));
+    let place = folder.join(file.name);
+    let failed = |error: std::io::Error| {
+        ExperimentError::input(
+            &place,
+            format!("cannot be written: {error}"),
+            "set TMPDIR to a folder for temporary files",
+        )
+    };
+    std::fs::create_dir_all(&folder).map_err(failed)?;
+    let loaded =
+        std::fs::write(&place, &file.bytes).map(|()| rasray_scene::load(&place, &LoadOptions::default()));
+    // What is left behind there does no harm.
+    _ = std::fs::remove_dir_all(&folder);
+    let loaded = loaded.map_err(failed)?;
+    let reason = match &loaded {
+        // The folder's name says nothing to anybody.
+        Err(error) => format!(
+            "refused: {}",
+            error.to_string().replace(&*folder.to_string_lossy(), "").trim_start_matches('/')
+        ),
+        Ok(scene) => format!("read, with {} warnings", scene.warnings.len()),
+    };
+    let wanted = match file.loading {
+        Loading::Refused(_) => "refused with a typed error",
+        Loading::Read { .. } => "read as stated",
+    };
+    Ok(Run {
+        system: "loader".to_owned(),
+        structure: "scene".to_owned(),
+        preset: "file".to_owned(),
+        ray_set: Some(file.id.to_owned()),
+        hard: Some(HardRecord {
+            id: file.id.to_owned(),
+            title: file.title.to_owned(),
+            measure: file.measure.to_owned(),
+            target: wanted.to_owned(),
+            triangles: 0,
+            met: Some(file.loading.describes(&loaded)),
+            reason,
+            ..HardRecord::default()
+        }),
+        ..Run::default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_the_catalogue_are_refused_as_stated_and_another_demand_is_not_met() {
+        let mut file = rasray_hard_cases::files().next().expect("a file");
+        let hard = compare_file(&file).expect("a temporary file").hard.expect("a verdict");
+        assert_eq!(hard.met, Some(true), "{hard:?}");
+        file.loading = Loading::Read { triangles: 1, warning: None };
+        let hard = compare_file(&file).expect("a temporary file").hard.expect("a verdict");
+        assert_eq!(hard.met, Some(false), "{hard:?}");
+    }
+}

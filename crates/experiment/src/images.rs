@@ -1,0 +1,144 @@
+//! Images of the systems against the naive reference with the same random numbers.
+
+use rasray_gpu::Device;
+use rasray_metrics as metrics;
+use rasray_reference::integrators::Image;
+use rasray_reference::shading::{PosedScene, View};
+
+use crate::backend::OnProgress;
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
+use crate::render::render_pixels;
+use crate::stage::{Built, Stage, device_error};
+use rasray_report::figures::{Images, SystemImage};
+use rasray_report::{ImageError, Run};
+
+/// What images are made from.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a> {
+    pub(super) device: &'a Device,
+    pub(super) job: &'a CompareJob<'a>,
+    pub(super) stage: &'a Stage,
+    pub(super) posed: &'a PosedScene<'a>,
+    pub(super) view: &'a View,
+}
+
+/// The reference image of a frame; absent for integrators that it does not have.
+fn reference_image(
+    scene: &PosedScene<'_>,
+    view: &View,
+    frame: &Frame,
+) -> Result<Option<Image>, ExperimentError> {
+    let image = match frame.integrator {
+        Integrator::Path { bounces } => scene.render_path(view, bounces),
+        Integrator::AmbientOcclusion { distance } => {
+            scene.render_ambient_occlusion(view, distance.unwrap_or(f32::INFINITY))
+        }
+        Integrator::Raycast => return Ok(None),
+    };
+    image.map(Some).map_err(|error| ExperimentError::usage(error.to_string(), ""))
+}
+
+/// How far an image is from the reference, as a whole and, where wanted, in each pixel.
+fn image_error(
+    frame: &Frame,
+    test: &[[f32; 3]],
+    reference: &Image,
+    map: bool,
+) -> Result<(ImageError, Vec<f32>), ExperimentError> {
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    let test = metrics::Image::new(width, height, test).map_err(device_error)?;
+    let reference = metrics::Image::new(width, height, &reference.pixels).map_err(device_error)?;
+    let error = metrics::ImageError::measure(&test, &reference).map_err(device_error)?;
+    let map = if map { metrics::flip_map(&test, &reference).map_err(device_error)? } else { Vec::new() };
+    let error = ImageError {
+        flip_mean: Some(error.flip.mean),
+        flip_p99: Some(error.flip.p99),
+        flip_max: Some(error.flip.max),
+        rmse: Some(error.rmse),
+        relmse: Some(error.relmse),
+        relmse_trimmed: Some(error.relmse_trimmed),
+        bias: Some(error.bias),
+        bias_sigma: Some(error.bias_sigma),
+        psnr: error.psnr.is_finite().then_some(error.psnr),
+        ssim: Some(error.ssim),
+        non_finite: Some(error.non_finite as u64),
+    };
+    Ok((error, map))
+}
+
+/// Renders the frame through each system and compares it with the reference. A run named `reference`
+/// is the reference with another seed: what noise alone makes of the same numbers.
+pub(super) fn compare_images(
+    setting: &Setting<'_>,
+    contestants: &[Contestant<'_>],
+    comparison: &mut Comparison,
+    progress: &mut OnProgress<'_>,
+) -> Result<(), ExperimentError> {
+    let Setting { device, job, stage, posed, view } = *setting;
+    let frame = job.frame;
+    let Some(reference) = reference_image(posed, view, &frame)? else {
+        return Err(ExperimentError::usage(
+            "--image compares with the reference, which has the integrators path and ao",
+            "choose --integrator path or ao, or leave --image out",
+        ));
+    };
+    if job.figures {
+        comparison.figures.images = Some(Images {
+            width: frame.width,
+            height: frame.height,
+            reference: reference.pixels.clone(),
+            systems: Vec::new(),
+        });
+    }
+    let add =
+        |comparison: &mut Comparison, mut run: Run, pixels: Vec<[f32; 3]>| -> Result<(), ExperimentError> {
+            run.integrator = Some(frame.integrator.name().to_owned());
+            run.width = Some(frame.width);
+            run.height = Some(frame.height);
+            run.spp = Some(frame.spp);
+            run.bounces = frame.integrator.bounces();
+            let (error, flip) = image_error(&frame, &pixels, &reference, job.figures)?;
+            run.image = Some(error);
+            if let Some(images) = &mut comparison.figures.images {
+                images.systems.push(SystemImage { run: comparison.runs.len(), pixels, flip });
+            }
+            comparison.runs.push(run);
+            Ok(())
+        };
+    for contestant in contestants {
+        // Images are taken as renders are: from a structure built around the camera.
+        let spec = contestant.config.spec()?;
+        let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+        for _ in 0..job.repetitions {
+            built.build_again(device)?;
+        }
+        let task = format!("image {}", contestant.config.system.name);
+        let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
+        if pixels.samples_done < frame.spp {
+            return Ok(());
+        }
+        let of_camera = Contestant { config: contestant.config, spec, built };
+        let mut run = of_camera.run(device)?;
+        run.seed = Some(frame.seed);
+        run.times.timer = pixels.passes.timer();
+        run.times.first_use_ms = Some(pixels.first_use_ms);
+        run.times.trace_ms = Some(pixels.passes.total(|label| label.contains("/trace_")));
+        run.passes.extend(pixels.passes.report());
+        run.counters = Some(pixels.counters);
+        add(comparison, run, pixels.beauty)?;
+    }
+    let other = View { seed: frame.seed.wrapping_add(1), ..view.clone() };
+    if let Some(noise) = reference_image(posed, &other, &frame)? {
+        let run = Run {
+            system: "reference".to_owned(),
+            structure: "oracle".to_owned(),
+            preset: "another-seed".to_owned(),
+            seed: Some(other.seed),
+            ..Run::default()
+        };
+        add(comparison, run, noise.pixels)?;
+    }
+    Ok(())
+}

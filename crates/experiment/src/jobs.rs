@@ -1,0 +1,347 @@
+//! Jobs and results as plain data.
+
+use crate::system_config::SystemConfig;
+use rasray_ads::{Hit, Ray, StructureKind};
+use rasray_hard_cases::HardCase;
+use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
+use rasray_report::figures::Figures;
+use rasray_report::{Counters, Memory, Pass, Run, Spread, Times};
+use rasray_scene::needs::{self, Needs, Workload};
+use rasray_scene::{Camera, Scene};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// What light does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Path tracing with light sampling.
+    Path {
+        /// At most this many scatterings; 0 is emission alone, 1 is direct light.
+        bounces: u32,
+    },
+    /// Cosine-weighted visibility of a white environment.
+    AmbientOcclusion {
+        /// Metres within which something occludes; absent: any distance.
+        distance: Option<f32>,
+    },
+    /// What the camera sees, unlit.
+    Raycast,
+}
+
+impl Integrator {
+    /// Its name in reports and images.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Path { .. } => "path",
+            Self::AmbientOcclusion { .. } => "ao",
+            Self::Raycast => "raycast",
+        }
+    }
+
+    /// Bounces, where it has them.
+    pub fn bounces(&self) -> Option<u32> {
+        match self {
+            Self::Path { bounces } => Some(*bounces),
+            _ => None,
+        }
+    }
+}
+
+/// An image to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// What light does.
+    pub integrator: Integrator,
+    /// Pixels a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+    /// Where they come from.
+    pub sampler: Sampler,
+}
+
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampler {
+    /// Points spread evenly over the samples of a pixel: least noise where their number is a power of two.
+    #[default]
+    Sobol,
+    /// Independent numbers.
+    Pcg,
+}
+
+impl Sampler {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sobol => "sobol",
+            Self::Pcg => "pcg",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Sobol => {
+                "Points spread evenly over the samples of a pixel: least noise where --spp is a power of two"
+            }
+            Self::Pcg => "Independent numbers",
+        }
+    }
+
+    /// The sampler of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|sampler| sampler.name() == name)
+    }
+}
+
+impl Frame {
+    /// What an image like this one looks at in a scene.
+    pub fn workload(&self) -> Workload {
+        match self.integrator {
+            Integrator::Path { bounces } => Workload { integrator: needs::Integrator::Path, bounces },
+            Integrator::AmbientOcclusion { .. } => {
+                Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
+            }
+            Integrator::Raycast => Workload { integrator: needs::Integrator::Raycast, bounces: 0 },
+        }
+    }
+}
+
+/// Images beside the colours, from rays through pixel centres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AovSelection {
+    /// Distance along the ray.
+    pub depth: bool,
+    /// Geometric normal.
+    pub normal: bool,
+    /// Global triangle id.
+    pub primitive: bool,
+}
+
+/// One image of one system.
+#[derive(Clone, Debug)]
+pub struct RenderJob<'a> {
+    /// What is rendered; lit, and possibly without triangles.
+    pub scene: &'a Scene,
+    /// From where.
+    pub camera: Camera,
+    /// Through which structure.
+    pub system: SystemConfig,
+    /// The image.
+    pub frame: Frame,
+    /// What else is wanted.
+    pub aovs: AovSelection,
+    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    pub needs: Needs,
+    /// Builds that are timed after the first; with none there is no [`Times::build_ms`].
+    pub repetitions: u32,
+}
+
+/// Where rays of a comparison come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RaySet {
+    /// Origins uniform in the scene's box, directions uniform.
+    Incoherent,
+    /// The camera's rays; the camera is not at the views' centre.
+    Camera,
+    /// From the views' centre.
+    Eye,
+    /// Diffuse directions from what the camera sees.
+    Bounce,
+    /// Origins uniform on the triangles, which are not excluded, directions uniform.
+    Surface,
+}
+
+impl RaySet {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Incoherent, Self::Camera, Self::Eye, Self::Bounce, Self::Surface];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Incoherent => "incoherent",
+            Self::Camera => "camera",
+            Self::Eye => "eye",
+            Self::Bounce => "bounce",
+            Self::Surface => "surface",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Incoherent => "Origins uniform in the scene's box, directions uniform",
+            Self::Camera => "The camera's rays; the camera is not at the views' centre",
+            Self::Eye => "From the views' centre",
+            Self::Bounce => "Diffuse directions from what the camera sees",
+            Self::Surface => "Origins uniform on the triangles, which are not excluded, directions uniform",
+        }
+    }
+
+    /// The ray set of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|set| set.name() == name)
+    }
+}
+
+/// Systems side by side.
+#[derive(Clone, Debug)]
+pub struct CompareJob<'a> {
+    /// What is traced; lit, and possibly without triangles.
+    pub scene: &'a Scene,
+    /// For the ray sets `camera` and `bounce` and for images.
+    pub camera: Camera,
+    /// One entry per system and preset.
+    pub systems: Vec<SystemConfig>,
+    /// Each makes a run with each system.
+    pub ray_sets: Vec<RaySet>,
+    /// Rays per set, at least 1.
+    pub rays: u32,
+    /// Size, seed and integrator; the size also shapes the camera's rays.
+    pub frame: Frame,
+    /// Whether an image of each system is compared with the reference as well.
+    pub image: bool,
+    /// Whether pictures and maps are kept for a page.
+    pub figures: bool,
+    /// Timed repetitions of every build and every set, at least 1, after one that warms up.
+    pub repetitions: u32,
+    /// Rays that another program may have made: one more set, named [`FILE_SET`].
+    pub rays_file: Option<RaysFile>,
+    /// Hits found elsewhere, one for each ray of the only set.
+    pub hits_files: Vec<HitsFile>,
+    /// Whether rays, truth and hits are kept for files.
+    pub keep: bool,
+    /// Instead of comparing: the ray of each set that is replayed step by step, counted from 0.
+    pub replay: Option<u32>,
+    /// What is uploaded, compiled in and stored; everything with `--needs all`.
+    pub needs: Needs,
+}
+
+/// Systems side by side on a hard case.
+#[derive(Clone, Debug)]
+pub struct HardJob<'a> {
+    /// Triangles, rays, eye and what is known of the answers.
+    pub case: &'a HardCase,
+    /// One entry per system and preset.
+    pub systems: &'a [SystemConfig],
+    /// Timed repetitions of every build and of the rays, at least 1, after one that warms up.
+    pub repetitions: u32,
+    /// What the case's rays were drawn with.
+    pub seed: u32,
+    /// Whether figures are kept for a page.
+    pub figures: bool,
+    /// Hits found elsewhere, one for each ray.
+    pub hits_files: &'a [HitsFile],
+    /// Whether rays, truth and hits are kept for files.
+    pub keep: bool,
+    /// Instead of comparing: the ray that is replayed step by step, counted from 0.
+    pub replay: Option<u32>,
+}
+
+/// What a comparison gave.
+#[derive(Clone, Debug, Default)]
+pub struct Comparison {
+    /// A run per system, preset and ray set, and per image where wanted.
+    pub runs: Vec<Run>,
+    /// Pictures and maps; empty unless [`CompareJob::figures`] asked for them.
+    pub figures: Figures,
+    /// Rays and answers; empty unless [`CompareJob::keep`] asked for them.
+    pub kept: Kept,
+    /// The replay of one ray in words, where [`CompareJob::replay`] asked for it.
+    pub replay: Option<String>,
+}
+
+impl Comparison {
+    /// Adds the runs of another comparison, and its histograms with their runs counted on. Its images, maps, rays and
+    /// answers are left out.
+    pub fn append(&mut self, one: Self) {
+        let before = self.runs.len();
+        let errors = one.figures.depth_errors.into_iter().map(|mut errors| {
+            errors.run += before;
+            errors
+        });
+        self.figures.depth_errors.extend(errors);
+        self.runs.extend(one.runs);
+    }
+}
+
+/// The ray set of a file.
+pub const FILE_SET: &str = "file";
+
+/// What was traced and what was answered.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// The hard case that this is about.
+    pub case: Option<String>,
+    /// World, metres; rays and triangles are relative to it.
+    pub frame_origin: [f64; 3],
+    /// Corners by global triangle id, metres.
+    pub triangles: Vec<[[f32; 3]; 3]>,
+    /// One entry a ray set.
+    pub sets: Vec<KeptSet>,
+}
+
+/// A ray set with all answers to it.
+#[derive(Clone, Debug)]
+pub struct KeptSet {
+    /// Such as `camera`.
+    pub name: String,
+    /// As they were traced.
+    pub rays: Vec<Ray>,
+    /// The oracle's answers, one a ray.
+    pub truth: Vec<TrueHit>,
+    /// The systems' answers.
+    pub answers: Vec<Answers>,
+}
+
+/// The answers of a system to a ray set.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    /// System and preset, such as `mmrt-robust`.
+    pub name: String,
+    /// Whether a hit's `a` and `b` are weights of vertices.
+    pub kind: StructureKind,
+    /// One a ray.
+    pub hits: Vec<Hit>,
+}
+
+/// What a render gave. Images have `width * height` pixels, rows from the top.
+#[derive(Clone, Debug, Default)]
+pub struct RenderOutput {
+    /// Pixels a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
+    pub beauty: Vec<[f32; 3]>,
+    /// Metres from the eye along the ray; 0 where nothing was met.
+    pub depth: Option<Vec<f32>>,
+    /// Unit geometric normal in the world, facing the eye; zero where nothing was met.
+    pub normal: Option<Vec<[f32; 3]>>,
+    /// Global triangle id in scene order; `u32::MAX` where nothing was met.
+    pub primitive: Option<Vec<u32>>,
+    /// Samples per pixel in `beauty`; fewer than asked for after an early end.
+    pub samples_done: u32,
+    /// Options of the structure as resolved from preset and command line.
+    pub options: BTreeMap<String, Value>,
+    /// Paths taken where the device decides: builder, coverage, atomics.
+    pub paths: BTreeMap<String, String>,
+    /// Time of each pass.
+    pub passes: Vec<Pass>,
+    /// The four figures and the ray rate.
+    pub times: Times,
+    /// How far repeated times lie apart, by the name of their median.
+    pub spread: BTreeMap<String, Spread>,
+    /// Bytes.
+    pub memory: Option<Memory>,
+    /// Counts that do not depend on the machine.
+    pub counters: Option<Counters>,
+}

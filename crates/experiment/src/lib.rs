@@ -1,0 +1,64 @@
+//! Experiments on the systems of the registry, as the command, the tests and the benchmarks run them: rays from a
+//! scene, systems traced in turns, hits and images held against an exact oracle, hard cases, replays of single rays.
+//!
+//! Jobs and results are plain data ([`CompareJob`], [`HardJob`], [`RenderJob`]; [`Comparison`], [`RenderOutput`]).
+//! [`open`] gives a [`Backend`] that carries them out on a device:
+//!
+//! ```no_run
+//! use rasray_experiment::{DeviceChoice, open};
+//!
+//! let mut backend = open(&DeviceChoice::default())?;
+//! for name in backend.info()?.devices {
+//!     println!("{name}");
+//! }
+//! # Ok::<(), rasray_experiment::ExperimentError>(())
+//! ```
+
+mod backend;
+mod camera;
+mod compare;
+mod contestant;
+mod describe;
+mod error;
+mod hard;
+mod hard_file;
+mod hard_verdict;
+mod images;
+mod jobs;
+mod judge;
+mod measured;
+mod passes;
+mod placed;
+mod rays;
+mod render;
+mod renderer;
+mod replay;
+mod scene_source;
+mod stage;
+mod system_config;
+pub mod texels;
+mod traced_set;
+mod work_maps;
+
+pub use backend::{
+    Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
+    TexelRoom,
+};
+pub use camera::{Chosen, default_view, named_view};
+pub use contestant::Contestant;
+pub use describe::requirements;
+pub use error::ExperimentError;
+pub use hard_file::compare_file;
+pub use jobs::{
+    Answers, AovSelection, CompareJob, Comparison, FILE_SET, Frame, HardJob, Integrator, Kept, KeptSet,
+    RaySet, RenderJob, RenderOutput, Sampler,
+};
+pub use judge::device_hits;
+pub use measured::{HIT_ROUNDING, Measured, Tolerance};
+pub use placed::{Placed, case_camera};
+pub use rays::{incoherent_rays, oracle_ray};
+pub use renderer::open;
+pub use scene_source::{LoadedScene, load};
+pub use stage::{Built, Stage};
+pub use system_config::{StructureOptions, SystemConfig};
+pub use traced_set::{Traced, trace_in_turns};

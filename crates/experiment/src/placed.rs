@@ -1,0 +1,87 @@
+//! A hard case on a device: which of its triangles are there, and how both count them.
+
+use glam::{DAffine3, DVec3};
+use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Ray};
+use rasray_hard_cases::{CAMERA_TOWARDS, HardCase, Triangle};
+use rasray_reference::oracle::{self, COORDINATE_LIMIT};
+use rasray_scene::default_view::camera_looking_at;
+use rasray_scene::{Camera, Instance, Material, Mesh, Scene};
+
+/// What loaders keep of a case's triangles: those whose coordinates are finite and have finite squares. A device counts
+/// these, the case counts all.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The case's id of each triangle on the device, ascending.
+    kept: Vec<u32>,
+}
+
+impl Placed {
+    /// What is kept of a list of triangles.
+    pub fn new(triangles: &[Triangle]) -> Self {
+        let good = |triangle: &Triangle| triangle.iter().flatten().all(|x| x.abs() <= COORDINATE_LIMIT);
+        Self { kept: (0..triangles.len() as u32).filter(|&id| good(&triangles[id as usize])).collect() }
+    }
+
+    /// The triangles on the device, in its order; `triangles` are those that this was made of.
+    pub fn triangles(&self, triangles: &[Triangle]) -> Vec<Triangle> {
+        self.kept.iter().filter_map(|&id| triangles.get(id as usize).copied()).collect()
+    }
+
+    /// A scene with these triangles of a case and nothing else.
+    pub fn scene(&self, case: &HardCase) -> Scene {
+        let positions = self.triangles(&case.triangles).into_flattened();
+        let mut scene = Scene { name: format!("hard:{}", case.id), ..Scene::default() };
+        if !positions.is_empty() {
+            scene.materials.push(Material::default());
+            scene.meshes.push(Mesh {
+                name: case.id.to_owned(),
+                indices: (0..positions.len() as u32).collect(),
+                positions,
+                normals: None,
+                tangents: None,
+                uvs: [None, None],
+                colors: None,
+                material: 0,
+            });
+            scene.instances.push(Instance {
+                name: case.id.to_owned(),
+                mesh: 0,
+                world_from_mesh: DAffine3::IDENTITY,
+            });
+        }
+        scene
+    }
+
+    /// The ray with ids as the device counts them.
+    pub fn device_ray(&self, ray: &oracle::Ray) -> Ray {
+        // An excluded triangle that was dropped excludes nothing.
+        let exclude = ray.exclude_primitive.and_then(|id| self.kept.binary_search(&id).ok());
+        Ray {
+            t_min: ray.t_min,
+            t_max: ray.t_max,
+            exclude_primitive: exclude.map_or(PRIMITIVE_NONE, |index| index as u32),
+            ..Ray::new(ray.origin, ray.direction)
+        }
+    }
+
+    /// The hit with ids as the case counts them.
+    pub fn named(&self, hit: Hit) -> Hit {
+        Hit { primitive: self.id(hit.primitive), ..hit }
+    }
+
+    /// The case's id of a triangle on the device. What is no triangle's id there is none here either.
+    pub fn id(&self, on_device: u32) -> u32 {
+        if matches!(on_device, PRIMITIVE_NONE | PRIMITIVE_UNKNOWN) {
+            return on_device;
+        }
+        // An id that is on no triangle must not become that of one.
+        self.kept.get(on_device as usize).copied().unwrap_or(PRIMITIVE_UNKNOWN - 1)
+    }
+}
+
+/// The camera that every hard case has, at its eye (metres).
+pub fn case_camera(eye: [f32; 3]) -> Camera {
+    let eye = DVec3::from_array(eye.map(f64::from));
+    let target = eye + DVec3::from_array(CAMERA_TOWARDS);
+    camera_looking_at("hard case", eye, target, std::f32::consts::FRAC_PI_2)
+}

@@ -1,0 +1,174 @@
+//! The ray sets of a comparison: the same numbers on every device.
+
+use glam::{DVec3, Vec2, Vec3};
+use rasray_ads::{PRIMITIVE_NONE, Ray};
+use rasray_reference::oracle::{Oracle, Outcome};
+use rasray_reference::shading::random::RandomStream;
+use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn_ray};
+
+use crate::jobs::RaySet;
+
+/// What rays are made from.
+pub(super) struct RaySource<'a> {
+    pub(super) view: &'a View,
+    pub(super) frame_origin: DVec3,
+    /// Bounds of the geometry relative to the frame origin, metres.
+    pub(super) bounds: [[f32; 3]; 2],
+    /// The views' centre relative to the frame origin, metres.
+    pub(super) center: [f32; 3],
+    pub(super) oracle: &'a Oracle<'a>,
+    pub(super) positions: &'a [[f32; 3]],
+    pub(super) indices: &'a [u32],
+}
+
+impl RaySource<'_> {
+    /// `count` rays of a set; fewer only where the camera sees too little to bounce off.
+    pub(super) fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
+        match set {
+            RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
+            RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),
+            RaySet::Camera => (0..count).map(|i| from_shading(&self.camera(i))).collect(),
+            RaySet::Bounce => self.bounce(count),
+            RaySet::Surface => self.surface(count),
+        }
+    }
+
+    /// Rays that start on triangles and exclude nothing, as tools make them that know no ids: origins uniform over the
+    /// area and rounded to f32, directions uniform on the sphere, t_min 0.
+    fn surface(&self, count: u32) -> Vec<Ray> {
+        let triangles = self.indices.as_chunks::<3>().0;
+        let corners =
+            |triangle: &[u32; 3]| triangle.map(|id| DVec3::from(Vec3::from(self.positions[id as usize])));
+        let mut total = 0.0;
+        let areas: Vec<f64> = triangles
+            .iter()
+            .map(|triangle| {
+                let [a, b, c] = corners(triangle);
+                total += (b - a).cross(c - a).length();
+                total
+            })
+            .collect();
+        if total <= 0.0 {
+            return Vec::new();
+        }
+        let ray = |index| {
+            let stream = self.stream(index);
+            let share = f64::from(stream.float(16)) * total;
+            let triangle = &triangles[areas.partition_point(|area| *area <= share).min(triangles.len() - 1)];
+            let [mut u, mut v] = [17, 22].map(|dimension| f64::from(stream.float(dimension)));
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let [a, b, c] = corners(triangle);
+            Ray::new((a * (1.0 - u - v) + b * u + c * v).as_vec3().to_array(), direction(stream))
+        };
+        (0..count).map(ray).collect()
+    }
+
+    fn stream(&self, index: u32) -> RandomStream {
+        RandomStream { seed: self.view.seed, pixel: index, sample: 0 }
+    }
+
+    /// Rays through random points of the image.
+    fn camera(&self, index: u32) -> shading::Ray {
+        let stream = self.stream(index);
+        let place =
+            Vec2::new(stream.float(20) * self.view.width as f32, stream.float(21) * self.view.height as f32);
+        camera_ray(self.view, self.frame_origin, place)
+    }
+
+    /// The camera's ray through a point of the image, pixels from its upper left corner.
+    pub(super) fn through(&self, place: Vec2) -> Ray {
+        from_shading(&camera_ray(self.view, self.frame_origin, place))
+    }
+
+    /// Cosine-weighted directions from what camera rays hit exactly.
+    fn bounce(&self, count: u32) -> Vec<Ray> {
+        let mut rays = Vec::with_capacity(count as usize);
+        // A camera that sees nothing must not keep looking for ever.
+        for index in 0..count.saturating_mul(8) {
+            if rays.len() == count as usize {
+                break;
+            }
+            let ray = self.camera(index);
+            let Outcome::Hit { primitive, barycentrics, .. } = self.oracle.closest(&ray.to_oracle()).outcome
+            else {
+                continue;
+            };
+            let corner =
+                |k: usize| Vec3::from(self.positions[self.indices[3 * primitive as usize + k] as usize]);
+            let (a, b, c) = (corner(0), corner(1), corner(2));
+            let [u, v] = barycentrics.map(|weight| weight as f32);
+            let weights = Vec3::new(1.0 - u - v, u, v);
+            let normal = (b - a).cross(c - a).normalize_or_zero();
+            if normal == Vec3::ZERO {
+                continue;
+            }
+            let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
+            let size = (a.abs() * weights.x + b.abs() * weights.y + c.abs() * weights.z).max_element();
+            let surface = shading::Surface {
+                position: a * weights.x + b * weights.y + c * weights.z,
+                position_error: 4.2e-7 * size,
+                geometric_normal: normal,
+                primitive: Some(primitive),
+                ..shading::Surface::default()
+            };
+            let stream = self.stream(index);
+            let local = cosine_hemisphere(Vec2::new(stream.float(24), stream.float(25)));
+            let direction = shading::basis_around(normal) * local;
+            rays.push(from_shading(&spawn_ray(&surface, direction, f32::INFINITY)));
+        }
+        rays
+    }
+}
+
+/// Rays with origins uniform in a box (corners in metres) and directions uniform on the sphere: the set
+/// [`RaySet::Incoherent`]. A ray depends on the seed and its index alone.
+pub fn incoherent_rays([lower, upper]: [[f32; 3]; 2], seed: u32, count: u32) -> Vec<Ray> {
+    let ray = |index| {
+        let stream = RandomStream { seed, pixel: index, sample: 0 };
+        let origin = std::array::from_fn(|axis| {
+            lower[axis] + (upper[axis] - lower[axis]) * stream.float(16 + axis as u32)
+        });
+        Ray::new(origin, direction(stream))
+    };
+    (0..count).map(ray).collect()
+}
+
+/// Uniform on the sphere.
+fn direction(stream: RandomStream) -> [f32; 3] {
+    let z = 1.0 - 2.0 * stream.float(18);
+    let azimuth = std::f32::consts::TAU * stream.float(19);
+    let ring = (1.0 - z * z).max(0.0).sqrt();
+    [ring * azimuth.cos(), ring * azimuth.sin(), z]
+}
+
+fn from_shading(ray: &shading::Ray) -> Ray {
+    Ray {
+        origin: ray.origin.to_array(),
+        t_min: 0.0,
+        direction: ray.direction.to_array(),
+        t_max: ray.t_max,
+        exclude_primitive: ray.exclude_primitive.unwrap_or(PRIMITIVE_NONE),
+        flags: 0,
+        cone_width: 0.0,
+        cone_spread: 0.0,
+    }
+}
+
+/// The same ray for the oracle.
+pub fn oracle_ray(ray: &Ray) -> rasray_reference::oracle::Ray {
+    rasray_reference::oracle::Ray {
+        origin: ray.origin,
+        t_min: ray.t_min,
+        direction: ray.direction,
+        t_max: ray.t_max,
+        exclude_primitive: (ray.exclude_primitive != PRIMITIVE_NONE).then_some(ray.exclude_primitive),
+    }
+}
+
+/// The corners of all triangles.
+pub(super) fn triangles(positions: &[[f32; 3]], indices: &[u32]) -> Vec<[[f32; 3]; 3]> {
+    let corner = |index: u32| positions.get(index as usize).copied().unwrap_or_default();
+    indices.as_chunks::<3>().0.iter().map(|corners| corners.map(corner)).collect()
+}

@@ -1,0 +1,101 @@
+//! Jobs on a Vulkan device.
+
+use rasray_gpu::{Device as GpuDevice, DeviceDesc};
+use rasray_gpu_scene::TexelRuns;
+
+use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelRoom};
+use crate::describe::requirements;
+use crate::error::ExperimentError;
+use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
+use rasray_report::Device;
+
+/// A device and nothing else: everything made for a job goes with the job.
+struct Renderer {
+    device: GpuDevice,
+    validation: bool,
+}
+
+impl Renderer {
+    /// Opens the wanted device.
+    fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
+        let device = GpuDevice::create(&DeviceDesc {
+            requirements: requirements(),
+            preference: choice.device.clone(),
+            validation: choice.validation,
+            application: "rasray".to_owned(),
+        })
+        .map_err(|error| {
+            ExperimentError::device(error, "`rasray info` lists the devices and what they lack")
+        })?;
+        tracing::info!(device = device.name(), why = device.why_chosen(), "device");
+        Ok(Self { device, validation: choice.validation })
+    }
+
+    /// Messages of the validation layer are errors.
+    fn check_validation(&self) -> Result<(), ExperimentError> {
+        match self.device.validation_messages().first() {
+            Some(message) if self.validation => Err(ExperimentError::device(
+                format!("the validation layer says: {message}"),
+                "this is a defect; please report it with the command line",
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Backend for Renderer {
+    fn device(&self) -> Device {
+        Device {
+            name: self.device.name().to_owned(),
+            driver: self.device.driver().to_owned(),
+            software: self.device.is_software(),
+        }
+    }
+
+    fn texel_room(&self) -> TexelRoom {
+        let texels = TexelRuns::of(self.device.limits()).most_texels();
+        TexelRoom { texels, device: self.device.name().to_owned() }
+    }
+
+    fn render(
+        &mut self,
+        job: &RenderJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<RenderOutput, ExperimentError> {
+        let output = crate::render::render(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(output)
+    }
+
+    fn compare(
+        &mut self,
+        job: &CompareJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError> {
+        let comparison = crate::compare::compare(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(comparison)
+    }
+
+    fn hard(
+        &mut self,
+        job: &HardJob<'_>,
+        progress: &mut OnProgress<'_>,
+    ) -> Result<Comparison, ExperimentError> {
+        let comparison = crate::hard::hard(&self.device, job, progress)?;
+        self.check_validation()?;
+        Ok(comparison)
+    }
+
+    fn info(&mut self) -> Result<DeviceDescription, ExperimentError> {
+        crate::describe::describe(&self.device)
+    }
+}
+
+/// Opens the wanted device.
+///
+/// # Errors
+/// [`ExperimentError::Device`]: no such device, or it lacks something required.
+pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> {
+    Ok(Box::new(Renderer::open(choice)?))
+}

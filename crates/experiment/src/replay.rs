@@ -1,0 +1,141 @@
+//! One ray of a comparison, step by step: what every system did for it, and under it what is true.
+
+use std::fmt::Write as _;
+
+use rasray_ads::{Counters, Ray, TraceMode};
+use rasray_gpu::Device;
+use rasray_reference::oracle::{Oracle, OracleReplay};
+use rasray_reference::views::cells_along;
+use rasray_systems::Spec;
+use rasray_tracer::{BatchTracer, Replay};
+
+use crate::error::ExperimentError;
+use crate::jobs::Comparison;
+use crate::rays::oracle_ray;
+use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::system_config::SystemConfig;
+
+/// Cells of a view that are listed at most: more do not help a reader.
+const MOST_CELLS: usize = 4096;
+
+/// What a ray is replayed against.
+pub(super) struct ReplaySetting<'a> {
+    pub(super) device: &'a Device,
+    pub(super) stage: &'a Stage,
+    pub(super) oracle: &'a Oracle<'a>,
+    /// The views' centre relative to the frame origin, metres.
+    pub(super) center: [f32; 3],
+}
+
+impl ReplaySetting<'_> {
+    /// The ray at `index` through all systems and the oracle, in words. `set` names where it comes from.
+    pub(super) fn replay(
+        &self,
+        specs: &[Spec],
+        set: &str,
+        rays: &[Ray],
+        index: u32,
+    ) -> Result<String, ExperimentError> {
+        let Some(ray) = rays.get(index as usize) else {
+            return Err(ExperimentError::usage(
+                format!("there is no ray {index} in {set}, which has {}", rays.len()),
+                "rays are counted from 0; --rays says how many a set has",
+            ));
+        };
+        let truth = self.oracle.replay(&oracle_ray(ray));
+        let mut text = format!("ray {index} of {set}\n");
+        for spec in specs {
+            let spec = spec.clone().with_counters(Counters::Steps);
+            let built = Built::new(self.device, &spec, &self.stage.scene, self.center)?;
+            let tracer = BatchTracer::new(self.device, 1).map_err(|e| tracer_error(&e))?;
+            let replay = tracer
+                .replay(built.structure.as_ref(), ray, TraceMode::Closest)
+                .map_err(|e| tracer_error(&e))?;
+            let _ = write!(text, "\n{} {}: {replay}", spec.system().name, spec.preset().name());
+            text.push_str(&met(&replay, &truth));
+            if let Some(resolution) = cube_resolution(&built)? {
+                text.push_str(&exact_cells(&replay, &truth, self.center, resolution));
+            }
+        }
+        let _ = write!(text, "\n{truth}");
+        Ok(text)
+    }
+}
+
+/// The ray at `index` of every set through all systems and the oracle, instead of a comparison.
+pub(super) fn replay_sets(
+    setting: &ReplaySetting<'_>,
+    systems: &[SystemConfig],
+    sets: impl Iterator<Item = (String, Vec<Ray>)>,
+    index: u32,
+) -> Result<Comparison, ExperimentError> {
+    let specs = systems.iter().map(SystemConfig::spec).collect::<Result<Vec<_>, _>>()?;
+    let mut text = String::new();
+    for (name, rays) in sets {
+        text.push_str(&setting.replay(&specs, &name, &rays, index)?);
+    }
+    Ok(Comparison { replay: Some(text), ..Comparison::default() })
+}
+
+/// The ray of a hard case that is replayed, with the ids of triangles that the device has.
+pub(super) fn replay_case(
+    device: &Device,
+    stage: &Stage,
+    systems: &[SystemConfig],
+    case: (&str, [f32; 3]),
+    rays: Vec<Ray>,
+    index: u32,
+) -> Result<Comparison, ExperimentError> {
+    let (name, center) = case;
+    let geometry = stage.scene.geometry().desc();
+    let positions = device
+        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
+        .map_err(device_error)?;
+    let indices = device
+        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
+        .map_err(device_error)?;
+    let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
+    let setting = ReplaySetting { device, stage, oracle: &oracle, center };
+    replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)
+}
+
+/// Where a system met the triangle that is truly hit.
+fn met(replay: &Replay, truth: &OracleReplay) -> String {
+    let Some((primitive, _)) = truth.verdict.outcome.hit() else { return String::new() };
+    let met = replay.steps_of(primitive);
+    if met.is_empty() {
+        return format!("triangle {primitive}, which is truly hit, was not met\n");
+    }
+    let mut text = format!("triangle {primitive}, which is truly hit, was met here:\n");
+    for (place, step) in met {
+        let place = place.map_or_else(String::new, |place| format!(" in {place}"));
+        let _ = writeln!(text, "  {step}{place}");
+    }
+    text
+}
+
+/// Cells a side of a system's cube of views; absent where it has none.
+fn cube_resolution(built: &Built) -> Result<Option<u32>, ExperimentError> {
+    let report = built.structure.report().map_err(device_error)?;
+    let value = |name: &str| report.options.iter().find(|(known, _)| *known == name).map(|(_, value)| value);
+    let cube = value("views").is_some_and(|views| views.starts_with("cube"));
+    Ok(value("resolution").filter(|_| cube).and_then(|resolution| resolution.parse().ok()))
+}
+
+/// The cells that the ray truly crosses up to its hit, and which of them the system searched.
+fn exact_cells(replay: &Replay, truth: &OracleReplay, center: [f32; 3], resolution: u32) -> String {
+    let ray = &replay.ray;
+    let origin = std::array::from_fn(|axis| f64::from(ray.origin[axis]) - f64::from(center[axis]));
+    let end = truth.verdict.outcome.hit().map_or(f64::from(ray.t_max), |(_, t)| t);
+    let chords = cells_along(origin, ray.direction.map(f64::from), [f64::from(ray.t_min), end], resolution);
+    let mut text = String::from("cells that the ray truly crosses up to its hit:\n");
+    for chord in chords.iter().take(MOST_CELLS) {
+        let [x, y] = chord.cell.map(u32::cast_signed);
+        let searched = replay.steps.iter().any(|step| step.cell() == Some((chord.view, x, y)));
+        let _ = writeln!(text, "  {chord}{}", if searched { "" } else { ", not searched" });
+    }
+    if chords.len() > MOST_CELLS {
+        let _ = writeln!(text, "  … and {} more", chords.len() - MOST_CELLS);
+    }
+    text
+}

@@ -1,0 +1,159 @@
+//! From a name to a scene that can be rendered.
+
+use crate::error::ExperimentError;
+use rasray_report::{SceneRecord, SmallerImageRecord};
+use rasray_scene::{AlphaMode, Environment, LoadOptions, Scene, builtin, default_view};
+use sha2::{Digest, Sha256};
+use std::ffi::OsStr;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// A scene with what reports say of it.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Scene,
+    /// Triangles over all instances.
+    pub triangles: u64,
+    /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
+    pub sha256: Option<String>,
+    /// Images that were made smaller for the device.
+    pub smaller_images: Vec<SmallerImageRecord>,
+}
+
+impl LoadedScene {
+    /// What reports say of it.
+    pub fn record(&self) -> SceneRecord {
+        SceneRecord {
+            name: self.scene.name.clone(),
+            triangles: self.triangles,
+            sha256: self.sha256.clone(),
+            smaller_images: self.smaller_images.clone(),
+        }
+    }
+}
+
+/// Extensions that make a name a file's.
+const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
+
+/// Loads the file or makes the built-in scene that `name` stands for.
+///
+/// # Errors
+/// Names that are neither, and whatever is wrong with a file or a parameter.
+pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
+    let path = Path::new(name);
+    let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
+    let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
+    if is_file {
+        let scene = rasray_scene::load(path, &LoadOptions::default())?;
+        let sha256 = digest(path).map_err(|error| {
+            ExperimentError::input(
+                path,
+                format!("cannot be read again: {error}"),
+                "leave the file in place while it is read",
+            )
+        })?;
+        return Ok(loaded(scene, Some(sha256)));
+    }
+    if let Some(made) = name.to_str().and_then(builtin::builtin) {
+        let scene = made?;
+        return Ok(loaded(scene, None));
+    }
+    let kinds = format!(
+        "scenes are .gltf, .glb, .obj and .ply files, or built-in: {} (parameters follow a colon: spheres:10k)",
+        builtin::NAMES.join(", ")
+    );
+    if path.exists() {
+        return Err(ExperimentError::input(path, "is not a scene file by its name", kinds));
+    }
+    Err(ExperimentError::input(path, "there is neither such a file nor such a built-in scene", kinds))
+}
+
+fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
+    LoadedScene { triangles: triangles(&scene), scene, sha256, smaller_images: Vec::new() }
+}
+
+impl LoadedScene {
+    /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a black one
+    /// too; else a scene that nothing lights gets [`default_view::default_light`], with a warning.
+    pub fn light(&mut self, environment: Option<Environment>) {
+        if let Some(environment) = environment {
+            self.scene.environment = environment;
+        } else {
+            default_view::ensure_lit(&mut self.scene);
+        }
+    }
+
+    /// Makes every surface opaque.
+    pub fn close_holes(&mut self) {
+        for material in &mut self.scene.materials {
+            material.alpha_mode = AlphaMode::Opaque;
+        }
+    }
+}
+
+/// Triangles over all instances.
+fn triangles(scene: &Scene) -> u64 {
+    let of = |mesh: usize| scene.meshes.get(mesh).map_or(0, |mesh| mesh.triangle_count() as u64);
+    scene.instances.iter().map(|instance| of(instance.mesh)).sum()
+}
+
+fn digest(path: &Path) -> std::io::Result<String> {
+    let mut file = File::open(path)?;
+    let mut hash = Sha256::new();
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        let length = file.read(&mut buffer)?;
+        if length == 0 {
+            return Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect());
+        }
+        hash.update(&buffer[..length]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_digest_is_sha256() {
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), b"abc").expect("bytes");
+        let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(digest(file.path()).expect("readable"), expected);
+    }
+
+    #[test]
+    fn a_built_in_scene_has_no_digest_and_counts_its_triangles() {
+        let loaded = load(OsStr::new("cornell")).expect("built in");
+        assert!(loaded.triangles > 0 && loaded.sha256.is_none());
+    }
+
+    #[test]
+    fn an_environment_that_was_asked_for_stays() {
+        let mut file = tempfile::Builder::new().suffix(".obj").tempfile().expect("a file");
+        std::io::Write::write_all(&mut file, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("bytes");
+        for asked in [None, Some([0.0; 3]), Some([2.0; 3])] {
+            let mut loaded = load(file.path().as_os_str()).expect("a triangle");
+            loaded.light(asked.map(Environment::Constant));
+            let constant = match loaded.scene.environment {
+                Environment::Constant(radiance) => Some(radiance),
+                Environment::LatLong { .. } => None,
+            };
+            assert_eq!(constant, asked);
+            let warned = loaded.scene.warnings.iter().any(|warning| warning.kind == "default-light");
+            assert_eq!(warned, asked.is_none());
+        }
+    }
+
+    #[test]
+    fn a_name_that_is_nothing_lists_what_there_is() {
+        for bad in ["cornel", "missing.glb", "cornell:walls=7", "Cargo.toml"] {
+            let error = load(OsStr::new(bad)).expect_err(bad);
+            assert!(matches!(error, ExperimentError::Input { .. } | ExperimentError::Scene(_)), "{error:?}");
+            assert!(error.to_string().contains(bad.split(':').next().unwrap_or(bad)), "{error}");
+        }
+        assert!(load(OsStr::new("cornel")).expect_err("misspelt").help().contains("cornell"));
+    }
+}

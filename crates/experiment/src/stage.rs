@@ -1,0 +1,331 @@
+//! A scene on the device, and a structure built for it.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use glam::DVec3;
+use rasray_ads::{AdsError, Structure, Viewpoint};
+use rasray_gpu::{Device, Feature, GpuError, Timing};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, Sampling, SceneTables, View};
+use rasray_scene::needs::Needs;
+use rasray_scene::{Camera, Scene};
+use rasray_systems::{Spec, SystemsError};
+use rasray_tracer::{BuildOutcome, TracerError, build_until_complete};
+use serde_json::Value;
+
+use crate::error::ExperimentError;
+use crate::jobs::{Frame, Sampler};
+use crate::passes::{Passes, median, spread};
+use rasray_report::{Counters, Memory, Spread, Times};
+
+/// What a device error is about.
+pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
+    ExperimentError::device(error, "try a smaller --resolution or --size, or another --device")
+}
+
+/// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
+fn scene_error(error: GpuSceneError) -> ExperimentError {
+    let message = match &error {
+        GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
+        | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
+            format!("the scene's {name} have {size} bytes, and this device binds {limit} at most")
+        }
+        GpuSceneError::TooManyVertices { .. }
+        | GpuSceneError::TooManyTexels { .. }
+        | GpuSceneError::Gpu(GpuError::OutOfDeviceMemory { .. })
+        | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => error.to_string(),
+        _ => return device_error(error),
+    };
+    ExperimentError::device(
+        message,
+        "try a scene with fewer triangles and images, a smaller map for --environment, or another --device",
+    )
+}
+
+/// A failed build or trace: lost rays are refused, everything else is the device's.
+pub(super) fn tracer_error(error: &TracerError) -> ExperimentError {
+    match error {
+        TracerError::Unfinished { .. }
+        | TracerError::NotReady { .. }
+        | TracerError::Corrupted { .. }
+        | TracerError::Unstable { .. } => ExperimentError::refused(
+            error.to_string(),
+            "its results are not kept; please report it with the command line",
+        ),
+        _ => device_error(error),
+    }
+}
+
+/// A scene on the device.
+#[derive(Debug)]
+pub struct Stage {
+    /// As it is there.
+    pub scene: GpuScene,
+    /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
+    pub dropped_triangles: u64,
+}
+
+impl Stage {
+    /// Uploads what of a scene is needed, around a frame origin that suits the camera. The size (pixels) and the seed
+    /// are those of images.
+    ///
+    /// # Errors
+    /// The scene names what it does not have, or the device does not hold it.
+    pub fn new(
+        device: &Device,
+        scene: &Scene,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<Self, ExperimentError> {
+        let eye = camera.world_from_camera.translation;
+        let origin = SceneTables::default_frame_origin(scene, eye);
+        Self::around(device, scene, origin, camera, [width, height], seed, needs)
+    }
+
+    /// As [`Stage::new`], with positions relative to `origin` (world, metres).
+    ///
+    /// # Errors
+    /// As [`Stage::new`].
+    pub fn around(
+        device: &Device,
+        scene: &Scene,
+        origin: DVec3,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<Self, ExperimentError> {
+        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
+        let view = View { camera: camera.clone(), width, height, seed };
+        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
+        let dropped_triangles = tables.posed.dropped_triangles;
+        if dropped_triangles > 0 {
+            tracing::warn!(
+                "{dropped_triangles} triangles have coordinates that are not finite or beyond 1.8e18 m and are left out"
+            );
+        }
+        Ok(Self { scene: gpu_scene, dropped_triangles })
+    }
+}
+
+impl Stage {
+    /// Sets how the pixels of an image are sampled.
+    pub(super) fn sample_as(&mut self, frame: &Frame) -> Result<(), ExperimentError> {
+        let sampler = match frame.sampler {
+            Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
+            Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
+        };
+        self.scene.set_sampling(Sampling { sampler, samples: frame.spp }).map_err(device_error)
+    }
+}
+
+/// Why a first build failed.
+enum FirstBuild {
+    /// A pool is larger than one binding.
+    ExceedsBinding(ExperimentError),
+    /// Anything else.
+    Other(ExperimentError),
+}
+
+impl From<FirstBuild> for ExperimentError {
+    fn from(error: FirstBuild) -> Self {
+        match error {
+            FirstBuild::ExceedsBinding(error) | FirstBuild::Other(error) => error,
+        }
+    }
+}
+
+/// Whether addressing was left open, and the device has addresses.
+fn may_use_addresses(device: &Device, spec: &Spec) -> bool {
+    let has_option = spec.system().has("addressing");
+    has_option && !spec.options().contains_key("addressing") && device.has(Feature::BufferDeviceAddress)
+}
+
+/// Makes a structure and builds it until complete.
+fn first_build(
+    device: &Device,
+    spec: &Spec,
+    scene: &GpuScene,
+    viewpoint: Viewpoint,
+    timing: Timing,
+) -> Result<(Box<dyn Structure>, BuildOutcome), FirstBuild> {
+    let refuse = |error: ExperimentError| FirstBuild::Other(error);
+    let requirements = spec.requirements().map_err(|e| refuse(ExperimentError::usage(e.to_string(), "")))?;
+    if let Some(missing) = requirements.required.iter().find(|feature| !device.has(**feature)) {
+        return Err(refuse(ExperimentError::device(
+            format!(
+                "system {} needs the feature {missing}, which {} lacks",
+                spec.system().name,
+                device.name()
+            ),
+            "choose another --device or --system",
+        )));
+    }
+    let mut structure =
+        spec.create(device, scene.geometry(), Some(scene.binding())).map_err(|error| match error {
+            SystemsError::Ads(error) => ads_error(error),
+            other => refuse(ExperimentError::usage(other.to_string(), "see `rasray render --help`")),
+        })?;
+    let outcome =
+        build_until_complete(device, structure.as_mut(), viewpoint, timing).map_err(|error| match error {
+            TracerError::Ads(error) => ads_error(error),
+            other => refuse(tracer_error(&other)),
+        })?;
+    Ok((structure, outcome))
+}
+
+fn ads_error(error: AdsError) -> FirstBuild {
+    match error {
+        AdsError::Gpu(GpuError::TooLarge { .. }) => FirstBuild::ExceedsBinding(ExperimentError::device(
+            error,
+            "try --addressing address, or a smaller --resolution",
+        )),
+        other => FirstBuild::Other(device_error(other)),
+    }
+}
+
+/// Options and paths by name.
+type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
+
+/// A structure, built, with what the building cost.
+pub struct Built {
+    /// Whose last build was complete.
+    pub structure: Box<dyn Structure>,
+    pub(super) outcome: BuildOutcome,
+    pub(super) passes: Passes,
+    viewpoint: Viewpoint,
+    /// From nothing to complete, milliseconds.
+    first_ms: f64,
+    /// Of each repeated build, as the host saw it, milliseconds.
+    whole: Vec<f64>,
+    /// The host's own part of each, milliseconds.
+    prepare: Vec<f64>,
+}
+
+impl Built {
+    /// Makes the structure of a spec and builds it as seen from `eye`, with the scene's camera there, until
+    /// complete. Where a pool exceeds what one binding can hold and nothing was said of addressing, the pools
+    /// are reached by device address instead.
+    ///
+    /// # Errors
+    /// The device lacks something or fails, or the build does not become complete.
+    pub fn new(
+        device: &Device,
+        spec: &Spec,
+        scene: &GpuScene,
+        eye: [f32; 3],
+    ) -> Result<Self, ExperimentError> {
+        let started = Instant::now();
+        let timing = device.best_timing();
+        let viewpoint = scene.viewpoint().at(eye);
+        let (structure, outcome) = match first_build(device, spec, scene, viewpoint, timing) {
+            Err(FirstBuild::ExceedsBinding(_)) if may_use_addresses(device, spec) => {
+                tracing::info!(
+                    system = spec.system().name,
+                    "a pool exceeds one binding: reached by device address"
+                );
+                let spec = spec
+                    .with_option("addressing", "address")
+                    .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
+                first_build(device, &spec, scene, viewpoint, timing).map_err(ExperimentError::from)?
+            }
+            other => other.map_err(ExperimentError::from)?,
+        };
+        let mut passes = Passes::default();
+        passes.add(&outcome.passes);
+        Ok(Self {
+            structure,
+            outcome,
+            passes,
+            viewpoint,
+            first_ms: started.elapsed().as_secs_f64() * 1.0e3,
+            whole: Vec::new(),
+            prepare: Vec::new(),
+        })
+    }
+
+    /// Builds for what the scene's camera sees now, from where it is; times stay as they are.
+    ///
+    /// # Errors
+    /// As [`Built::build_again`].
+    pub fn follow_camera(&mut self, device: &Device, scene: &GpuScene) -> Result<(), ExperimentError> {
+        self.viewpoint = scene.viewpoint().at(scene.eye());
+        self.outcome =
+            build_until_complete(device, self.structure.as_mut(), self.viewpoint, device.best_timing())
+                .map_err(|e| tracer_error(&e))?;
+        Ok(())
+    }
+
+    /// Builds once more and keeps the times.
+    ///
+    /// # Errors
+    /// The device fails, or the build does not become complete.
+    pub fn build_again(&mut self, device: &Device) -> Result<(), ExperimentError> {
+        let regrows = self.outcome.regrows;
+        let timing = device.best_timing();
+        self.outcome = build_until_complete(device, self.structure.as_mut(), self.viewpoint, timing)
+            .map_err(|e| tracer_error(&e))?;
+        self.outcome.regrows += regrows;
+        if self.whole.is_empty() {
+            // Passes of the first build hold what the driver compiled.
+            self.passes = Passes::default();
+        }
+        self.passes.add(&self.outcome.passes);
+        self.whole.push(self.outcome.host_milliseconds);
+        self.prepare.push(self.outcome.prepare_milliseconds);
+        Ok(())
+    }
+
+    /// Sets the times of the build in a run.
+    pub fn write_times(&self, times: &mut Times) {
+        times.first_build_ms = Some(self.first_ms);
+        if !self.whole.is_empty() {
+            times.build_ms = Some(median(&self.whole));
+            times.build_host_ms = Some(median(&self.prepare));
+        }
+    }
+
+    /// How far the times of repeated builds lie apart, by the names of a report.
+    pub(super) fn spread(&self) -> impl Iterator<Item = (String, Spread)> {
+        [("build_ms", &self.whole), ("build_host_ms", &self.prepare)]
+            .into_iter()
+            .filter_map(|(name, times)| Some((name.to_owned(), spread(times)?)))
+    }
+
+    /// Options and paths as the structure resolved them.
+    pub(super) fn resolved(&self) -> Result<Resolved, ExperimentError> {
+        let report = self.structure.report().map_err(device_error)?;
+        let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
+        Ok((rasray_report::options(report.options), paths.collect()))
+    }
+
+    /// Bytes of the structure, by part, with its formula.
+    pub(super) fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
+        let report = self.structure.report().map_err(device_error)?;
+        Ok(Memory {
+            structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),
+            formula_bytes: Some(report.formula_bytes - report.diagnostic_bytes),
+            capacity_bytes: Some(report.bytes()),
+            diagnostic_bytes: (report.diagnostic_bytes > 0).then_some(report.diagnostic_bytes),
+            device_peak_bytes: Some(device.peak_bytes()),
+            by_part: report.bytes_by_part.into_iter().map(|(name, bytes)| (name.to_owned(), bytes)).collect(),
+        })
+    }
+
+    /// Counts of the build.
+    pub(super) fn counters(&self) -> Result<Counters, ExperimentError> {
+        let report = self.structure.report().map_err(device_error)?;
+        let pool = self.outcome.status.pools.first();
+        Ok(Counters {
+            fragments: report.stored,
+            lost: report.lost,
+            demand: pool.map(|pool| pool.demand),
+            capacity: pool.map(|pool| pool.capacity),
+            overflow: pool.map(|pool| pool.demand.saturating_sub(pool.capacity)),
+            regrows: Some(self.outcome.regrows.into()),
+            ..Counters::default()
+        })
+    }
+}

@@ -1,0 +1,205 @@
+//! One set of rays: traced through all systems in turns, judged against the truth, and kept where
+//! wanted.
+
+use rasray_ads::{Hit, QueueCounters, Ray, StructureKind, TraceMode};
+use rasray_gpu::Device;
+use rasray_reference::oracle::{Outcome, Verdict};
+use rasray_tracer::BatchTracer;
+
+use crate::contestant::Contestant;
+use crate::error::ExperimentError;
+use crate::jobs::{Answers, Comparison, KeptSet};
+use crate::judge::{accuracy, depth_errors, device_hits};
+use crate::passes::{Passes, median, spread};
+use crate::stage::tracer_error;
+use rasray_ray_files::{HitsFile, TrueHit};
+use rasray_report::{Run, Times};
+
+/// Most rays that are traced at a time.
+const BATCH: usize = 131_072;
+
+/// Rays with their truth.
+pub(super) struct RaysWithTruth {
+    /// Such as `camera`.
+    pub(super) name: String,
+    /// As the device traces them.
+    pub(super) rays: Vec<Ray>,
+    /// One a ray.
+    pub(super) verdicts: Vec<Verdict>,
+}
+
+/// What is wanted of every set.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted<'a> {
+    /// Times each set is traced after once to warm up, at least 1.
+    pub(super) repetitions: u32,
+    /// What the rays were drawn with.
+    pub(super) seed: u32,
+    /// Whether histograms are made.
+    pub(super) figures: bool,
+    /// Whether rays, truth and hits are kept.
+    pub(super) keep: bool,
+    /// Hits found elsewhere, judged like a system's.
+    pub(super) given_hits: &'a [HitsFile],
+}
+
+/// What one system answered to one set.
+#[derive(Debug, Default)]
+pub struct Traced {
+    /// One a ray.
+    pub hits: Vec<Hit>,
+    /// Of one trace of all rays.
+    pub counters: QueueCounters,
+    /// Of each timed trace.
+    pub milliseconds: Vec<f64>,
+    pub(super) passes: Passes,
+}
+
+/// Traces a set through all systems, in turns, and adds a run for each to the comparison. `name_hits`
+/// gives hits of the device the ids of the truth. Returns the answers of each new run, so named.
+pub(super) fn compare_set(
+    device: &Device,
+    contestants: &[Contestant<'_>],
+    set: &RaysWithTruth,
+    wanted: Wanted<'_>,
+    name_hits: impl Fn(Vec<Hit>) -> Vec<Hit>,
+    comparison: &mut Comparison,
+) -> Result<Vec<Answers>, ExperimentError> {
+    for given in wanted.given_hits {
+        if given.hits.len() != set.rays.len() {
+            return Err(ExperimentError::usage(
+                format!(
+                    "{} has {} hits for the {} rays of {}",
+                    given.name,
+                    given.hits.len(),
+                    set.rays.len(),
+                    set.name
+                ),
+                "give one hit for each ray, in the order of the rays",
+            ));
+        }
+    }
+    let mut answers = Vec::new();
+    for (contestant, mut traced) in
+        contestants.iter().zip(trace_in_turns(device, contestants, &set.rays, wanted.repetitions)?)
+    {
+        traced.hits = name_hits(traced.hits);
+        let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
+        let kind = contestant.built.structure.kind();
+        judge(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
+        answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
+        comparison.runs.push(run);
+    }
+    for given in wanted.given_hits {
+        let mut run = Run {
+            system: given.name.clone(),
+            structure: "file".to_owned(),
+            preset: "given".to_owned(),
+            ray_set: Some(set.name.clone()),
+            ..Run::default()
+        };
+        judge(&mut run, StructureKind::Primitive, &set.verdicts, &given.hits, wanted.figures, comparison)?;
+        comparison.runs.push(run);
+    }
+    let others = wanted.given_hits.iter().map(|given| Answers {
+        name: given.name.clone(),
+        kind: StructureKind::Primitive,
+        hits: given.hits.clone(),
+    });
+    let judged = answers.iter().cloned().chain(others).collect();
+    if wanted.keep {
+        comparison.kept.sets.push(KeptSet {
+            name: set.name.clone(),
+            rays: set.rays.clone(),
+            truth: set.verdicts.iter().map(true_hit).collect(),
+            answers,
+        });
+    }
+    Ok(judged)
+}
+
+/// Adds what is right and wrong of the hits.
+fn judge(
+    run: &mut Run,
+    kind: StructureKind,
+    verdicts: &[Verdict],
+    hits: &[Hit],
+    figures: bool,
+    comparison: &mut Comparison,
+) -> Result<(), ExperimentError> {
+    let hits = device_hits(hits.iter().copied());
+    run.accuracy = Some(accuracy(kind, verdicts, &hits)?);
+    if figures {
+        comparison.figures.depth_errors.push(depth_errors(comparison.runs.len(), verdicts, &hits));
+    }
+    Ok(())
+}
+
+/// Traces rays through all systems in turns: once to warm up, then `repetitions` times. One answer for each contestant.
+///
+/// # Errors
+/// The device fails, or rays do not finish.
+pub fn trace_in_turns(
+    device: &Device,
+    contestants: &[Contestant<'_>],
+    rays: &[Ray],
+    repetitions: u32,
+) -> Result<Vec<Traced>, ExperimentError> {
+    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let timing = device.best_timing();
+    let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
+    for repetition in 0..=repetitions {
+        for (contestant, traced) in contestants.iter().zip(&mut traces) {
+            let outcome = tracer
+                .trace(contestant.built.structure.as_ref(), rays, TraceMode::Closest, timing)
+                .map_err(|e| tracer_error(&e))?;
+            if repetition == 0 {
+                traced.hits = outcome.hits;
+                traced.counters = outcome.counters;
+            } else {
+                traced.milliseconds.push(outcome.milliseconds());
+                traced.passes.add(&outcome.passes);
+            }
+        }
+    }
+    Ok(traces)
+}
+
+fn run_of(
+    device: &Device,
+    contestant: &Contestant<'_>,
+    set: &RaysWithTruth,
+    traced: &Traced,
+    seed: u32,
+) -> Result<Run, ExperimentError> {
+    let rays = set.rays.len() as u64;
+    let trace_ms = median(&traced.milliseconds);
+    let mut counters = contestant.built.counters()?;
+    let per_ray = |sum: u64| (rays > 0).then(|| sum as f64 / rays as f64);
+    counters.nodes_per_ray = per_ray(traced.counters.entries);
+    counters.cells_per_ray = per_ray(traced.counters.cells);
+    counters.tests_per_ray = per_ray(traced.counters.tests);
+    counters.unfinished = Some(traced.counters.unfinished.into());
+    let mut run = contestant.run(device)?;
+    run.ray_set = Some(set.name.clone());
+    run.seed = Some(seed);
+    run.times = Times {
+        timer: traced.passes.timer(),
+        trace_ms: Some(trace_ms),
+        rays: Some(rays),
+        mrays_per_s: (trace_ms > 0.0).then(|| rays as f64 / trace_ms / 1.0e3),
+        ..run.times
+    };
+    run.spread.extend(spread(&traced.milliseconds).map(|spread| ("trace_ms".to_owned(), spread)));
+    run.passes.extend(traced.passes.report());
+    run.counters = Some(counters);
+    Ok(run)
+}
+
+fn true_hit(verdict: &Verdict) -> TrueHit {
+    let (primitive, t, barycentrics) = match verdict.outcome {
+        Outcome::Hit { primitive, t, barycentrics } => (primitive, t, barycentrics),
+        Outcome::Miss => (rasray_ads::PRIMITIVE_NONE, f64::INFINITY, [0.0; 2]),
+    };
+    TrueHit { t, primitive, barycentrics, ambiguous: verdict.ambiguous }
+}

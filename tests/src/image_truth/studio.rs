@@ -1,0 +1,182 @@
+//! A scene on the device with a structure, a film and a camera.
+
+use std::ops::Range;
+
+use rasray_ads::RayQueue;
+use rasray_experiment::{Built, Stage};
+use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
+use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, Wave};
+use rasray_scene::needs::Needs;
+use rasray_scene::{Camera, Scene};
+use rasray_systems::Spec;
+
+use super::Estimate;
+use crate::harness::Bench;
+
+/// What rays are traced through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum System {
+    /// Every triangle: exact.
+    BruteForce,
+    /// The A-buffer's robust preset with this many cells a side.
+    MmrtRobust(u32),
+}
+
+impl System {
+    /// What the registry makes it from.
+    fn spec(self) -> Spec {
+        let spec = match self {
+            Self::BruteForce => Spec::new("brute-force", "robust", []),
+            Self::MmrtRobust(resolution) => {
+                Spec::new("mmrt", "robust", [("resolution".to_owned(), resolution.to_string())])
+            }
+        };
+        spec.expect("both systems are registered")
+    }
+}
+
+/// A rendered image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Means of the samples, rows from the top.
+    pub pixels: Vec<[f32; 3]>,
+    /// Samples that were not finite.
+    pub non_finite: u32,
+}
+
+/// Everything that renders one scene.
+pub struct Studio<'a> {
+    bench: &'a Bench,
+    stage: Stage,
+    built: Built,
+    film: Film,
+    view: View,
+}
+
+impl<'a> Studio<'a> {
+    /// Uploads the scene and builds the structure around the camera.
+    ///
+    /// # Panics
+    /// If the scene is broken or the device fails.
+    pub fn new(bench: &'a Bench, scene: &Scene, camera: Camera, size: u32, system: System) -> Self {
+        let device = bench.device();
+        let view = View { camera, width: size, height: size, seed: 1 };
+        let stage = Stage::new(device, scene, &view.camera, [size, size], view.seed, &Needs::all())
+            .expect("the scene is whole and fits");
+        let built =
+            Built::new(device, &system.spec(), &stage.scene, stage.scene.eye()).expect("the build completes");
+        let film = Film::new(device, size, size).expect("a small film fits");
+        Self { bench, stage, built, film, view }
+    }
+
+    /// Moves the camera, and the structure's eye with it.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn look(&mut self, camera: Camera) {
+        self.view.camera = camera;
+        self.stage.scene.update_camera(&self.view).expect("the frame can be written");
+        self.built.follow_camera(self.bench.device(), &self.stage.scene).expect("the build completes");
+    }
+
+    /// Draws other random numbers from now on.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn reseed(&mut self, seed: u32) {
+        self.view.seed = seed;
+        self.stage.scene.update_camera(&self.view).expect("the frame can be written");
+    }
+
+    /// Draws independent random numbers from now on, whose errors have a law.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn sample_independently(&mut self) {
+        let sampling = Sampling { sampler: Sampler::Pcg, ..Sampling::default() };
+        self.stage.scene.set_sampling(sampling).expect("the frame can be written");
+    }
+
+    /// What is rendered.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// The scene as uploaded.
+    pub fn scene(&self) -> &GpuScene {
+        &self.stage.scene
+    }
+
+    /// Paths of at most `bounces` scatterings.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn path(&self, bounces: u32) -> Path {
+        Path::new(&self.desc(), bounces).expect("the integrator is made")
+    }
+
+    /// Ambient occlusion within `range` metres.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn occlusion(&self, range: f32) -> AmbientOcclusion {
+        AmbientOcclusion::new(&self.desc(), range).expect("the integrator is made")
+    }
+
+    fn desc(&self) -> IntegratorDesc<'_> {
+        IntegratorDesc::new(self.bench.device(), &self.stage.scene, &self.film)
+    }
+
+    /// Renders the samples with these indices.
+    ///
+    /// # Panics
+    /// If the device fails or a ray was not finished.
+    pub fn render(&self, integrator: &dyn Integrator, samples: Range<u32>) -> Picture {
+        self.render_each(integrator, samples)
+    }
+
+    /// Renders samples in the order given; an index that comes again repeats its random numbers.
+    ///
+    /// # Panics
+    /// If the device fails or a ray was not finished.
+    pub fn render_each(
+        &self,
+        integrator: &dyn Integrator,
+        samples: impl IntoIterator<Item = u32>,
+    ) -> Picture {
+        let device = self.bench.device();
+        let pixel_count = self.film.pixel_count();
+        assert!(integrator.wave_capacity() >= pixel_count, "small images are one wave");
+        device.submit(|recorder| integrator.record_reset(recorder)).expect("the device works");
+        for sample in samples {
+            let wave = Wave { first_pixel: 0, pixel_count, sample };
+            let submitted = device
+                .submit(|recorder| {
+                    integrator.record_wave(recorder, self.built.structure.as_ref().into(), wave)
+                })
+                .expect("the device works");
+            submitted.value.expect("the wave fits");
+        }
+        for queue in integrator.queues() {
+            let header = device.download_as(queue.header(), 0, 1).expect("the device works");
+            let counters = RayQueue::counters(&header[0]);
+            let faults = (counters.unfinished, counters.not_ready, counters.corrupted);
+            assert_eq!(faults, (0, 0, 0), "rays are left over");
+        }
+        Picture {
+            pixels: self.film.read(device).expect("the film is readable"),
+            non_finite: self.film.read_faults(device).expect("the film is readable").non_finite,
+        }
+    }
+
+    /// The image's mean over `samples` samples a pixel, an even number.
+    ///
+    /// # Panics
+    /// If the device fails or a sample was not finite.
+    pub fn estimate(&self, integrator: &dyn Integrator, samples: u32) -> Estimate {
+        let half = (samples / 2).max(1);
+        let pictures = [self.render(integrator, 0..half), self.render(integrator, half..2 * half)];
+        assert!(pictures.iter().all(|picture| picture.non_finite == 0), "samples are not finite");
+        Estimate::of_pair(&pictures[0].pixels, &pictures[1].pixels)
+    }
+}
