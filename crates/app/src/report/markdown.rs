@@ -49,9 +49,9 @@ fn title(report: &Report) -> String {
     let software = if device.software { ", a software driver: times are for ratios" } else { "" };
     let judged = report.runs.iter().filter_map(|run| run.accuracy.as_ref()).map(judged);
     let rays = match (judged.clone().min(), judged.max()) {
-        (Some(least), Some(most)) if least == most => format!("{} unambiguous rays a set. ", grouped(most)),
+        (Some(least), Some(most)) if least == most => format!("{} unambiguous rays per set. ", grouped(most)),
         (Some(least), Some(most)) => {
-            format!("{} to {} unambiguous rays a set. ", grouped(least), grouped(most))
+            format!("{} to {} unambiguous rays per set. ", grouped(least), grouped(most))
         }
         _ => String::new(),
     };
