@@ -14,7 +14,7 @@ pub enum Storage {
     Contiguous,
 }
 
-/// Where the faces of the cube meet. Changes no hit where [`Config::is_exact`].
+/// The point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centre {
     /// At the eye, as in the paper.
@@ -35,7 +35,7 @@ pub struct Config {
     pub buckets: u32,
     /// How lists are kept.
     pub storage: Storage,
-    /// Where the faces meet.
+    /// The point at which the faces touch.
     pub centre: Centre,
     /// Who puts triangles into tiles. Changes no hit.
     pub builder: Builder,
@@ -44,7 +44,7 @@ pub struct Config {
     pub pyramid: bool,
     /// Which tiles list a triangle.
     pub coverage: Coverage,
-    /// When a triangle that a ray meets is a hit.
+    /// When a triangle that a ray intersects is a hit.
     pub accept: Accept,
     /// Where the search of a tile ends.
     pub stop: Stop,
@@ -56,7 +56,7 @@ pub struct Config {
     pub skip: bool,
     /// How pools are reached.
     pub addressing: Addressing,
-    /// Entries to make room for before the first build; a guess from the cells where absent.
+    /// Entries to allocate for the first build; a guess from the cells where absent.
     pub entries: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,

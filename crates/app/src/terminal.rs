@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
 use tracing_subscriber::EnvFilter;
 
-/// How much is said beside results and errors.
+/// How much is said in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Talk {
     /// Nothing.

@@ -16,7 +16,7 @@ const SCAN_BRICKS: u32 = 1;
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    /// The near box and the slices of a cube's faces, from depths; views along axes have neither.
+    /// The near region and the slices of a cube's faces, from depths; views along axes have neither.
     depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
     cells: ComputePipeline,

@@ -1,4 +1,4 @@
-//! The table with one row a run; a click on a heading sorts it.
+//! The table with one row per run; a click on a heading sorts it.
 
 use super::markup::Markup;
 use super::names::workload;
@@ -272,7 +272,7 @@ fn certainty(body: &mut Markup, statistics: &Statistics) {
     );
 }
 
-/// One row a run.
+/// One row per run.
 fn rows(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
     let numbers = columns.iter().map(|column| Heading::number(column.heading, Some(column.meaning)));
     let headings = ["system", "preset", "rays"].map(Heading::words).into_iter().chain(numbers);

@@ -25,7 +25,7 @@ pub enum TestClass {
     Excluded,
     /// Refused by the alpha test.
     Transparent,
-    /// The ray passes beside the triangle.
+    /// The ray passes outside of the triangle.
     Beside,
 }
 
@@ -39,7 +39,7 @@ pub struct TestedTriangle {
     pub signs: [i32; 3],
     /// What it is to the ray.
     pub class: TestClass,
-    /// t of the plane, and the interval that single precision may report; `None` where the ray passes beside
+    /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside of
     /// by more than rounding.
     pub t: Option<[f64; 3]>,
 }
@@ -62,9 +62,9 @@ pub struct OracleReplay {
     pub ray: Ray,
     /// Nodes in the order of visits; empty where all triangles are tested one by one.
     pub nodes: Vec<VisitedNode>,
-    /// Triangles in the order of tests, those that the ray passes beside left out.
+    /// Triangles in the order of tests, those that the ray passes outside of are left out.
     pub tests: Vec<TestedTriangle>,
-    /// Triangles tested that the ray passes beside by more than rounding.
+    /// Triangles tested that the ray passes outside of by more than rounding.
     pub beside: usize,
     /// The answer.
     pub verdict: Verdict,
