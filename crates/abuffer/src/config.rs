@@ -20,7 +20,7 @@ pub struct Config {
     pub inline: bool,
     /// Fragments per page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
+    /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
     /// layers. Changes no hit.
     pub buckets: u32,
     /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
@@ -120,17 +120,17 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
         for side in self.camera_resolution {
             range("camera-resolution", side, 1, 8192, "1 to 8192 columns and rows")?;
         }
-        range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
-        range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
+        range("buckets", self.buckets, 1, 32, "1 to 32 buckets per cell")?;
+        range("samples", self.samples, 1, 65535, "1 to 65535 samples per face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
             return Err(AdsError::Option {
                 option: "page",
                 value: self.page.to_string(),
-                expected: "1, 2, 4 or 8 fragments a page",
+                expected: "1, 2, 4 or 8 fragments per page",
             });
         }
         // A dispatch that resumes a search counts its cell before it reads an entry.

@@ -15,7 +15,7 @@ pub enum Fault {
         link: u32,
     },
     /// A link of a conservative list points to no node, or leads in a circle.
-    #[error("cell {cell}: link {link} of the fringe names no node, or leads in a circle")]
+    #[error("cell {cell}: link {link} of the conservative list points to no node, or leads in a circle")]
     Fringe {
         /// Cell.
         cell: usize,

@@ -94,7 +94,7 @@ impl Contents {
     /// The triangles of a cell's conservative list, as far as they were stored.
     ///
     /// # Errors
-    /// A link names no node, or leads in a circle.
+    /// A link points to no node, or leads in a circle.
     pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
         let mut found = Vec::new();
         if !self.config.has_fringe() {

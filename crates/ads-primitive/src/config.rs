@@ -143,9 +143,9 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels a side")?;
-        range("tile", self.tile, 1, 64, "1 to 64 pixels a side")?;
-        range("buckets", self.buckets, 1, 64, "1 to 64 buckets a tile")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels along a side")?;
+        range("tile", self.tile, 1, 64, "1 to 64 pixels along a side")?;
+        range("buckets", self.buckets, 1, 64, "1 to 64 buckets per tile")?;
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: take builder raster";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });

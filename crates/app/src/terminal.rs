@@ -57,7 +57,7 @@ pub(crate) fn write_out(bytes: &[u8]) -> io::Result<()> {
 /// [`AppError::Refused`] when stdout takes no more.
 pub(crate) fn print(text: &str) -> Result<(), AppError> {
     write_out(shown(text).as_bytes()).map_err(|error| {
-        AppError::refused(format!("stdout: {error}"), "send the output somewhere with room for it")
+        AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
     })
 }
 

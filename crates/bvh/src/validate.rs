@@ -33,7 +33,7 @@ pub struct Shape {
 #[non_exhaustive]
 pub enum Fault {
     /// A child is no node or run of records.
-    #[error("node {node}: child {reference:#010x} names neither a node nor records")]
+    #[error("node {node}: child {reference:#010x} points to neither a node nor records")]
     Dangling {
         /// The node.
         node: u32,

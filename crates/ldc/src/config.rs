@@ -151,10 +151,10 @@ impl Config {
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         if !(1..=8192).contains(&self.resolution) {
-            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells a side");
+            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells along a side");
         }
         if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
-            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells a side");
+            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells along a side");
         }
         if !(1..=2).contains(&self.levels) {
             return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");

@@ -131,8 +131,8 @@ const COLUMNS: &[Column] = &[
         cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
     },
     Column {
-        heading: "rays judged",
-        meaning: "unambiguous rays that the oracle judged",
+        heading: "rays compared",
+        meaning: "unambiguous rays that the oracle compared",
         cell: |run| count(accuracy(run, |hits| hits.rays.checked_sub(hits.ambiguous))),
     },
     Column {

@@ -224,10 +224,10 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
-        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels a side")?;
-        range("samples", self.samples, 1, 64, "1 to 64 steps a voxel")?;
-        range("page", self.page, 1, 8, "1 to 8 fragments a page")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
+        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels along a side")?;
+        range("samples", self.samples, 1, 64, "1 to 64 steps per voxel")?;
+        range("page", self.page, 1, 8, "1 to 8 fragments per page")?;
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")?;
         if self.accept == Accept::Plane && self.march == March::Samples {

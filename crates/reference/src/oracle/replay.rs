@@ -158,7 +158,7 @@ impl fmt::Display for TestClass {
             Self::Behind => "behind a certain hit",
             Self::Excluded => "excluded by the ray",
             Self::Transparent => "transparent",
-            Self::Beside => "passed beside",
+            Self::Beside => "passed outside",
         })
     }
 }
@@ -183,7 +183,7 @@ impl fmt::Display for TestedTriangle {
 impl fmt::Display for OracleReplay {
     /// Nodes, tested triangles, the answer; one line each.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "oracle: {} nodes, {} triangles passed beside", self.nodes.len(), self.beside)?;
+        writeln!(f, "oracle: {} nodes, {} triangles passed outside", self.nodes.len(), self.beside)?;
         for VisitedNode { node, t, triangles } in &self.nodes {
             match triangles {
                 0 => writeln!(f, "  node {node}, t from {t}")?,
