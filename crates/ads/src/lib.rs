@@ -70,5 +70,3 @@ pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMIT
 pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
 /// A draw whose triangles are alpha-masked.
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
-/// A draw that does not move.
-pub const DRAW_STATIC: u32 = rasray_shaders_glsl::constants::contract::DRAW_STATIC;
