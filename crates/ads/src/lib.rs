@@ -1,5 +1,5 @@
 //! What all acceleration data structures of rasray share: the contract, geometry, ray queues and the
-//! kernels that trace them, and a brute-force structure that every other one is judged against.
+//! kernels that trace them, and a brute-force structure that every other one is compared with.
 //!
 //! # The contract
 //! A [`Structure`] owns three things: how it is built from a [`Geometry`], how rays are traced through
