@@ -1,6 +1,6 @@
 // What: the A-buffer's pools, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, nodes, data, near list, scratch, fringe. Every access checks the capacity.
+// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, fringe. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
@@ -60,7 +60,7 @@ const bool ABUFFER_HAS_FAR_END = ABUFFER_DOUBLY || ABUFFER_CONTIGUOUS;
 const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 
 // Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the
-// head of its fringe.
+// head of its conservative list.
 const uint ABUFFER_BOUNDS_STRIDE = (ABUFFER_HAS_ENDS ? 2u : 0u)
     + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_FRINGE ? 1u : 0u);
 
@@ -110,7 +110,7 @@ void abuffer_widen_far(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE + 1u], floatBitsToUint(z));
 }
 
-// The smallest depth of a cell. False where nothing has been met.
+// The smallest depth of a cell. False where nothing has been found.
 bool abuffer_z_min(AbufferRef s, uint cell, out float z_min) {
     uint word = ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE];
     z_min = uintBitsToFloat(~word);
@@ -125,7 +125,7 @@ void abuffer_widen_extent(AbufferRef s, uint cell, float extent) {
     }
 }
 
-// Stores the scale of a cell's buckets beside its bounds.
+// Stores the scale of a cell's buckets next to its bounds.
 void abuffer_store_scale(AbufferRef s, uint cell) {
     uint word = cell * ABUFFER_BOUNDS_STRIDE;
     uint z_max = ABUFFER_BOUNDS(s)[word + 1u];
@@ -134,7 +134,7 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
-// Sets of marks of triangles: those that have a fragment, and where that decides what the fringe keeps, those
+// Sets of marks of triangles: those that have a fragment, and where that decides what conservative lists keep, those
 // that it does.
 uint abuffer_mark_sets() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;

@@ -18,7 +18,7 @@ uvec4 abuffer_pack_attributes(uint primitive, vec2 barycentrics) {
     return uvec4(stored_pack(s), stored_pack_terms(s), packUnorm2x16(vec2(s.ior / 4.0, thickness)));
 }
 
-// The surface of a fragment that does not emit and that a ray meets at t, known within `position_error` metres.
+// The surface of a fragment that does not emit and that a ray hits at t, known within `position_error` metres.
 Surface abuffer_attributes_surface(uvec4 words, Ray ray, float t, float position_error) {
     Surface s = stored_surface(words.xy, ray, t, position_error);
     vec2 volume = unpackUnorm2x16(words.w);

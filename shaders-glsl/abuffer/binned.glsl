@@ -10,7 +10,7 @@
 #include "abuffer/visit_fringe.glsl"
 #endif
 
-// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define PairRef AbufferRef
 #define PAIR_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + place]
 #define PAIR_HEADER(s) ABUFFER_HEADER(s)

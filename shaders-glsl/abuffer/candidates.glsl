@@ -1,4 +1,4 @@
-// What: judges one candidate that a cell lists by itself: a triangle, or the stored plane of a fragment.
+// What: tests one candidate that a cell lists by itself: a triangle, or the stored plane of a fragment.
 // Reads: nodes, data, geometry (of triangles). Writes: nothing.
 #ifndef ABUFFER_CANDIDATES_GLSL
 #define ABUFFER_CANDIDATES_GLSL
@@ -15,7 +15,7 @@ bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
 }
 
-// Judges a fragment that a ray meets at t, where its depth is z, logs it, and lets it replace the best hit if it may.
+// Tests a fragment that a ray hits at t, where its depth is z, logs it, and lets it replace the best hit if it may.
 void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, float z, float t, inout Hit best) {
     bool better;
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX) {
@@ -37,7 +37,7 @@ void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, floa
     }
 }
 
-// Judges the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
+// Tests the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
 // it may. Rays that leave a surface begin a cell off it, so that they need not be told from others. The
 // caller counts the test.
 void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {

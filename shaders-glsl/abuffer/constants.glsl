@@ -8,7 +8,7 @@
 #define ABUFFER_MARCH_DDA 2u
 #define ABUFFER_MARCH_PYRAMID 3u
 
-// How a ray steps, as modules tell it apart: from cell to cell, with leaps over blocks of them, or by samples.
+// How a ray steps, as modules tell it apart: from cell to cell, skipping blocks of them, or by samples.
 #define ABUFFER_STEP_CELLS 0u
 #define ABUFFER_STEP_LEAPS 1u
 #define ABUFFER_STEP_SAMPLES 2u
@@ -37,7 +37,7 @@
 #define ABUFFER_PAYLOAD_NORMAL 2u
 #define ABUFFER_PAYLOAD_PLANE 3u
 
-// Who decides that a cell is covered; conservative: exact, and triangles that reach into a cell beside its
+// What decides that a cell is covered; conservative: exact, and triangles that reach into a cell outside of its
 // centre are kept, so that triangles can be tested in place of planes; edge-on: of these only such as no cell
 // keeps or as are seen edge-on.
 #define ABUFFER_COVERAGE_HARDWARE 0u

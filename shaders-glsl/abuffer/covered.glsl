@@ -19,7 +19,7 @@ bool abuffer_overlaps(AbufferRef s, vec3 a, vec3 b, vec3 c, ivec2 place, uint re
     return overlap_at(abuffer_near_size(s), overlap_begin(a, b, c), coverage_center(place, resolution), half_side, depths);
 }
 
-// Whether a cell keeps a fragment there: where triangles are tested, masks are looked up at the hit.
+// Whether a cell keeps a fragment there: where triangles are tested, masks are evaluated at the hit.
 bool abuffer_keeps(uint primitive, CellCoverage coverage) {
     return ABUFFER_CONSERVATIVE || alpha_accepts(primitive, coverage.barycentrics);
 }

@@ -1,4 +1,4 @@
-// What: the fringe of an A-buffer's cells: where it is.
+// What: the conservative lists of an A-buffer's cells: where they are.
 // Reads, writes: bounds (heads), fringe, header.fringe_demand, header.corrupted.
 // Source: not in the paper; see ads/fringe.glsl.
 #ifndef ABUFFER_FRINGE_GLSL
@@ -11,7 +11,7 @@ uint abuffer_fringe_word(uint cell) {
     return (cell + 1u) * ABUFFER_BOUNDS_STRIDE - 1u;
 }
 
-// The first link of a cell's fringe.
+// The first link of a cell's conservative list.
 uint abuffer_fringe_head(AbufferRef s, uint cell) {
     return ABUFFER_HAS_FRINGE && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_fringe_word(cell)] : 0u;
 }

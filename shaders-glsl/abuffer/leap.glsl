@@ -1,8 +1,8 @@
-// What: leaps of the exact march over blocks of cells that hold nothing at a ray's depths.
+// What: how the exact march skips blocks of cells that hold nothing at a ray's depths.
 // Reads: header, bounds. Writes: nothing.
-// Source: not in the paper; DIRT section 4.2.1 leaps over tiles.
+// Source: not in the paper; DIRT section 4.2.1 skips tiles.
 // What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be
-// the same, with the same stays, with leaps and without. Left out are only cells whose fragments the search
+// the same, with the same stays, with skipping and without. Left out are only cells whose fragments the search
 // would refuse one by one.
 #ifndef ABUFFER_LEAP_GLSL
 #define ABUFFER_LEAP_GLSL
@@ -19,8 +19,8 @@ vec2 abuffer_leap_depths(float origin_z, float direction_z, float t_low, float t
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }
 
-// Passes by the cell that a walk has come to, and all in the largest block around it that it may. False where
-// the cell must be searched; else `more` says whether the walk goes on. Each level that is looked at is a
+// Skips the cell that a traversal is at, and all in the largest block around it that it may. False where
+// the cell must be searched; else `more` says whether the traversal goes on. Each level that is tested is a
 // unit of work; a view has at most 14.
 bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, float best, inout uint work, out bool more) {
     more = true;
@@ -38,7 +38,7 @@ bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, fl
     while (true) {
         work++;
         MarchLeap over = march_leap_over_block(walk.cells, level.level);
-        // Without leaps the walk ends at the first cell that begins behind the best hit.
+        // Without skipping the traversal ends at the first cell that begins behind the best hit.
         if ((over.step_x || over.step_y) && over.t_out > best) {
             break;
         }
@@ -72,7 +72,7 @@ bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, fl
             return true;
         }
     }
-    // On to the next cell, as without leaps.
+    // On to the next cell, as without skipping.
     if (!(walk.cells.t_out + walk.cells.error_out <= leap.t_out + slack)) {
         return false;
     }

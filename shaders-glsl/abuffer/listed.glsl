@@ -1,6 +1,6 @@
-// What: tests the triangles that are listed by themselves, one by one: those of the near box, those of a cell's fringe,
-// or all.
-// Reads: near list, fringe, geometry. Writes: header.corrupted.
+// What: tests the triangles that are listed by themselves, one by one: those of the near region, those of a cell's
+// conservative list, or all.
+// Reads: near-region list, fringe, geometry. Writes: header.corrupted.
 // Source: not in the paper, which keeps fragments alone.
 #ifndef ABUFFER_LISTED_GLSL
 #define ABUFFER_LISTED_GLSL
@@ -18,8 +18,8 @@
 #define ABUFFER_LISTED_FRINGE 1u
 #define ABUFFER_LISTED_ALL 2u
 
-// Tests those of the fringe of the cell that is searched, as far as the ray's depths there meet them, or those of the
-// walk's place on. Returns true if the work budget ended before.
+// Tests those of the conservative list of the cell that is searched, as far as their depths overlap the ray's
+// there, or those from the traversal's place on. Returns true if the work budget ended before.
 bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferWalk walk, inout AbufferSearch search,
     inout TraceState state, inout uint work) {
     bool in_fringe = ABUFFER_HAS_FRINGE && source == ABUFFER_LISTED_FRINGE;
@@ -31,7 +31,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferWalk w
         count = source == ABUFFER_LISTED_ALL ? geometry_triangle_count()
             : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
     }
-    // Triangles of a fringe count wherever they are hit, and so do all where nothing else is tested.
+    // Triangles of a conservative list count wherever they are hit, and so do all where nothing else is tested.
     bool anywhere = in_fringe || ABUFFER_CONSERVATIVE;
     float t_low = anywhere ? -ABUFFER_INFINITY : walk.segment.t_begin - walk.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : walk.segment.t_end + walk.segment.t_error;
@@ -48,7 +48,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferWalk w
             FringeNode node = fringe_node(s, search.link);
             search.link = node.next;
             primitive = node.primitive;
-            // Beside planes it is the stay in the cell that counts, with or without skipping.
+            // With planes it is the stay in the cell that counts, with or without skipping.
             bool meets = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || fringe_meets(node, depths.x, depths.y);
             if (primitive != PRIMITIVE_NONE && !meets) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);

@@ -151,7 +151,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     return link;
 }
 
-// Passes over what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
+// Skips what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
     cursor.link = ABUFFER_PAGED ? page_link_of_next(s, link) : 0u;
 }

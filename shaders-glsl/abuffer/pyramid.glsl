@@ -32,10 +32,10 @@ void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
     ABUFFER_BOUNDS(s)[word + 1u] = words.y;
 }
 
-// Triangles of a fringe that are looked at for their depths; a cell with more is never leapt over.
+// Triangles of a conservative list whose depths are evaluated; a cell with more is never skipped.
 #define ABUFFER_PYRAMID_FRINGE 1024u
 
-// The depths that the triangles of a cell's fringe have in it.
+// The depths that the triangles of a cell's conservative list have in it.
 uvec2 abuffer_pyramid_fringe(AbufferRef s, uint cell) {
     uvec2 words = uvec2(0u);
     uint link = abuffer_fringe_head(s, cell);

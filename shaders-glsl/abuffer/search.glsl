@@ -26,12 +26,12 @@ struct AbufferSearch {
     vec2 z;               // the ray's depths there, the nearest first
     float rounding;       // how far rounding may move them, metres
     uint bucket;
-    uint link;            // next node, of the bucket or of the fringe; 0: begin the bucket
+    uint link;            // next node, of the bucket or of the conservative list; 0: begin the bucket
     bool in_bucket;       // the bucket has been begun
-    bool in_fringe;       // the fringe has been begun
+    bool in_fringe;       // the conservative list has been begun
 };
 
-// Whether the depths that a fragment stands for meet those of the ray: [low, high] holds the depths looked for.
+// Whether the depths that a fragment stands for overlap those of the ray: [low, high] holds the depths looked for.
 bool abuffer_meets(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;

@@ -1,7 +1,7 @@
 // What: moves the begin of a sorted list towards the depths that are looked for, where the storage allows it.
 // Reads: lists, nodes. Writes: nothing.
 // Source: MMRT section 4, comparison of storages: long contiguous lists are searched by halves, and all
-// storages but singly linked lists are passed over where they end before the ray's depths begin.
+// storages but singly linked lists are skipped where they end before the ray's depths begin.
 #ifndef ABUFFER_SEEK_GLSL
 #define ABUFFER_SEEK_GLSL
 
@@ -40,7 +40,7 @@ uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, in
     return left < end ? left : 0u;
 }
 
-// Moves the begin of a sorted list. Only nodes outside [low, high] are passed over.
+// Moves the begin of a sorted list. Only nodes outside [low, high] are skipped.
 void abuffer_seek(AbufferRef s, uint list, float low, float high, inout AbufferCursor cursor, inout TraceState state,
     inout uint work) {
     // Where there are buckets, the cell's bounds have told already.

@@ -1,6 +1,6 @@
-// What: the stretches of a ray, one after the other: what the camera sees of it, then those in the faces of the cube.
+// What: the segments of a ray, one after the other: what the camera sees of it, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
-// Source: MMRT section 3.4. Every view that sees a stretch is marched and the nearest hit counts. The camera
+// Source: MMRT section 3.4. Every view that sees a segment is marched and the nearest hit counts. The camera
 // comes first: what it finds ends the faces early.
 #ifndef ABUFFER_SEGMENTS_GLSL
 #define ABUFFER_SEGMENTS_GLSL
@@ -9,21 +9,21 @@
 #include "ads/march_cube.glsl"
 #include "abuffer/views.glsl"
 
-// The camera's stretches before and behind the near box, the near box where no face cuts it out, and the faces.
+// The camera's segments before and behind the near region, the near region where no face cuts it out, and the faces.
 #define ABUFFER_STAGE_BEFORE 0u
 #define ABUFFER_STAGE_BEHIND 1u
 #define ABUFFER_STAGE_NEAR 2u
 #define ABUFFER_STAGE_FACES 3u
 
-// In place of the number of a view: whichever face the stretch begins in.
+// In place of the number of a view: whichever face the segment begins in.
 #define ABUFFER_IN_FACES 8u
 
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
-// How far the stretches of a ray have been followed.
+// How far the segments of a ray have been followed.
 struct AbufferStretch {
     uint stage;           // the next one
-    float t;              // where the next stretch in a face begins
+    float t;              // where the next segment in a face begins
 };
 
 AbufferStretch abuffer_stretch_begin(vec2 clip) {
@@ -53,7 +53,7 @@ vec2 abuffer_camera_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 cli
     return interval;
 }
 
-// The stretch of a stage before the faces; empty if x > y.
+// The segment of a stage before the faces; empty if x > y.
 vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, uint stage) {
     bool has_near = near.x <= near.y;
     if (stage == ABUFFER_STAGE_NEAR) {
@@ -69,8 +69,8 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
     return interval;
 }
 
-// The next stretch that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
-// face is still to be found and the stretch ends with it; false where none is left.
+// The next segment that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
+// face is still to be found and the segment ends with it; false where none is left.
 bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
     inout AbufferStretch stretch, out vec2 ends, out uint view) {
     view = ABUFFER_IN_FACES;
@@ -91,7 +91,7 @@ bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, 
     return true;
 }
 
-// The stretch of these ends in that view.
+// The segment of these ends in that view.
 Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferStretch stretch) {
     Segment segment = segment_at(origin, direction, ends.x, ends.y, near);
     if (view == ABUFFER_IN_FACES) {

@@ -3,7 +3,7 @@
 // Source: not in the paper, whose fragments have one depth or a fixed thickness. With the slopes z_x and z_y
 // of the triangle's plane, in depth a cell, a fragment of depth z stands for the depths
 //   z - (|z_x| + |z_y|) / 2  to  z + (|z_x| + |z_y|) / 2
-// and for none that the triangle does not have: then a ray that crosses the plane within the cell meets it.
+// and for none that the triangle does not have: then a ray that crosses the plane within the cell hits it.
 #ifndef ABUFFER_SLOPE_GLSL
 #define ABUFFER_SLOPE_GLSL
 

@@ -1,7 +1,7 @@
 // What: the plane of a fragment's triangle in full as its payload: hits lie on it, and nothing else of the
-// triangle is asked for.
+// triangle is read.
 // Reads: geometry, when packing. Writes: nothing.
-// Source: not in the paper; what plane acceptance needs of a triangle, stored beside the fragment.
+// Source: not in the paper; what plane acceptance needs of a triangle, stored next to the fragment.
 // Words 0 to 2: unit normal. Word 3: distance of the plane from the eye along it, metres. Both as floats.
 #ifndef ABUFFER_STORED_PLANE_GLSL
 #define ABUFFER_STORED_PLANE_GLSL
@@ -29,7 +29,7 @@ uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
     return uvec4(floatBitsToUint(unit), floatBitsToUint(offset));
 }
 
-// Where a ray meets a plane; `origin` relative to the eye. False where it runs along the plane.
+// Where a ray intersects a plane; `origin` relative to the eye. False where it runs along the plane.
 bool abuffer_meets_plane(uvec4 words, vec3 origin, vec3 direction, out float t) {
     vec3 normal = uintBitsToFloat(words.xyz);
     precise float speed = dot(normal, direction);

@@ -66,7 +66,7 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
                 work++;
                 state.cells++;
                 trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
-                // A search that was begun goes on: leaps only pass by cells that have not been.
+                // A search that was begun goes on: only cells whose search has not begun are skipped.
                 if (ABUFFER_STEP == ABUFFER_STEP_LEAPS && !searching
                     && abuffer_leap(s, walk, search, state.best.t + slack, work, more)) {
                     continue;

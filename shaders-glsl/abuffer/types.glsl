@@ -43,7 +43,7 @@ const uint ABUFFER_TEST = ABUFFER_COVERAGE == ABUFFER_COVERAGE_CONSERVATIVE ? AB
 // Whether cells keep every triangle that reaches into them. Then triangles are tested, not planes, and no hit is lost.
 const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
-// Whether cells keep triangles beside their centres.
+// Whether cells keep triangles outside of their centres.
 const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
 const bool ABUFFER_HAS_FRINGE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
@@ -57,21 +57,21 @@ const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 // State and sizes of one A-buffer. 232 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
+    uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
     uint capacity;        // fragments or pages the pools hold
-    uint near_demand;     // triangles that meet the near box
+    uint near_demand;     // Triangles that intersect the near region
     uint near_capacity;
     uint unsorted;        // lists longer than the reorder passes sort
-    uint corrupted;       // list entries that named no node
-    uint resolution;      // cells a side of a face, border not counted
-    uint samples;         // marching samples a face, ABUFFER_MARCH_SAMPLES only
+    uint corrupted;       // list entries that point to no node
+    uint resolution;      // cells along a side of a face, border not counted
+    uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
     float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
-    float near_size;      // metres: half side of the near box
+    float near_size;      // metres: half side of the near region
     uint long_demand;     // lists too long for the first reorder pass
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
     uint long_capacity;
     vec3 lower;           // bounds of the geometry relative to the eye, metres
-    uint fragments;       // met by the build, ABUFFER_STORAGE_PAGED only
+    uint fragments;       // found by the build, ABUFFER_STORAGE_PAGED only
     vec3 upper;
     uint camera_cells;    // columns of the camera's view, border not counted, and from bit 16 on rows
     vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into the middle of |x| <= z, |y| <= z
@@ -79,10 +79,10 @@ struct AbufferHeader {
     vec3 camera_z;
     uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // of the geometry that there are marks for
-    uint fringe_demand;   // triangles kept beside centres
+    uint fringe_demand;   // triangles kept outside of centres
     uint fringe_capacity;
     float reach;          // metres: largest coordinate of the geometry relative to the eye
-    float rounding;       // metres: how far rounding moves a triangle against a ray; of coverages with a fringe
+    float rounding;       // metres: how far rounding moves a triangle against a ray; with conservative lists
     uint pairs;           // triangles with many cells of a view, binning only
     uint pair_capacity;
     uint groups[3];       // workgroups for them

@@ -14,7 +14,7 @@ ivec2 abuffer_camera_cells(AbufferRef s) {
     return ivec2(cells & 0xFFFFu, cells >> 16);
 }
 
-// Cells a side of the square around a view, border not counted.
+// Cells along a side of the square around a view, border not counted.
 uint abuffer_resolution(AbufferRef s, uint view) {
     ivec2 cells = abuffer_camera_cells(s);
     return view == ABUFFER_CAMERA ? uint(max(cells.x, cells.y)) : ABUFFER_HEADER(s).resolution;

@@ -13,7 +13,7 @@
 #endif
 
 // How much farther than the nearest a fragment may be that counts as of the same layer, as a share of its
-// depth: a few roundings, by which triangles that meet in a centre differ there. All passes find the same
+// depth: a few roundings, by which triangles that touch in a centre differ there. All passes find the same
 // depths, but for the hardware's, which may differ as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
@@ -80,7 +80,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     if (ABUFFER_SINGLE_LAYER != 0u) {
         float z_min;
         if (!abuffer_z_min(abuffer_built, cell, z_min)) {
-            // The bounds pass met nothing here, so passes disagree.
+            // The bounds pass found nothing here, so passes disagree.
             atomicAdd(ABUFFER_HEADER(abuffer_built).corrupted, 1u);
             return;
         }

@@ -14,7 +14,7 @@ bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     return !(abs(normal.x) + abs(normal.y) <= ABUFFER_EDGE_ON_SLOPE * facing);
 }
 
-// Whether the fringe keeps a triangle that reaches into a cell beside its centre.
+// Whether the conservative list keeps a triangle that reaches into a cell outside of its centre.
 bool abuffer_fringe_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     return ABUFFER_CONSERVATIVE || !abuffer_is_marked(abuffer_built, primitive)
         || abuffer_is_edge_on(a, b, c, place, resolution);

@@ -1,7 +1,7 @@
 // What: where a ray stands on its way through the cells of a view, and how that is kept between two dispatches.
 // Reads: header. Writes: nothing.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list,
-// 7 the cell being searched, or the sample, or the place in the near list.
+// 7 the cell being searched, or the sample, or the place in the near-region list.
 #ifndef ABUFFER_WALK_GLSL
 #define ABUFFER_WALK_GLSL
 
@@ -14,7 +14,7 @@
 #define ABUFFER_CURSOR_SEARCHING 2u
 #define ABUFFER_CURSOR_IN_FRINGE 0x8000u
 
-// A ray within one view or the near box.
+// A ray within one view or the near region.
 struct AbufferWalk {
     Segment segment;
     AbufferStretch stretch;
@@ -24,17 +24,17 @@ struct AbufferWalk {
     SampleMarch samples;
     bool came;            // to a cell whose way out is still to be found
     bool resumed;         // in that cell, with some of its neighbours
-    uint place;           // sample, or entry of the near list
+    uint place;           // sample, or entry of the near-region list
     ivec2 searched;       // the cell being searched
 };
 
-// The walk has come to the cell of its march.
+// The traversal is at the cell of its march.
 void abuffer_come_to(inout AbufferWalk walk) {
     walk.searched = walk.cells.cell;
     walk.came = true;
 }
 
-// Finds the way out of a cell that a walk has come to.
+// Finds the way out of the cell that a traversal is at.
 void abuffer_find_exit(inout AbufferWalk walk) {
     if (!ABUFFER_FOLLOWS_CELLS || !walk.came) {
         return;
@@ -80,7 +80,7 @@ void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout 
         ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
 }
 
-// The stretch that a ray was in.
+// The segment that a ray was in.
 void abuffer_restore_stretch(TraceState state, vec2 clip, out AbufferStretch stretch, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
     view = (flags >> 2) & 7u;
@@ -90,7 +90,7 @@ void abuffer_restore_stretch(TraceState state, vec2 clip, out AbufferStretch str
     stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? ends.y : clip.x);
 }
 
-// Where the ray was in that stretch, whose walk has been begun.
+// Where the ray was in that segment, whose traversal has been begun.
 void abuffer_restore(TraceState state, inout AbufferWalk walk, out AbufferSearch search) {
     uint flags = state.cursor[0];
     walk.place = state.cursor[7];
@@ -109,7 +109,7 @@ void abuffer_restore(TraceState state, inout AbufferWalk walk, out AbufferSearch
     search.link = state.cursor[6];
 }
 
-// Prepares the search of the cell the walk is at; `begun` where it goes on.
+// Prepares the search of the cell the traversal is at; `begun` where it goes on.
 void abuffer_begin_search(AbufferRef s, bool begun, inout AbufferWalk walk, inout AbufferSearch search) {
     if (!begun) {
         search.in_bucket = false;

@@ -1,4 +1,5 @@
-// What: triangles with many cells of a view, which binning builders leave to a pass with workgroups for each.
+// What: triangles with many cells of a view, the large-triangle queue of binning builders, whose pass
+// has workgroups for each.
 // The including file says where they are kept: PairRef, PAIR_HEADER(s) with pairs and groups, PAIR_WORD(s,
 // place), PAIR_CAPACITY(s).
 // Reads, writes: pairs, header.pairs, header.groups.

@@ -1,4 +1,4 @@
-// What: where a ray lies within the bounds of the geometry, and how far rounding moves what it meets there.
+// What: where a ray lies within the bounds of the geometry, and how far rounding moves what it hits there.
 // Reads, writes: nothing.
 #ifndef ADS_BOUNDS_INTERVAL_GLSL
 #define ADS_BOUNDS_INTERVAL_GLSL

@@ -1,5 +1,5 @@
 // What: goes through the cells of each triangle in each view and does there what BIN_VISIT says; one
-// invocation a triangle. Those with many cells of a view are left to the pass for many.
+// invocation per triangle. Those with many cells of a view are in the large-triangle queue, for the pass for many.
 // Reads, writes: see the structure's binned.glsl; BIN_VISIT_PAIRS writes pairs, header.pairs, header.groups.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,4 +1,4 @@
-// What: the fringe of a cell: triangles that reach into it and have no fragment there, in a linked list of
+// What: the conservative list of a cell: triangles that reach into it and have no fragment there, in a linked list of
 // their own. Links are node number + 1; 0 ends a list. Included once for each structure that has one: its
 // reference type tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:

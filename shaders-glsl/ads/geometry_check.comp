@@ -1,5 +1,5 @@
-// What: counts the triangles that reach out of the bounds their geometry states, or name a vertex that there is not: one
-// invocation a triangle. Structures place cells by the bounds, so such triangles would be lost without a word.
+// What: counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
+// exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without a word.
 // Reads: positions and indices of GEOMETRY_SET. Writes: its header's count, which the host cleared before.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,10 +1,10 @@
-// What: tests triangles one by one: those of the near list, or all. Included once for each structure that does: its
-// reference type tells the functions apart.
+// What: tests triangles one by one: those of the near-region list, or all. Included once for each structure that
+// does: its reference type tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
 //   ListedRef             the type that names the structure
 //   LISTED_HEADER(s)      has near_demand and near_capacity
-//   LISTED_NEAR(s)        words of the near list
-// Source: ours: where no cell can be trusted, every triangle that may be met is tested.
+//   LISTED_NEAR(s)        words of the near-region list
+// Source: ours: where no cell can be trusted, every triangle that may be hit is tested.
 
 #include "ads/judge.glsl"
 

@@ -1,6 +1,6 @@
-// What: walks the cells of one face that a ray crosses, by t, in closed form per boundary plane.
+// What: traverses the cells of one face that a ray crosses, by t, in closed form per boundary plane.
 // Reads, writes: nothing.
-// The boundary x/z = c is met at t = (c*Oz - Ox) / (Dx - c*Dz); the direction of steps is fixed by the
+// The ray intersects the boundary x/z = c at t = (c*Oz - Ox) / (Dx - c*Dz); the direction of steps is fixed by the
 // sign of Dx*Oz - Ox*Dz. Nothing is accumulated and no point is projected again, so steps are integers
 // and their number is bounded by the resolution. Where the ray passes a boundary within rounding, the
 // cells on the other side are visited as well: the visited cells are a superset of the exact ones.

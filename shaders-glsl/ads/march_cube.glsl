@@ -1,8 +1,8 @@
-// What: cuts a ray into the segments it spends in the six faces' pyramids and in the near box.
+// What: cuts a ray into the segments it spends in the six faces' pyramids and in the near region.
 // Reads, writes: nothing.
 // The pyramids of the dominant axis partition space exactly; a ray changes pyramid only where two
 // coordinates are equal in magnitude, so there are at most seven segments. Around the eye, where
-// rounding no longer tells pyramids apart, a near box is cut out and its triangles are tested one by
+// rounding no longer tells pyramids apart, a near region is cut out and its triangles are tested one by
 // one.
 #ifndef ADS_MARCH_CUBE_GLSL
 #define ADS_MARCH_CUBE_GLSL

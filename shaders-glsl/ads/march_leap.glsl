@@ -1,8 +1,8 @@
-// What: goes over a block of cells at once, from the cell of a walk to the one behind the block.
+// What: skips a block of cells at once, from the cell of a traversal to the one behind the block.
 // Reads, writes: nothing.
 // As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index
-// exactly. The other index is found from the point there, as at the begin of a walk, with all cells that the
-// point touches within rounding; or the leap is left where it touches any, for structures whose hits depend
+// exactly. The other index is found from the point there, as at the start of a traversal, with all cells that the
+// point touches within rounding; or the block is not skipped where it touches any, for structures whose hits depend
 // on the cell in which a ray is.
 #ifndef ADS_MARCH_LEAP_GLSL
 #define ADS_MARCH_LEAP_GLSL

@@ -1,14 +1,14 @@
 // What: a pyramid of depth bounds over the cells of views: blocks of 2x2, 4x4 ... cells, level behind level
-// in the words of a pool, up to one block a view. The pass that builds it includes structure/pyramid.glsl, which defines,
-// with the structure's prefix,
+// in the words of a pool, up to one block per view. The pass that builds it includes structure/pyramid.glsl, which
+// defines, with the structure's prefix,
 //   PyramidLevel x_pyramid_first(XRef s, uint view)            level 1 of the views that are drawn with `view`, the first of them
-//   uint x_pyramid_cells(XRef s, uint view)                    cells a side of those, border included
+//   uint x_pyramid_cells(XRef s, uint view)                    cells along a side of those, border included
 //   uvec2 x_pyramid_cell(XRef s, uint view, ivec2 cell)        words of a cell
 //   uvec2 x_pyramid_read(XRef s, uint word)                    words of a block
 //   void x_pyramid_write(XRef s, uint word, uvec2 words)
 // Reads, writes: nothing.
 // Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so
-// that a leap passes by no cell that the march would have touched within rounding.
+// that skipping passes by no cell that the march would have touched within rounding.
 #ifndef ADS_PYRAMID_GLSL
 #define ADS_PYRAMID_GLSL
 

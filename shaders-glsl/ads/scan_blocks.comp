@@ -1,5 +1,5 @@
 // What: replaces each number by the sum of those before it in its block of SCAN_BLOCK, and adds blocks up.
-// Reads: numbers. Writes: numbers, sums. One workgroup a block.
+// Reads: numbers. Writes: numbers, sums. One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"

@@ -1,5 +1,5 @@
 // What: adds to each number the sum of all blocks before its own.
-// Reads: sums. Writes: numbers. One workgroup a block.
+// Reads: sums. Writes: numbers. One workgroup per block.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"

@@ -1,6 +1,6 @@
-// What: traces every ray through two structures in one shader and files both answers, for tests. FIRST and
+// What: traces every ray through two structures in one shader and stores both answers, for tests. FIRST and
 // SECOND name their folders.
-// Reads: geometry, both structures, rays. Writes: hits (two a ray).
+// Reads: geometry, both structures, rays. Writes: hits (two per ray).
 #version 460
 #include "contract/extensions.glsl"
 

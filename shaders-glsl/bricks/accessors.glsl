@@ -1,6 +1,6 @@
 // What: the pools of bricks, and the only place that knows how they are reached: through the descriptors of
 // STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bricks, lists, entries, sums or distances, near list, records, triangles; lists hold where the
+// Reads, writes: header, bricks, lists, entries, sums or distances, near-region list, records, triangles; lists hold where the
 // list of each cell that has one ends.
 #ifndef BRICKS_ACCESSORS_GLSL
 #define BRICKS_ACCESSORS_GLSL
@@ -112,7 +112,7 @@ void brick_mark(BrickRef s, BrickRecord record) {
     }
 }
 
-// Stores a record and marks its cells, or counts that there was no room for it.
+// Stores a record and marks its cells, or counts that the capacity did not suffice.
 void brick_store_record(BrickRef s, BrickRecord record) {
     uint place = atomicAdd(BRICK_HEADER(s).record_demand, 1u);
     if (place < BRICK_HEADER(s).record_capacity) {

@@ -13,7 +13,7 @@
 struct BrickAxes {
     vec3 lower;           // metres: corner of the first cell
     vec3 per_metre;       // cells
-    float rounding;       // metres: how far a ray may be from a triangle that it meets, by rounding of the test and the march
+    float rounding;       // metres: how far a ray may be from a triangle that it hits, by rounding of test and march
 };
 
 // A ray, in cells.
@@ -31,7 +31,7 @@ BrickLine brick_line(BrickAxes axes, vec3 origin, vec3 direction) {
     return line;
 }
 
-// t at which each of three planes is met: below column planes.x, row planes.y, slice planes.z.
+// t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice planes.z.
 vec3 brick_line_exits(BrickLine line, ivec3 planes) {
     vec3 t = (vec3(planes) - line.origin) * line.inverse;
     return mix(t, vec3(uintBitsToFloat(0x7F800000u)), equal(line.inverse, vec3(0.0)));

@@ -73,7 +73,7 @@ bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
     if (!overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), widest, depths)) {
         return false;
     }
-    // The margin is that of the depth at which the triangle is met there, not of its nearest corner.
+    // The margin is that of the depth at which the ray hits the triangle there, not of its nearest corner.
     precise float narrow = half_side + brick_margin(bin.space.grid, depths.x);
     return widest - narrow < 0.125 * half_side || overlap_at(bin.space.grid.near_size, bin.overlap, vec3(place, 1.0), narrow, depths);
 }

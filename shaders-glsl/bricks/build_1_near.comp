@@ -1,7 +1,7 @@
-// What: lists the triangles that meet the near box, where the faces cannot be told apart, and counts triangles by the
+// What: lists the triangles that intersect the near region, where the faces cannot be told apart, and counts triangles by the
 // octave of depth in which they begin. Views of a cube only.
-// Reads: geometry, header. Writes: near list, header.near_demand, header.octaves.
-// Source: none; see docs/core.md for the near box.
+// Reads: geometry, header. Writes: near-region list, header.near_demand, header.octaves.
+// Source: none; see docs/core.md for the near region.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_triangle.glsl"

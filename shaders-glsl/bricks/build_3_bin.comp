@@ -1,4 +1,4 @@
-// What: stores each triangle in the columns of each face that it reaches into; one invocation a triangle.
+// What: stores each triangle in the columns of each face that it reaches into; one invocation per triangle.
 // Those with many columns of a face are left to the next pass.
 // Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs,
 // header.pairs, header.groups.

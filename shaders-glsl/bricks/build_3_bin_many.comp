@@ -1,4 +1,4 @@
-// What: stores triangles that may reach into many columns; one workgroup a triangle and face, blocks of
+// What: stores triangles that may reach into many columns; one workgroup per triangle and face, blocks of
 // columns by turns.
 // Reads: geometry, header, pairs. Writes: records, bricks (masks), header.record_demand, header.demand.
 // Source: DIRT section 3.2, by computing instead of drawing.

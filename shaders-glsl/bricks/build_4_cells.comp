@@ -1,4 +1,4 @@
-// What: how many cells of each brick list something, for the scan that follows; one invocation a brick.
+// What: how many cells of each brick list something, for the scan that follows; one invocation per brick.
 // Reads: bricks (masks). Writes: bricks.
 // Source: not in the paper; count, scan, fill.
 #version 460

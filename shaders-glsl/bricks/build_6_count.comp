@@ -1,4 +1,4 @@
-// What: the length of each cell's list; one invocation a record.
+// What: the length of each cell's list; one invocation per record.
 // Reads: records, bricks. Writes: lists.
 // Source: not in the paper, whose lists are linked; count, scan, fill.
 #version 460

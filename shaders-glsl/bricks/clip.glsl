@@ -2,7 +2,7 @@
 // This function decides for every builder; it may accept more than is exact, never less.
 // Reads, writes: nothing.
 // What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices
-// between its ends are all met: one view lists exactly the cells that a triangle reaches into, however steep
+// between its ends are all hit: one view lists exactly the cells that a triangle reaches into, however steep
 // it stands. The ends lie at edges of the triangle within the square, or at corners of the square within the
 // triangle.
 #ifndef BRICKS_CLIP_GLSL

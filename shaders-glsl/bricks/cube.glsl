@@ -1,5 +1,5 @@
 // What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
-// meet in the centre, slices are parallel. bricks/axes.glsl has those of a view along an axis.
+// touch in the centre, slices are parallel. bricks/axes.glsl has those of a view along an axis.
 // Reads, writes: nothing.
 // Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is
 // right to 96 u R metres and to 32 u in x/z; cells list what lies within that.
@@ -15,7 +15,7 @@
 struct BrickRay {
     vec3 origin;          // face space, metres from the centre
     vec3 direction;
-    vec3 heading;         // in which order cells are met along each axis: 1, -1, or 0 where x/z never changes
+    vec3 heading;         // in which order cells are visited along each axis: 1, -1, or 0 where x/z never changes
     vec2 still;           // x/z and y/z, used where the heading is 0
     float z_inverse;      // of the direction's z
 };
@@ -42,7 +42,7 @@ float brick_crossing(float c, float o, float d, float oz, float dz, float headin
     return denominator * heading > 0.0 ? (c * oz - o) / denominator : BRICK_INFINITY;
 }
 
-// t at which each of three planes is met: below column planes.x, row planes.y, slice planes.z.
+// t at which the ray intersects each of three planes: below column planes.x, row planes.y, slice planes.z.
 vec3 brick_exits(BrickRay ray, ivec3 planes, float column, BrickSlices slices) {
     vec2 c = vec2(planes.xy) * column - 1.0;
     float tz = planes.z > 0 && planes.z < slices.count && ray.z_inverse != 0.0
@@ -51,7 +51,7 @@ vec3 brick_exits(BrickRay ray, ivec3 planes, float column, BrickSlices slices) {
         brick_crossing(c.y, ray.origin.y, ray.direction.y, ray.origin.z, ray.direction.z, ray.heading.y), tz);
 }
 
-// The cell that the ray is in at t. Where rounding does not tell, the column and row that are met first: a boundary
+// The cell that the ray is in at t. Where rounding does not tell, the column and row that are visited first: a boundary
 // behind the ray is crossed at once, but one that is never crossed could not be stepped back over.
 ivec3 brick_cell_at(BrickRay ray, float t, float half_side, float rounding, BrickSlices slices) {
     vec3 p = ray.origin + t * ray.direction;

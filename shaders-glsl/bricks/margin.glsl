@@ -18,7 +18,7 @@ BrickGrid brick_grid(BrickRef s) {
 }
 
 // How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor
-// that of the march takes a ray past a triangle it meets.
+// that of the march takes a ray past a triangle it hits.
 float brick_margin(BrickGrid grid, float depth) {
     precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;
     return margin;

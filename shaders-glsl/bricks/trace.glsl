@@ -2,7 +2,7 @@
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
 // between them, and bricks/axes.glsl those of views along axes (BRICK_VIEWS), which have one view and
-// no near box. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
+// no near region. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
 // axis of that exit gets the next index exactly, the others are found from the point there and kept between
 // where they were and the end of what was empty. So indices only go forwards, and a cell is missed by no more
 // than rounding, which what it lists allows for.
@@ -33,8 +33,8 @@
 // The list of the cell has not been begun.
 #define BRICK_LIST_BEGIN 0xFFFFFFFFu
 
-// Follows the ray from `t` to `t_last`, over the near box if it meets that. `resumed`: as the cursor says. True if the
-// budget ended first.
+// Follows the ray from `t` to `t_last`, over the near region if it crosses that. `resumed`: as the cursor says.
+// True if the budget ended first.
 bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
     bool resumed, inout TraceState state, inout uint work) {
     BrickWalk walk;
@@ -50,7 +50,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     t_last = min(t_last, 3.0e38);
     bool crosses_near = near.x <= near.y && near.y < t_last;
     if (near.x <= near.y && !crosses_near) {
-        // A ray that ends in the near box needs no cell of it.
+        // A ray that ends in the near region needs no cell of it.
         t_last = min(t_last, near.x);
     }
     uint face = 0u;
@@ -136,7 +136,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             }
             entry = BRICK_LIST_BEGIN;
         }
-        // Where the ray goes into the near box it comes out on the other side; what is in there is tested one by one.
+        // Where the ray goes into the near region it comes out on the other side; what is in there is tested one by one.
         if (crosses_near && t < near.x && t_out >= near.x) {
             t = near.y;
             face = face_of(origin + t * ray.direction);
@@ -184,7 +184,7 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - BRICK_HEADER(s).centre;
     float reach = BRICK_HEADER(s).reach;
     float slack = hit_slack(origin, ray.direction, reach);
-    // Views along axes meet nowhere, so that no near box stands between them.
+    // Views along axes touch nowhere, so that no near region stands between them.
     vec2 near = BRICK_VIEWS == BRICK_VIEWS_AXES ? vec2(1.0, 0.0)
         : near_box_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
     vec2 clip = bounds_interval(BRICK_HEADER(s).lower, BRICK_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,

@@ -17,14 +17,14 @@ struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
-    uint near_demand;     // triangles that meet the near box
+    uint near_demand;     // Triangles that intersect the near region
     uint near_capacity;
-    uint corrupted;       // list entries that named no triangle
+    uint corrupted;       // list entries that point to no triangle
     uint columns;         // of every view, a multiple of 4
     uint rows;
     uint slices;
     float reach;          // metres: farthest that the geometry is from the centre along an axis; of views along axes, or more
-    float near_size;      // metres: half side of the near box
+    float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 centre;          // metres relative to the frame origin: of the faces, or of the geometry's bounds
     vec3 lower;           // bounds of the geometry relative to the centre, metres

@@ -1,6 +1,6 @@
 // What: where cells stand in bricks of 4x4x4, and what the words of a brick say.
 // Reads, writes: nothing.
-// A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one a cell that lists something,
+// A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one per cell that lists something,
 // in two words, and a word of its own: for a brick that lists something how many cells do so in all bricks
 // before it, for an empty one how many bricks farther on are empty too, towards each of eight octants.
 #ifndef BRICKS_WORDS_GLSL

@@ -35,7 +35,7 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint 
 #define BVH_SCRATCH(s) bvh_scratch_words
 #endif
 
-// A node. A number past the end is counted and answers a node whose boxes no ray meets.
+// A node. A number past the end is counted and answers a node whose boxes no ray hits.
 BvhNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);

@@ -19,7 +19,7 @@ float bvh_inverse(float component, float smallest) {
 }
 
 // A direction without a component along an axis is treated as having a tiny one: over the length of the
-// boxes met it moves the ray by less than the margin, and no product below can become 0 times infinity.
+// boxes hit it moves the ray by less than the margin, and no product below can become 0 times infinity.
 BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min) {
     float largest = max(abs(direction.x), max(abs(direction.y), abs(direction.z)));
     float smallest = max(largest * BVH_DIRECTION_FLOOR, 1.1754944e-38);

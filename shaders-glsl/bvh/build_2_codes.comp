@@ -1,4 +1,4 @@
-// What: the Morton code of the middle of every triangle's box, 10 bits an axis.
+// What: the Morton code of the middle of every triangle's box, 10 bits per axis.
 // Reads: geometry, header. Writes: scratch (keys).
 // Source: Lauterbach et al. 2009.
 #version 460

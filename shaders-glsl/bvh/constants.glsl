@@ -17,14 +17,14 @@
 #define BVH_STACK 16u
 
 // How far a box is widened, times the largest coordinate of its corners relative to the ray's origin:
-// 64 units of rounding. The watertight test accepts a ray up to 16 units beside a triangle, and the box
+// 64 units of rounding. The watertight test accepts a ray up to 16 units outside of a triangle, and the box
 // test itself is off by fewer than 16.
 #define BVH_BOX_MARGIN 0.0000038146973
 
 // The smallest component a direction is treated as having, relative to its largest: 2^-60.
 #define BVH_DIRECTION_FLOOR 0.00000000000000000086736174
 
-// Bits an axis of a Morton code, and cells an axis.
+// Bits per axis of a Morton code, and cells per axis.
 #define BVH_CODE_CELLS 1024.0
 
 // Bits of a digit of the radix sort, digits, and keys that one invocation sorts.

@@ -16,7 +16,7 @@
 
 // A fresh ray.
 #define BVH_AT_START 0u
-// The subtree is to be entered; its box has been met.
+// The subtree is to be entered; its box has been hit.
 #define BVH_AT_ENTRY 1u
 // The subtree is done.
 #define BVH_AT_EXIT 2u

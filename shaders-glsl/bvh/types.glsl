@@ -19,7 +19,7 @@ struct BvhHeader {
     vec3 lower;             // bounds of the geometry, metres; Morton codes only
     float spare_lower;
     vec3 cells_per_metre;   // of the Morton grid, an axis
-    uint corrupted;         // references that named no node or record
+    uint corrupted;         // references that point to no node or record
     uvec2 nodes_address;    // device addresses of the pools, zero where descriptors are used
     uvec2 records_address;
     uvec2 scratch_address;

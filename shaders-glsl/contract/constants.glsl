@@ -23,7 +23,6 @@
 
 // Draw flags.
 #define DRAW_ALPHA_MASKED 1u
-#define DRAW_STATIC 2u
 
 // Which fields of a Surface carry what the structure knows; the others hold documented defaults.
 #define SURFACE_POSITION 1u

@@ -12,7 +12,7 @@
 #include "ldc/visit_fringe.glsl"
 #endif
 
-// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define PairRef LdcRef
 #define PAIR_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + place]
 #define PAIR_HEADER(s) LDC_HEADER(s)

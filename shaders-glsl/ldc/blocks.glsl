@@ -8,7 +8,7 @@
 #include "ads/bucket.glsl"
 #include "ldc/accessors.glsl"
 
-// Cells a side of a block of a level.
+// Cells along a side of a block of a level.
 uint ldc_block_cells(uint level) {
     return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
 }
@@ -31,7 +31,7 @@ uint ldc_block_stride() {
 }
 
 // Bits of the slices that depths from low to high lie in. The slice of a depth is monotone, so that no depth between
-// lies beside them.
+// lies outside of them.
 uvec2 ldc_slices(float slices_a_metre, float z_low, float z_high) {
     int first = int(bucket_of(z_low, 0.0, slices_a_metre, LDC_SLICES));
     int last = int(bucket_of(z_high, 0.0, slices_a_metre, LDC_SLICES));

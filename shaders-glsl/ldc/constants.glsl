@@ -27,18 +27,18 @@
 // Slices of a cube's depth: the bits of two words.
 #define LDC_SLICES 64u
 
-// Blocks a side of a block of the second level.
+// Blocks along a side of a block of the second level.
 #define LDC_LEVEL_BLOCKS 8u
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle leans little in the view it
 // faces most, so that its plane leaves the cell before that.
 #define LDC_PLANE_REACH 2.0
 
-// How far a fragment's plane counts before and behind the ray's stretch in its cell, in widths of a cell. More keeps
-// rays from leaving a bent surface between two cells, less keeps planes from standing out beside it.
+// How far a fragment's plane counts before and behind the ray's segment in its cell, in widths of a cell. More keeps
+// rays from leaving a bent surface between two cells, less keeps planes from standing out next to it.
 #define LDC_PLANE_SLACK 0.125
 
-// How far a ray has to be from its origin, in widths of a cell, to meet a plane that it started close to.
+// How far a ray has to be from its origin, in widths of a cell, to hit a plane that it started close to.
 #define LDC_LEAVING 2.0
 
 // Threads in a workgroup of the build's compute passes.

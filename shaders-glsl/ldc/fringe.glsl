@@ -1,4 +1,4 @@
-// What: the fringe of the cells of a layered depth cube: where it is.
+// What: the conservative lists of the cells of a layered depth cube: where they are.
 // Reads, writes: heads, fringe, header.fringe_demand, header.corrupted.
 // Source: not in the paper; see ads/fringe.glsl.
 #ifndef LDC_FRINGE_GLSL
@@ -6,7 +6,7 @@
 
 #include "ldc/accessors.glsl"
 
-// The first link of a cell's fringe.
+// The first link of a cell's conservative list.
 uint ldc_fringe_head(LdcRef s, uint cell) {
     return LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? LDC_HEADS(s)[cell] : 0u;
 }

@@ -1,7 +1,7 @@
-// What: walks the squares of a flat grid that a ray crosses, column by column along the side it moves along most.
+// What: traverses the squares of a flat grid that a ray crosses, column by column along the side it moves along most.
 // Reads, writes: nothing.
 // Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed
-// follows from the column alone, so a walk can go on anywhere. The visited squares are a superset of the
+// follows from the column alone, so a traversal can go on anywhere. The visited squares are a superset of the
 // exact ones.
 #ifndef LDC_MARCH_GLSL
 #define LDC_MARCH_GLSL
@@ -15,17 +15,17 @@ struct LdcFlatRay {
     ivec2 step;
 };
 
-// The squares of a walk, along columns and along rows.
+// The squares of a traversal, along columns and along rows.
 struct LdcArea {
     float width;          // cells
     ivec2 first;
     ivec2 last;
 };
 
-// A walk. A column may have no row within the area: then `rows` is not positive.
+// A traversal. A column may have no row within the area: then `rows` is not positive.
 struct LdcMarch {
     LdcArea area;
-    vec2 t;               // the part of the ray that is walked
+    vec2 t;               // the part of the ray that is traversed
     int column;
     int row;
     int columns;          // how many are left, with this one
@@ -60,7 +60,7 @@ ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
 }
 
-// Finds the rows of the walk's column.
+// Finds the rows of the traversal's column.
 void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     vec2 t = march.t;
     if (ray.inverse != 0.0) {
@@ -74,7 +74,7 @@ void ldc_enter_column(LdcFlatRay ray, inout LdcMarch march) {
     march.rows = rows.y - rows.x + 1;
 }
 
-// Starts a walk over [t.x, t.y]; false where the ray does not meet the area.
+// Starts a traversal over [t.x, t.y]; false where the ray does not cross the area.
 bool ldc_march_begin(LdcFlatRay ray, LdcArea area, vec2 t, out LdcMarch march) {
     march.area = area;
     march.t = t;
@@ -105,12 +105,12 @@ bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     return true;
 }
 
-// The square that a walk is at.
+// The square that a traversal is at.
 ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
 }
 
-// A square as one word: 16 bits a side. A column without rows may stand at row -1, or one past the last.
+// A square as one word: 16 bits per axis. A column without rows may stand at row -1, or one past the last.
 uint ldc_march_pack(ivec2 square) {
     return (uint(square.x) & 0xFFFFu) | uint(square.y) << 16;
 }
@@ -119,7 +119,7 @@ ivec2 ldc_march_unpack(uint word) {
     return ivec2(int(word << 16) >> 16, int(word) >> 16);
 }
 
-// Takes a walk that has begun to the square where another one of the same ray stood.
+// Takes a traversal that has begun to the square where another one of the same ray stood.
 void ldc_march_resume(LdcFlatRay ray, ivec2 square, inout LdcMarch march) {
     ivec2 place = ray.turned ? square.yx : square;
     march.columns -= abs(place.x - march.column);

@@ -1,4 +1,4 @@
-// What: what is kept of a ray that pauses, and how its walk goes on from there.
+// What: what is kept of a ray that pauses, and how its traversal goes on from there.
 // Reads: trace state. Writes: trace state.
 // cursor: 0 flags and view, 1 block of the second level, 2 block, 3 cell, 4 place within what is being searched.
 #ifndef LDC_PAUSE_GLSL
@@ -30,7 +30,7 @@ void ldc_restore(TraceState state, inout LdcWalk walk, inout LdcSearch search) {
     bool within = false;
     walk.in_upper = (flags & LDC_CURSOR_IN_UPPER) != 0u;
     walk.in_block = (flags & LDC_CURSOR_IN_BLOCK) != 0u;
-    // Each walk has begun before, so it begins.
+    // Each traversal has begun before, so it begins.
     if (LDC_SKIP != 0u && LDC_LEVELS == 2u) {
         ldc_begin_level(walk, 1u, false, square, stretch, walk.upper);
         square = ldc_march_unpack(state.cursor[1]);

@@ -14,12 +14,12 @@
 
 // What every step needs of the header, read once.
 struct LdcSizes {
-    uint resolution;      // cells a side
+    uint resolution;      // cells along a side
     uint places;          // that hold fragments
     float cell;           // metres: side of a cell
     float slices_a_metre;
     float margin;         // metres: see ldc_margin
-    float slack;          // t by which a fragment can be hit before or behind its stretch
+    float slack;          // t by which a fragment can be hit before or behind its segment
 };
 
 // One search, able to stop between two entries.
@@ -27,13 +27,13 @@ struct LdcSearch {
     LdcSizes sizes;
     uint axis;
     ivec2 cell;
-    float t_low;          // the ray's stretch in the cell, widened by its rounding
+    float t_low;          // the ray's segment in the cell, widened by its rounding
     float t_high;
     float z_origin;       // metres from the view's near side
     float z_direction;
     bool begun;
     bool in_fringe;
-    uint place;           // of the next fragment, or link of the next node of the fringe
+    uint place;           // of the next fragment, or link of the next node of the conservative list
 };
 
 // How far beyond the ray's depths in a cell fragments can lie that it hits there, at most.
@@ -41,12 +41,12 @@ float ldc_margin(LdcRef s) {
     if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
         return LDC_HEADER(s).tolerance;
     }
-    // A plane leans by at most a cell a cell, and the ray may meet it before or behind its stretch.
+    // A plane leans by a maximum of one cell per cell, and the ray may hit it before or behind its segment.
     float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK : 0.0;
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
 
-// How much of t before and behind its stretch a fragment can be hit.
+// How much of t before and behind its segment a fragment can be hit.
 float ldc_slack(LdcRef s, Ray ray) {
     return LDC_ACCEPT == LDC_ACCEPT_PLANE ? LDC_PLANE_SLACK * LDC_HEADER(s).cell / length(ray.direction) : 0.0;
 }
@@ -64,7 +64,7 @@ vec2 ldc_depths_between(float z_origin, float z_direction, float t_low, float t_
     return vec2(min(z_in, z_out) - rounding, max(z_in, z_out) + rounding);
 }
 
-// Judges the plane of a fragment's triangle, logs it, and lets it replace the best hit if it may.
+// Tests the plane of a fragment's triangle, logs it, and lets it replace the best hit if it may.
 void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout TraceState state) {
     float t;
     vec2 barycentrics;
@@ -75,7 +75,7 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     float slack = search.sizes.slack;
     uint verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
         search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
-    // A surface that the ray leaves is met close to its origin, if at all.
+    // A surface that the ray leaves is hit close to its origin, if at all.
     if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
         verdict = t < ray.t_max ? (hit_is_better(rival, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER) : TEST_BEYOND;
     }
@@ -113,7 +113,7 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     return words.x < held.x || (words.x == held.x && words.y < held.y);
 }
 
-// Judges a fragment by its depth: the hit is where the ray passes it, within the cell.
+// Tests a fragment by its depth: the hit is where the ray passes it, within the cell.
 void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
     bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
     uint primitive = known ? ldc_primitive(s, place) : PRIMITIVE_UNKNOWN;
@@ -159,7 +159,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
     return begin;
 }
 
-// Searches the nodes of the fringe; true if the work budget ended first.
+// Searches the nodes of the conservative list; true if the work budget ended first.
 bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     while (search.place != 0u) {

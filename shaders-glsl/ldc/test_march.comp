@@ -1,4 +1,4 @@
-// What: lists the squares that a walk over a flat grid comes to, for tests: once in one go, and once stopped
+// What: lists the squares that a traversal of a flat grid visits, for tests: once in one go, and once stopped
 // and resumed at every square.
 // Reads: rays in units of cells. Writes: visits (square, rows left), counts.
 #version 460
@@ -16,7 +16,7 @@ layout(push_constant, scalar) uniform Constants {
     uint ray_count;
     int first;            // squares of the area, the same along both sides
     int last;
-    uint limit;           // visits a walk
+    uint limit;           // visits per traversal
 };
 
 void walk(uint index, Ray ray, bool stopped) {

@@ -30,7 +30,7 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
     return interval;
 }
 
-// Begins the walk through a view; false where the ray does not meet it.
+// Begins the traversal through a view; false where the ray does not cross it.
 bool ldc_begin_view(vec2 clip, inout LdcWalk walk) {
     if (LDC_SKIP == 0u) {
         walk.in_upper = true;
@@ -62,7 +62,7 @@ bool ldc_next_block(inout LdcWalk walk) {
 #define LDC_MET 1u
 #define LDC_BEHIND 2u
 
-// Looks at the block that a walk over a level is at, and begins the walk over the level within it where it is met.
+// Tests the block that the traversal of a level is at, and begins that of the level within it where it is hit.
 uint ldc_look(LdcRef s, LdcWalk walk, uint level, uint inner, LdcMarch march, inout LdcMarch within, inout TraceState state,
     inout uint work) {
     work++;
@@ -81,7 +81,7 @@ uint ldc_look(LdcRef s, LdcWalk walk, uint level, uint inner, LdcMarch march, in
     return met ? LDC_MET : LDC_PASSED_OVER;
 }
 
-// Walks one view, from its beginning or from where it stopped; true if the work budget ended first. Every
+// Traverses one view, from its beginning or from where it stopped; true if the work budget ended first. Every
 // level has a loop of its own: invocations that run side by side pay for all that one of them does in a turn.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcWalk walk, inout LdcSearch search,
     inout TraceState state, inout uint work) {
@@ -143,7 +143,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool restored = (state.cursor[0] & LDC_CURSOR_STARTED) != 0u;
     uint work = 0u;
-    // First the view that the ray crosses the fewest cells of: what is met there ends it early in the others.
+    // First the view that the ray crosses the fewest cells of: what is hit there ends it early in the others.
     uint first_axis = triangle_major_axis(ray.direction);
     for (uint turn = restored ? (state.cursor[0] >> 4) & 3u : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;

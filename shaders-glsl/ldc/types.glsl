@@ -26,11 +26,11 @@ struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
     uint capacity;        // places the pools hold
-    uint fringe_demand;   // triangles kept beside centres; counted once all fragments fit
+    uint fringe_demand;   // triangles kept outside of centres; counted once all fragments fit
     uint fringe_capacity;
     uint unsorted;        // lists longer than the sort passes sort
-    uint corrupted;       // list entries that named no fragment
-    uint resolution;      // cells a side of a view
+    uint corrupted;       // list entries that point to no fragment
+    uint resolution;      // cells along a side of a view
     float cell;           // metres: side of a cell
     float size;           // metres: side of the cube
     float tolerance;      // metres, LDC_ACCEPT_TOLERANCE only

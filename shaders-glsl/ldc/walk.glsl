@@ -1,8 +1,8 @@
-// What: a ray's walk through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
-// above it whose depths it meets.
+// What: a ray's traversal through one view: over blocks of blocks, over blocks of cells, and over cells, each within those
+// above it whose depths overlap its own.
 // Reads: header, blocks. Writes: nothing.
-// Source: Bürger et al. section 1.4, two-level traversal. A block's or cell's stretch of the ray follows from its place
-// alone, so it does not matter how the walk got there.
+// Source: Bürger et al. section 1.4, two-level traversal. A block's or cell's segment of the ray follows from its place
+// alone, so it does not matter how the traversal got there.
 #ifndef LDC_WALK_GLSL
 #define LDC_WALK_GLSL
 
@@ -61,8 +61,8 @@ LdcWalk ldc_begin_walk(LdcRef s, Ray ray, LdcSizes sizes, uint axis, float t_beg
     return walk;
 }
 
-// The ray's stretch within cells [lower, upper) of the view, widened by its rounding; empty (x > y) where it passes
-// beside them.
+// The ray's segment within cells [lower, upper) of the view, widened by its rounding; empty (x > y) where it passes
+// outside of them.
 vec2 ldc_stretch(LdcWalk walk, ivec2 lower, ivec2 upper) {
     vec2 t = vec2(walk.t_begin, walk.t_end);
     for (int side = 0; side < 2; side++) {
@@ -85,15 +85,15 @@ vec2 ldc_block_stretch(LdcWalk walk, uint level, ivec2 block) {
     return ldc_stretch(walk, block * side, (block + 1) * side);
 }
 
-// Whether nothing in a stretch that begins at t_low, or later on the way, can be nearer than the best hit. What comes
-// later may begin earlier by as much as a stretch is widened for its rounding.
+// Whether nothing in a segment that begins at t_low, or later on the way, can be nearer than the best hit. What comes
+// later may begin earlier by as much as a segment is widened for its rounding.
 bool ldc_is_behind(LdcWalk walk, float t_low, float best_t) {
     return t_low - walk.sizes.slack - 6.0e-8 * (8.0 * abs(t_low) + 2.0 * walk.shift) > best_t;
 }
 
-// Begins the walk over the blocks of a level, or over cells (level 2), in a block of the level above or in
-// all of the view; false where the stretch has none. What it touches beside the block belongs to blocks that
-// are walked over as well.
+// Begins the traversal over the blocks of a level, or over cells (level 2), in a block of the level above or in
+// all of the view; false where the segment has none. What it touches outside of the block belongs to blocks that
+// are traversed as well.
 bool ldc_begin_level(LdcWalk walk, uint level, bool within, ivec2 block, vec2 stretch, out LdcMarch march) {
     int width = level == 2u ? 1 : int(ldc_block_cells(level));
     ivec2 first = ivec2(0);
@@ -107,7 +107,7 @@ bool ldc_begin_level(LdcWalk walk, uint level, bool within, ivec2 block, vec2 st
     return ldc_march_begin(walk.flat_ray, ldc_area(walk.flat_ray, float(width), first, last), t, march);
 }
 
-// Whether a block holds depths that the ray has in its stretch.
+// Whether a block holds depths that the ray has in its segment.
 bool ldc_block_is_met(LdcRef s, LdcWalk walk, uint level, ivec2 block, vec2 stretch) {
     uint place = ldc_block(walk.sizes.resolution, level, walk.axis, block);
     LdcBlock held = ldc_block_depths(s, place);

@@ -1,6 +1,6 @@
 // What: the pools of primitive lists, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, entries, sums, near list. Every access checks the capacity.
+// Reads, writes: header, bounds, lists, entries, sums, near-region list. Every access checks the capacity.
 #ifndef PRIMITIVE_ACCESSORS_GLSL
 #define PRIMITIVE_ACCESSORS_GLSL
 
@@ -72,7 +72,7 @@ PrimitiveBounds primitive_bounds(PrimitiveRef s, uint cell) {
     return bounds;
 }
 
-// Stores the scale of a cell's buckets beside its bounds; only where there are several buckets.
+// Stores the scale of a cell's buckets next to its bounds; only where there are several buckets.
 void primitive_store_scale(PrimitiveRef s, uint cell) {
     PrimitiveBounds bounds = primitive_bounds(s, cell);
     float scale = bounds.empty ? 0.0 : bucket_scale(bounds.z_min, bounds.z_max, PRIMITIVE_BUCKETS);

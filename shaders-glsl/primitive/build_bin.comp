@@ -1,5 +1,5 @@
 // What: goes through the cells that each triangle reaches into, once for their bounds, once for lengths of
-// lists, and once to store; one invocation a triangle. Those with many columns of a face are left to the next
+// lists, and once to store; one invocation per triangle. Those with many columns of a face are left to the next
 // pass.
 // Reads: geometry, header, bounds. Writes: bounds, lists and entries; pairs, header.pairs, header.groups.
 // Source: DIRT section 4.1, by computing instead of drawing.
@@ -35,7 +35,7 @@ void main() {
         }
 #if PRIMITIVE_VISIT == PRIMITIVE_VISIT_BOUNDS
         else {
-            // Once is enough: later passes find the same pairs.
+            // Once is enough: later passes find the same large triangles.
             bin_leave(primitive_built, face * triangles + primitive);
         }
 #endif

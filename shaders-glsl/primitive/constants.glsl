@@ -10,7 +10,7 @@
 #define PRIMITIVE_COVERAGE_HARDWARE 0u
 #define PRIMITIVE_COVERAGE_CONSERVATIVE 1u
 
-// When a triangle that the ray meets is a hit: by its t alone, or only where it lies in the tile that listed it.
+// When a triangle that the ray intersects is a hit: by its t alone, or only where it lies in the tile that listed it.
 #define PRIMITIVE_ACCEPT_T 0u
 #define PRIMITIVE_ACCEPT_TILE 1u
 
@@ -33,7 +33,7 @@
 
 // Columns a side of the blocks that an invocation of the workgroups for large triangles looks at by turns.
 #define PRIMITIVE_BIN_BLOCK 4
-// Words a triangle for large triangles: one a face.
+// Words per triangle for large triangles: one per face.
 #define PRIMITIVE_PAIR_LIMIT 6u
 
 // Threads in a workgroup of the build's compute passes.

@@ -1,6 +1,6 @@
 // What: the published depths of a triangle in a cell: of its plane at the cell's corners, whatever the triangle covers.
 // Reads, writes: nothing.
-// Source: DIRT section 4.1.1; the authors' program meets the plane with the rays through the corners, and
+// Source: DIRT section 4.1.1; the authors' program intersects the plane with the rays through the corners, and
 // leaves out those within a thousandth of parallel to it. Where some are left out, the depths miss part of
 // the triangle.
 #ifndef PRIMITIVE_CORNER_DEPTHS_GLSL
@@ -12,8 +12,8 @@
 // Square of the smallest cosine between a corner's ray and the normal.
 const float CORNER_STEEPNESS = 1.0e-6;
 
-// Smallest and largest depth; those of the whole view where no corner's ray meets the plane within it. Every step is
-// precise: passes that count and passes that store must decide alike.
+// Smallest and largest depth; those of the whole view where no corner's ray intersects the plane within it. Every
+// step is precise: passes that count and passes that store must decide alike.
 vec2 primitive_corner_depths(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c, ivec2 cell) {
     precise vec3 ab = b - a;
     precise vec3 ac = c - a;

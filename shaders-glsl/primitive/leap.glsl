@@ -1,4 +1,4 @@
-// What: how far a ray may go on without meeting what any tile lists at its depths.
+// What: how far a ray may go on without hitting what any tile lists at its depths.
 // Reads: bounds. Writes: nothing.
 // Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
 // triangles is so.
@@ -8,7 +8,7 @@
 #include "primitive/pyramid.glsl"
 #include "primitive/walk.glsl"
 
-// The largest block around the walk's cell that lists nothing at the ray's depths; false where none does. A
+// The largest block around the traversal's cell that lists nothing at the ray's depths; false where none does. A
 // face has at most 14 levels.
 bool primitive_leap(PrimitiveRef s, PrimitiveWalk walk, out MarchLeap leap) {
     float rounding = PRIMITIVE_HEADER(s).rounding;

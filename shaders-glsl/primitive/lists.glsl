@@ -72,7 +72,7 @@ void primitive_list_count_one(PrimitiveRef s, uint list) {
     atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);
 }
 
-// Puts a triangle into a list, or counts that there was no room for it.
+// Puts a triangle into a list, or counts that the capacity did not suffice.
 void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
         uint place = atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);

@@ -43,7 +43,7 @@ PrimitiveGrid primitive_grid(PrimitiveRef s) {
 }
 
 // How far cells reach beyond their sides, in x/z, so that rounding moves no triangle out of a cell in
-// which a ray meets it.
+// which a ray hits it.
 float primitive_margin(PrimitiveGrid grid, vec3 a, vec3 b, vec3 c) {
     float nearest = max(min(a.z, min(b.z, c.z)), grid.near_size);
     precise float margin = grid.rounding / nearest + 1.0e-6;

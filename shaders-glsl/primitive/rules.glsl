@@ -1,6 +1,6 @@
 // What: the published rules of a ray in a tile: a hit must lie in the tile that listed it.
 // Reads: geometry. Writes: nothing.
-// Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding takes hits beside a border to the other tile,
+// Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding takes hits next to a border to the other tile,
 // which may not list the triangle or be passed by.
 #ifndef PRIMITIVE_RULES_GLSL
 #define PRIMITIVE_RULES_GLSL

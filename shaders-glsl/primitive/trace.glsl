@@ -1,7 +1,7 @@
 // What: follows a ray through the faces' cells and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3; the exact march replaces its steps in screen space.
-// Cells only propose triangles. A hit counts by its t, so the walk goes on until the next cell begins
+// Cells only propose triangles. A hit counts by its t, so the traversal goes on until the next cell begins
 // behind the best hit, and what is visited beyond that or twice costs time, never a hit.
 #ifndef PRIMITIVE_TRACE_GLSL
 #define PRIMITIVE_TRACE_GLSL
@@ -36,7 +36,7 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             state.cells++;
             trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
             MarchLeap leap;
-            // What is touched beside a cell lies within the bounds of its block.
+            // What is touched outside of a cell lies within the bounds of its block.
             if (PRIMITIVE_PYRAMID != 0u && all(equal(walk.searched, walk.cells.cell)) && primitive_leap(s, walk, leap)) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, walk.search.t_low, leap.t_out);
                 more = primitive_take_leap(s, walk, leap);

@@ -25,13 +25,13 @@ struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
-    uint near_demand;     // triangles that meet the near box
+    uint near_demand;     // Triangles that intersect the near region
     uint near_capacity;
-    uint corrupted;       // list entries that named no node
+    uint corrupted;       // list entries that point to no node
     uint tiles;           // cells along a side of a face, border not counted
     uint tile;            // pixels along a side of a cell
     float reach;          // metres: farthest that the geometry is from the centre along an axis
-    float near_size;      // metres: half side of the near box
+    float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 centre;          // of the faces, metres relative to the frame origin
     vec3 lower;           // bounds of the geometry relative to the centre, metres

@@ -12,7 +12,7 @@
 #define PRIMITIVE_CURSOR_STARTED 1u
 #define PRIMITIVE_CURSOR_SEARCHING 2u
 
-// A ray within one face, within the near box, or among all triangles.
+// A ray within one face, within the near region, or among all triangles.
 struct PrimitiveWalk {
     Segment segment;
     vec3 origin;          // face space
@@ -46,7 +46,7 @@ void primitive_begin_walk(PrimitiveRef s, vec3 origin, vec3 direction, inout Pri
     }
 }
 
-// Prepares the search of the cell the walk is at.
+// Prepares the search of the cell the traversal is at.
 void primitive_begin_search(PrimitiveRef s, inout PrimitiveWalk walk) {
     walk.search.t_low = walk.cells.t_in - walk.cells.error_in;
     if (PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP) {

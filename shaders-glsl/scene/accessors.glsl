@@ -87,7 +87,7 @@ vec3 scene_environment_texel(uint texel) {
     return vec3(scene_environment_table[word], scene_environment_table[word + 1u],
                 scene_environment_table[word + 2u]);
 }
-// Entries 0 to height - 1: cumulative share of the rows. Then `width` entries a row: cumulative
+// Entries 0 to height - 1: cumulative share of the rows. Then `width` entries per row: cumulative
 // share within that row.
 float scene_environment_cdf(uint entry) { return scene_environment_cdf_table[entry]; }
 

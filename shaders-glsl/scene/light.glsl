@@ -133,7 +133,7 @@ LightSample light_sample(Surface s, vec4 random) {
     return chosen;
 }
 
-// The ray that asks whether the sample is seen from the surface.
+// The ray that tests whether the sample is visible from the surface.
 Ray light_shadow_ray(Surface s, LightSample chosen) {
     if (chosen.distance < LIGHT_INFINITY) return spawn_segment(s, chosen.target);
     return spawn_ray(s, chosen.direction, LIGHT_INFINITY);

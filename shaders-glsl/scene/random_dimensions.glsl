@@ -24,7 +24,7 @@
 #define RANDOM_BSDF_V 7u
 #define RANDOM_ROULETTE 8u
 
-// Blended surface number n that a path meets, counted over the whole path, draws
+// Blended surface number n that a path hits, counted over the whole path, draws
 // RANDOM_OPACITY_FIRST + n. Far above every bounce block.
 #define RANDOM_OPACITY_FIRST 65536u
 

@@ -2,8 +2,8 @@
 // published fragments have.
 // Reads: the scene, when storing, and of what emits when shading. Writes: nothing.
 // Source: MMRT section 3.3, albedo 8:8:8:8 and normal 16:16; Bürger et al. section 1.2.1, Hu et al. section 3.1.
-// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal of the front, 16 bits a side: rays that
-// come against it meet the front, others the back. Of what emits the opacity is 0 and word 1 is the triangle: how bright
+// Word 0: base colour and opacity, 8 bits each. Word 1: octahedral shading normal of the front, 16 bits per coordinate: rays
+// that come against it hit the front, others the back. Of what emits the opacity is 0 and word 1 is the triangle: how bright
 // it is, and how likely light sampling would have chosen it, is known of triangles alone.
 #ifndef SCENE_STORED_SURFACE_GLSL
 #define SCENE_STORED_SURFACE_GLSL
@@ -61,7 +61,7 @@ void stored_set_terms(inout Surface s, uint word) {
     s.specular = terms.w;
 }
 
-// The surface of a fragment that a ray meets at t, known within `position_error` metres, of which the normal
+// The surface of a fragment that a ray hits at t, known within `position_error` metres, of which the normal
 // alone is stored: white, dull and opaque to light, no emission, the stored normal as geometric and shading
 // normal; the front where the ray comes against the normal.
 Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
@@ -78,7 +78,7 @@ Surface stored_shape(vec3 normal, Ray ray, float t, float position_error) {
     return s;
 }
 
-// The hit of a ray that meets a triangle at t; a miss where there is none of that number.
+// The hit of a ray that hits a triangle at t; a miss where there is none of that number.
 Hit stored_triangle_hit(uint primitive, Ray ray, float t) {
     if (primitive >= geometry_triangle_count()) {
         return Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);

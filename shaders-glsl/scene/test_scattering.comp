@@ -12,7 +12,7 @@ struct Case {
     Surface surface;
     vec3 o;
     uint pixel;         // key of the random numbers, as are the next two
-    vec3 i;             // a direction to evaluate beside the sampled one
+    vec3 i;             // a direction to evaluate in addition to the sampled one
     uint sample_index;
     uint dimension;
 };

@@ -26,7 +26,7 @@ struct Frame {
     uint light_count;           // point, directional and spot lights
     uint emissive_count;        // entries of emissive_triangles; 0 if their power is 0
     uint environment_kind;      // ENVIRONMENT_*
-    uint environment_width;     // texels a row, 0 unless latitude-longitude
+    uint environment_width;     // texels per row, 0 unless latitude-longitude
     uint environment_height;
     uint environment_sampled;   // 1 if the environment emits anything and is worth a light sample
     vec3 environment_radiance;  // W/(sr m^2), the constant environment
@@ -118,10 +118,10 @@ struct PathState {
     uint pixel;                 // row * width + column in the whole image
     vec3 radiance;              // gathered so far, W/(sr m^2)
     uint sample_index;
-    float bsdf_pdf;             // 1/sr, of the last scattering; 0: emission met next counts fully
+    float bsdf_pdf;             // 1/sr, of the last scattering; 0: emission hit next counts fully
     uint medium;                // material whose inside the path is in, or MATERIAL_NONE
     uint bounce;                // scatterings so far
-    uint layers;                // blended surfaces met so far
+    uint layers;                // blended surfaces hit so far
     uint flags;                 // zero
 };
 
@@ -145,7 +145,7 @@ struct LightSample {
 
 // What one step of a path asks to be traced. A ray with t_max < 0 is not to be traced.
 struct PathStep {
-    Ray shadow_ray;             // occlusion; `pending` counts if nothing is met
+    Ray shadow_ray;             // occlusion; `pending` counts if nothing is hit
     Ray next_ray;               // closest hit
     vec3 pending;               // radiance times throughput, W/(sr m^2)
 };

@@ -29,7 +29,7 @@ uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
-// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors know their triangle, and it is asked.
+// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors know their triangle, and it is read.
 uint voxel_emitter(uvec3 words) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
         bool known = words.x < geometry_triangle_count();

@@ -10,7 +10,7 @@
 #include "voxel/visit.glsl"
 #include "voxel/visit_voxels.glsl"
 
-// Behind the sums of the scan, where long lists are named once all triangles have been visited.
+// Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
 #define PairRef VoxelRef
 #define PAIR_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + place]
 #define PAIR_HEADER(s) VOXEL_HEADER(s)

@@ -18,7 +18,7 @@ bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
 }
 
 // The first and last voxel of a column that the triangle a, b, c (frame of the view) reaches into, or comes within
-// VOXEL_SLACK of; false where it does not meet the column. The triangle faces the view more than the others.
+// VOXEL_SLACK of; false where it does not reach into the column. The triangle faces the view more than the others.
 bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out ivec2 range) {
     vec3 center = vec3(vec2(column) + 0.5, 0.0);
     a = a / view.cell - center;

@@ -23,8 +23,8 @@
 #define VOXEL_ACCEPT_PARITY 0u
 #define VOXEL_ACCEPT_PLANE 1u
 
-// What a fragment carries beside its depth: its triangle; Hu's colour, normal and terms of the material; or Selective's
-// colour, reflectivity, normal and triangle.
+// What a fragment carries in addition to its depth: its triangle; Hu's colour, normal and terms of the material; or
+// Selective's colour, reflectivity, normal and triangle.
 #define VOXEL_PAYLOAD_INDEX 0u
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
@@ -41,7 +41,7 @@
 #define VOXEL_COVERAGE_EXACT 1u
 #define VOXEL_COVERAGE_CONSERVATIVE 2u
 
-// Most voxels a side: three coordinates share a word of a paused ray.
+// Most voxels along a side: three coordinates share a word of a paused ray.
 #define VOXEL_GRID_LIMIT 1024u
 
 // Bits of a voxel: one for each axis it is searched along, and one that says that something lies in it.

@@ -1,7 +1,7 @@
 // What: which cells of the axis A-buffers a triangle covers, at which depth, and the voxel that the fragment
 // lies in, the same for every builder.
 // Reads: geometry, header. Writes: voxels, normals.
-// Where the rasterizer draws there is one instance a view, or one in all where a triangle is drawn only into
+// Where the rasterizer draws there is one instance per view, or one in all where a triangle is drawn only into
 // the view that it faces most; without attachments no layers are needed: the view travels as a varying.
 #ifndef VOXEL_COVERED_GLSL
 #define VOXEL_COVERED_GLSL

@@ -1,7 +1,7 @@
 // What: searches one voxel along one axis for the first place where a ray goes from outside to inside or back, a point
 // being inside where an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
-// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one a cell,
+// Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one per cell,
 // then bisection, which a ray that asks for any hit does without. As published it takes surfaces for closed, and a voxel for one smooth surface.
 // The order of fragments in their lists has no influence: it only says how many of them are read.
 #ifndef VOXEL_PARITY_GLSL
@@ -35,7 +35,7 @@ ivec2 voxel_cell_at(VoxelRef s, VoxelWalk walk, float t) {
     return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
 }
 
-// The part of the ray that the walk's step crosses, within a stretch of it.
+// The part of the ray that the traversal's step crosses, within a segment of it.
 VoxelSpan voxel_span(VoxelRef s, VoxelWalk walk, vec2 stretch) {
     if (VOXEL_MARCH == VOXEL_MARCH_SAMPLES) {
         float length = stretch.y - stretch.x;
@@ -57,7 +57,7 @@ void voxel_halve(VoxelRef s, VoxelWalk walk, bool takes_far, inout VoxelSpan spa
     }
 }
 
-// The point whose cell the walk's stage reads.
+// The point whose cell the traversal's stage reads.
 VoxelPoint voxel_stage_point(VoxelRef s, VoxelWalk walk, vec2 stretch, VoxelSpan span) {
     if (walk.stage == VOXEL_STAGE_ENTER) {
         return voxel_point(s, walk, stretch.x, walk.cells.cell.xy);
@@ -72,7 +72,7 @@ VoxelPoint voxel_stage_point(VoxelRef s, VoxelWalk walk, vec2 stretch, VoxelSpan
     return voxel_point(s, walk, span.t_after, span.cell_after);
 }
 
-// Lets the triangle of the walk's nearest fragment become the best hit, in the middle of a span; true if it does.
+// Lets the triangle of the traversal's nearest fragment become the best hit, in the middle of a span; true if it does.
 bool voxel_take(VoxelRef s, Ray ray, VoxelWalk walk, VoxelSpan span, float depth, inout TraceState state) {
     uint place = walk.held;
     uint primitive = place == VOXEL_NO_PLACE ? PRIMITIVE_NONE : voxel_primitive(s, place);
@@ -107,7 +107,7 @@ bool voxel_next_step(VoxelRef s, vec2 stretch, inout VoxelWalk walk, inout Voxel
     return more;
 }
 
-// Goes on from the list that the walk's stage has read; false at the end of the voxel, or at the first
+// Goes on from the list that the traversal's stage has read; false at the end of the voxel, or at the first
 // crossing that counts, which is the nearest.
 bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, bool any_hit, inout VoxelWalk walk,
     inout VoxelSpan span, inout TraceState state) {
@@ -147,7 +147,7 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, bool any_h
     return voxel_next_step(s, stretch, walk, span);
 }
 
-// Searches the walk's voxel in the walk's view. True if the work budget ended first.
+// Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
 bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelWalk walk, inout TraceState state, inout uint work) {
     vec2 stretch = vec2(max(walk.voxels.t_in, ray.t_min), min(walk.voxels.t_out, ray.t_max));
     bool restored = walk.searching;

@@ -34,7 +34,7 @@ uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, i
     return list.x;
 }
 
-// Searches the list of the walk's cell over the ray's stretch in it. True if the work budget ended first.
+// Searches the list of the traversal's cell over the ray's segment in it. True if the work budget ended first.
 bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, inout TraceState state, inout uint work) {
     uint resolution = VOXEL_HEADER(s).resolution;
     float width = VOXEL_HEADER(s).cell;
@@ -42,9 +42,9 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, index, walk.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
     // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises
-    // by a cell at most from the centre to a corner. A cell more finds triangles that the ray meets in the
+    // by a maximum of one cell from the centre to a corner. A cell more finds triangles that the ray hits in the
     // next cell, whose centre they may not cover. Where cells keep all that reaches into them nothing may be
-    // lost, not the hits on slivers whose planes rounding has turned: then all of the list is looked at.
+    // lost, not the hits on slivers whose planes rounding has turned: then all of the list is searched.
     float origin_z = walk.origin[walk.axis];
     float direction_z = walk.direction[walk.axis];
     float z_in = origin_z + stretch.x * direction_z;
@@ -98,7 +98,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
     return false;
 }
 
-// Searches the walk's voxel in the walk's view. True if the work budget ended first.
+// Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
 bool voxel_search(VoxelRef s, Ray ray, vec2 stretch, bool any_hit, inout VoxelWalk walk, inout TraceState state,
     inout uint work) {
     bool restored = walk.searching;

@@ -23,15 +23,15 @@ layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 // State and sizes of one value. 136 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
-    uint demand;          // fragments met by the build, or pages begun for them, also those beyond the capacity
+    uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
     uint capacity;        // fragments or pages the pool holds
-    uint fragments;       // fragments met by the build
+    uint fragments;       // fragments found by the build
     uint unsorted;        // lists longer than the sort passes sort
     uint long_demand;     // lists too long for one dispatch of the sort
     uint long_capacity;
     uint corrupted;       // lists that reached beyond the pool or came back to themselves
-    uint resolution;      // cells a side of a view
-    uint grid;            // voxels a side
+    uint resolution;      // cells along a side of a view
+    uint grid;            // voxels along a side
     uint longest;         // fragments of the longest list where lists are not bisected; all bits where that is not known
     uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
     float cell;           // metres: side of a cell

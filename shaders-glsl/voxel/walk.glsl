@@ -19,7 +19,7 @@
 #include "voxel/lists.glsl"
 
 #define VOXEL_CURSOR_STARTED 1u
-// The walk through the cells of a view has begun.
+// The traversal through the cells of a view has begun.
 #define VOXEL_CURSOR_SEARCHING 2u
 // The list of the cell has been begun: it stands at `link`.
 #define VOXEL_CURSOR_IN_LIST 4u
@@ -32,7 +32,7 @@ struct VoxelWalk {
     vec3 origin;          // metres from the lower corner of the cube
     vec3 direction;
     GridMarch voxels;
-    ivec3 voxel;          // the voxel being searched: that of the march or one beside it
+    ivec3 voxel;          // the voxel being searched: that of the march or one next to it
     uint axis;            // the view being searched
     GridMarch cells;
     ivec3 cell;
@@ -54,7 +54,7 @@ vec3 voxel_lower(VoxelRef s) {
     return VOXEL_HEADER(s).lower;
 }
 
-// Starts the walk through the voxels; false where the ray does not meet them.
+// Starts the traversal through the voxels; false where the ray does not cross them.
 bool voxel_begin(VoxelRef s, Ray ray, out VoxelWalk walk) {
     vec3 lower = voxel_lower(s);
     precise vec3 origin = ray.origin - lower;
@@ -86,12 +86,12 @@ bool voxel_next(inout VoxelWalk walk) {
     return more;
 }
 
-// The ray's stretch in the voxel, widened by the errors of its ends.
+// The ray's segment in the voxel, widened by the errors of its ends.
 vec2 voxel_stretch(VoxelWalk walk) {
     return vec2(walk.voxels.t_in - walk.voxels.error_in, walk.voxels.t_out + walk.voxels.t_error);
 }
 
-// Starts the walk through the cells of the walk's view over a stretch of the ray; false where it meets none. The third
+// Starts the traversal through the cells of its view over a segment of the ray; false where it crosses none. The third
 // axis is depth, on which everything is one cell.
 bool voxel_begin_cells(VoxelRef s, vec2 stretch, inout VoxelWalk walk) {
     int resolution = int(VOXEL_HEADER(s).resolution);
@@ -114,7 +114,7 @@ bool voxel_next_cell(inout VoxelWalk walk) {
     return more;
 }
 
-// The 3x3x3 place of a cell beside another one, and back.
+// The 3x3x3 place of a cell next to another one, and back.
 uint voxel_beside(ivec3 cell, ivec3 center) {
     ivec3 offset = cell - center + 1;
     return uint(offset.x + 3 * offset.y + 9 * offset.z);
@@ -139,7 +139,7 @@ void voxel_save(VoxelWalk walk, inout TraceState state) {
         state.cursor[4] = uint(walk.cells.cell.x) | uint(walk.cells.cell.y) << 13 | walk.step << 26;
         state.cursor[5] = floatBitsToUint(walk.cells.t_in);
         if (VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY) {
-            // Cells beside those that the ray crosses are left out.
+            // Cells next to those that the ray crosses are left out.
             state.cursor[0] |= walk.stage << 15 | (walk.odd ? VOXEL_CURSOR_ODD : 0u) | walk.halvings << 18;
         } else {
             // Of the cells around a cell of a view only the nine at its depth exist.
@@ -148,7 +148,7 @@ void voxel_save(VoxelWalk walk, inout TraceState state) {
     }
 }
 
-// Takes a walk through the voxels that has begun to where it stood.
+// Takes a traversal through the voxels that has begun to where it stood.
 void voxel_restore(TraceState state, inout VoxelWalk walk) {
     uint flags = state.cursor[0];
     uint voxel = state.cursor[1];
@@ -163,7 +163,7 @@ void voxel_restore(TraceState state, inout VoxelWalk walk) {
     walk.held = state.cursor[7];
 }
 
-// The same for the walk through the cells of a view.
+// The same for the traversal through the cells of a view.
 void voxel_restore_cells(TraceState state, inout VoxelWalk walk) {
     uint flags = state.cursor[0];
     uint cell = state.cursor[4];

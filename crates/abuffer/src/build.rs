@@ -62,33 +62,33 @@ impl Build {
         let scaled = config.has_buckets() && config.accept.needs_triangles();
         let lengths = || -> Result<Lengths, AdsError> {
             Ok(Lengths {
-                count: covered("build_4_count", masked)?,
-                scan: Scan::new(pipelines, "build_5_scan")?,
+                count: covered("build_5_count", masked)?,
+                scan: Scan::new(pipelines, "build_6_scan")?,
             })
         };
         let reorder = || -> Result<Reorder, AdsError> {
             Ok(Reorder {
-                all: pipelines.compute("build_7_reorder")?,
-                long: pipelines.compute("build_8_reorder_long")?,
+                all: pipelines.compute("build_11_reorder")?,
+                long: pipelines.compute("build_12_reorder_long")?,
             })
         };
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            pairs: visits.pairs("build_1_pairs")?,
-            bounds: config.has_bounds_pass().then(|| covered("build_2_bounds", masked)).transpose()?,
-            scale: scaled.then(|| pipelines.compute("build_3_scale")).transpose()?,
+            pairs: visits.pairs("build_2_pairs")?,
+            bounds: config.has_bounds_pass().then(|| covered("build_3_bounds", masked)).transpose()?,
+            scale: scaled.then(|| pipelines.compute("build_4_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
-            store: covered("build_6_store", stored)?,
+            store: covered("build_7_store", stored)?,
             fringe: config
                 .has_fringe()
-                .then(|| visits.visit("build_raster.fringe", "build_7_fringe", ""))
+                .then(|| visits.visit("build_raster.fringe", "build_8_fringe", ""))
                 .transpose()?,
-            lost: pipelines.compute("build_7_lost")?,
+            lost: pipelines.compute("build_9_lost")?,
             pyramid: (config.march == March::Pyramid)
-                .then(|| Pyramid::new(pipelines, "build_7_pyramid"))
+                .then(|| Pyramid::new(pipelines, "build_10_pyramid"))
                 .transpose()?,
             reorder: config.sort.then(reorder).transpose()?,
-            status: pipelines.compute("build_9_status")?,
+            status: pipelines.compute("build_13_status")?,
         })
     }
 
@@ -119,20 +119,20 @@ impl Build {
             bounds.record(recorder, target, &draws);
         }
         if let Some(scale) = &self.scale {
-            target.compute_pass(recorder, "abuffer/build_3_scale", scale, groups(cells), 0, shaders);
+            target.compute_pass(recorder, "abuffer/build_4_scale", scale, groups(cells), 0, shaders);
         }
         if let Some(lengths) = &self.lengths {
             lengths.count.record(recorder, target, &draws);
-            lengths.scan.record(recorder, target, "abuffer/build_5_scan", lists, 0, shaders);
+            lengths.scan.record(recorder, target, "abuffer/build_6_scan", lists, 0, shaders);
         }
         self.store.record(recorder, target, &draws);
         if let Some(fringe) = &self.fringe {
             fringe.record(recorder, target, &draws);
         }
         let marks = groups(triangles.div_ceil(32));
-        target.compute_pass(recorder, "abuffer/build_7_lost", &self.lost, marks, 0, Access::COMPUTE);
+        target.compute_pass(recorder, "abuffer/build_9_lost", &self.lost, marks, 0, Access::COMPUTE);
         if let Some(pyramid) = &self.pyramid {
-            pyramid.record(recorder, target, "abuffer/build_7_pyramid", &draws, Access::COMPUTE);
+            pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }
         if let Some(reorder) = &self.reorder {
             let readers = Access::COMPUTE;
@@ -144,16 +144,16 @@ impl Build {
             };
             target.compute_pass(
                 recorder,
-                "abuffer/build_7_reorder",
+                "abuffer/build_11_reorder",
                 &reorder.all,
                 groups(sorted),
                 0,
                 readers,
             );
             let long = groups(long_capacity(config, target.pools.sizes()));
-            let (label, rounds) = ("abuffer/build_8_reorder_long", LONG_LIST_ROUNDS);
+            let (label, rounds) = ("abuffer/build_12_reorder_long", LONG_LIST_ROUNDS);
             target.rounds_pass(recorder, label, &reorder.long, long, rounds, readers);
         }
-        target.status_pass(recorder, "abuffer/build_9_status", &self.status);
+        target.status_pass(recorder, "abuffer/build_13_status", &self.status);
     }
 }

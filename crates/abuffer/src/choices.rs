@@ -12,7 +12,7 @@ pub enum March {
     Dda,
     /// Every cell the ray crosses.
     Exact,
-    /// The same hits with leaps over blocks of cells that hold nothing at the ray's depths.
+    /// The same hits with skips over blocks of cells that hold nothing at the ray's depths.
     Pyramid,
 }
 
@@ -34,9 +34,9 @@ pub enum Accept {
     Interval,
     /// The same, with each fragment extended away from the eye by [`Config::thickness`](crate::Config::thickness).
     Thickness,
-    /// The depths that its triangle takes within the cell meet those of the ray. Needs [`Payload::Index`].
+    /// The depths that its triangle takes within the cell overlap those of the ray. Needs [`Payload::Index`].
     Slope,
-    /// The ray meets the plane of its triangle within the cell. Needs [`Payload::Index`] or [`Payload::Plane`].
+    /// The ray intersects the plane of its triangle within the cell. Needs [`Payload::Index`] or [`Payload::Plane`].
     Plane,
 }
 
@@ -57,7 +57,7 @@ impl Accept {
     }
 }
 
-/// What a fragment carries beside its node.
+/// What a fragment carries in addition to its node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// The triangle's id, 4 bytes: plane and surface come from the posed triangle.
@@ -67,7 +67,7 @@ pub enum Payload {
     /// The paper's payload for ambient occlusion: the quantised normal that is shaded by, alone, 4 bytes.
     /// Needs a scene.
     Normal,
-    /// The triangle's plane in full, 16 bytes: rays meet it without asking for the triangle, and know nothing
+    /// The triangle's plane in full, 16 bytes: rays intersect it without reading the triangle, and know nothing
     /// else of it.
     Plane,
 }
@@ -108,14 +108,14 @@ pub enum Coverage {
     Hardware,
     /// A watertight test of the cell's centre against the triangle; the rasterizer only proposes.
     Exact,
-    /// The same, and a triangle that reaches into a cell beside its centre is kept in the cell's fringe:
+    /// The same, and a triangle that reaches into a cell outside of its centre is kept in the cell's conservative list:
     /// edge-on ones, silhouettes, and what is smaller than a cell. Rays then test triangles, not their
     /// planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
     /// [`Accept::Plane`].
     Conservative,
-    /// As [`Coverage::Exact`], and of the triangles that reach into a cell beside its centre those are kept
+    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre those are kept
     /// that have no fragment in any view, or whose planes are seen edge-on there: what the paper names as its
-    /// open limit. Fragments are met by their planes, triangles of the fringe by themselves. Needs
+    /// open limit. Rays intersect fragments by their planes, triangles of conservative lists by themselves. Needs
     /// [`Accept::Plane`].
     EdgeOn,
 }
@@ -152,7 +152,7 @@ pub enum Views {
     /// The same, and what the camera sees, with
     /// [`Config::camera_resolution`](crate::Config::camera_resolution) columns and rows.
     CubeCamera,
-    /// What the camera sees and nothing else: rays meet nothing outside of its pyramid.
+    /// What the camera sees and nothing else: rays hit nothing outside of its pyramid.
     Camera,
 }
 
@@ -188,9 +188,9 @@ impl Views {
 /// How the fragments of a cell are kept (MMRT table 2). Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// One linked list a cell, read from its near end.
+    /// One linked list per cell, read from its near end.
     Ll,
-    /// One doubly linked list a cell, read from either end.
+    /// One doubly linked list per cell, read from either end.
     Dll,
     /// A linked list a depth bucket.
     Llb,
@@ -218,7 +218,7 @@ impl Storage {
         }
     }
 
-    /// Whether a cell has depth bounds and a list a bucket.
+    /// Whether a cell has depth bounds and a list per bucket.
     pub fn is_bucketed(self) -> bool {
         matches!(self, Self::Llb | Self::Dllb | Self::Paged)
     }

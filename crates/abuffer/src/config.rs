@@ -7,7 +7,7 @@ use crate::{Accept, Coverage, March, Payload, Storage, Views};
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Cells a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
+    /// Cells along a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
     /// Which views are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
     pub views: Views,
@@ -18,18 +18,18 @@ pub struct Config {
     pub storage: Storage,
     /// Payload within the nodes instead of in a pool of its own. Changes no hit.
     pub inline: bool,
-    /// Fragments a page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
+    /// Fragments per page: 1, 2, 4 or 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
-    /// Depth buckets a cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
+    /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
     /// layers. Changes no hit.
     pub buckets: u32,
     /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
-    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then meet nothing that is behind something
+    /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
     /// else as seen from the eye.
     pub single_layer: bool,
     /// How rays step.
     pub march: March,
-    /// Most samples a face, 1 to 65535; only for [`March::Samples`].
+    /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
     /// Where steps are longer than a cell, samples look at a place in them that is the ray's own, in place of the
     /// middle; only for [`March::Samples`].
@@ -37,7 +37,7 @@ pub struct Config {
     /// When a fragment counts.
     pub accept: Accept,
     /// Metres; only for [`Accept::Thickness`]. Where absent half the width of a step of the march at the farthest
-    /// geometry: `f / n` for `n` cells a side, or samples a face where these are fewer, and `f` the largest
+    /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the largest
     /// coordinate of the geometry relative to the eye; of a camera's view with wider cells accordingly.
     pub thickness: Option<f32>,
     /// What a fragment carries.
@@ -51,11 +51,11 @@ pub struct Config {
     pub builder: Builder,
     /// Sort lists, so that a search can end early. Changes no hit.
     pub sort: bool,
-    /// Skip cells and buckets that the ray's depths cannot meet. Changes no hit.
+    /// Skip cells and buckets that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments, or pages of them, to make room for before the first build; a guess from the resolution where
+    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where
     /// absent.
     pub fragments: Option<u64>,
     /// How much of their work rays record. Changes no hit.
@@ -94,8 +94,8 @@ impl Config {
         }
     }
 
-    /// The paper's approximations: 100 samples a face with a jitter a ray, fragments as voxels of one thickness, quantised
-    /// attributes, the rasterizer's own coverage. The paper has a view of its camera as well: [`Views::CubeCamera`] with
+    /// The paper's approximations: 100 samples per face with a jitter per ray, fragments as voxels of one thickness,
+    /// quantised attributes, the rasterizer's own coverage. The paper has a view of its camera as well: [`Views::CubeCamera`] with
     /// the columns and rows of the image, where builds are told of a camera.
     pub fn published(resolution: u32) -> Self {
         Self {
@@ -120,17 +120,17 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
         for side in self.camera_resolution {
             range("camera-resolution", side, 1, 8192, "1 to 8192 columns and rows")?;
         }
-        range("buckets", self.buckets, 1, 32, "1 to 32 buckets a cell")?;
-        range("samples", self.samples, 1, 65535, "1 to 65535 samples a face")?;
+        range("buckets", self.buckets, 1, 32, "1 to 32 buckets per cell")?;
+        range("samples", self.samples, 1, 65535, "1 to 65535 samples per face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
             return Err(AdsError::Option {
                 option: "page",
                 value: self.page.to_string(),
-                expected: "1, 2, 4 or 8 fragments a page",
+                expected: "1, 2, 4 or 8 fragments per page",
             });
         }
         // A dispatch that resumes a search counts its cell before it reads an entry.
@@ -203,17 +203,17 @@ impl Config {
         }
     }
 
-    /// Whether cells keep triangles beside their centres.
+    /// Whether cells keep triangles outside of their centres.
     pub(crate) fn has_fringe(&self) -> bool {
         matches!(self.coverage, Coverage::Conservative | Coverage::EdgeOn)
     }
 
-    /// Whether fragments are met by their triangles, not by the planes of these.
+    /// Whether rays intersect fragments by their triangles, not by the planes of these.
     pub(crate) fn tests_triangles(&self) -> bool {
         self.coverage == Coverage::Conservative
     }
 
-    /// Sets of marks of triangles: those with a fragment, and where these decide what the fringe keeps, those
+    /// Sets of marks of triangles: those with a fragment, and where these decide what conservative lists keep, those
     /// that it does.
     pub(crate) fn mark_sets(&self) -> u64 {
         if self.coverage == Coverage::EdgeOn { 2 } else { 1 }
@@ -235,7 +235,7 @@ impl Config {
         self.storage.is_bucketed() && !self.single_layer
     }
 
-    /// Lists a cell.
+    /// Lists per cell.
     pub fn lists(&self) -> u32 {
         if self.has_buckets() { self.buckets } else { 1 }
     }

@@ -14,8 +14,8 @@ pub enum Fault {
         /// The link.
         link: u32,
     },
-    /// A link of the fringe names no node, or leads in a circle.
-    #[error("cell {cell}: link {link} of the fringe names no node, or leads in a circle")]
+    /// A link of a conservative list points to no node, or leads in a circle.
+    #[error("cell {cell}: link {link} of the conservative list points to no node, or leads in a circle")]
     Fringe {
         /// Cell.
         cell: usize,

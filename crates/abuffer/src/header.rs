@@ -8,35 +8,35 @@ use bytemuck::{Pod, Zeroable};
 pub struct Header {
     /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
     pub status: u32,
-    /// Fragments met by the build, or pages begun for them, also those beyond the capacity.
+    /// Fragments found by the build, or pages begun for them, also those beyond the capacity.
     pub demand: u32,
     /// Fragments or pages the pools hold.
     pub capacity: u32,
-    /// Triangles that meet the near box.
+    /// Triangles that intersect the near region.
     pub near_demand: u32,
-    /// Triangles the near list holds.
+    /// Triangles in the near-region list.
     pub near_capacity: u32,
     /// Lists longer than the reorder passes sort.
     pub unsorted: u32,
     /// List entries that named no node.
     pub corrupted: u32,
-    /// Cells a side of a face, border not counted.
+    /// Cells along a side of a face, border not counted.
     pub resolution: u32,
-    /// Marching samples a face.
+    /// Marching samples per face.
     pub samples: u32,
     /// Metres.
     pub thickness: f32,
-    /// Half side of the near box, metres.
+    /// Half side of the near region, metres.
     pub near_size: f32,
     /// Lists too long for the first reorder pass.
     pub long_demand: u32,
     /// Common centre of the faces, metres relative to the frame origin.
     pub eye: [f32; 3],
-    /// Long lists there is room for.
+    /// Capacity for long lists.
     pub long_capacity: u32,
     /// Lower corner of the geometry relative to the eye, metres.
     pub lower: [f32; 3],
-    /// Fragments met by the build; only of paged lists.
+    /// Fragments found by the build; only of paged lists.
     pub fragments: u32,
     /// Upper corner of the geometry relative to the eye, metres.
     pub upper: [f32; 3],
@@ -53,9 +53,9 @@ pub struct Header {
     pub lost: u32,
     /// Triangles of the geometry that there are marks for.
     pub triangles: u32,
-    /// Triangles kept beside centres, also those beyond the capacity; only with conservative coverage.
+    /// Triangles kept outside of centres, also those beyond the capacity; only with conservative coverage.
     pub fringe_demand: u32,
-    /// Triangles the fringe holds.
+    /// Triangles in conservative lists.
     pub fringe_capacity: u32,
     /// Largest coordinate of the geometry relative to the eye, metres.
     pub reach: f32,
@@ -63,7 +63,7 @@ pub struct Header {
     pub rounding: f32,
     /// Triangles with many cells of a view, also those beyond the capacity; only of the binning builder.
     pub pairs: u32,
-    /// Those there is room for.
+    /// Capacity for them.
     pub pair_capacity: u32,
     /// Workgroups for them.
     pub groups: [u32; 3],
@@ -75,10 +75,10 @@ pub struct Header {
     pub nodes_address: [u32; 2],
     /// Device address of the payload.
     pub data_address: [u32; 2],
-    /// Device address of the near list.
+    /// Device address of the near-region list.
     pub near_address: [u32; 2],
     /// Device address of the scratch: sums of the scan, and long lists.
     pub scratch_address: [u32; 2],
-    /// Device address of the fringe.
+    /// Device address of the conservative lists.
     pub fringe_address: [u32; 2],
 }

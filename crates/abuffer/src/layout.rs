@@ -35,7 +35,7 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
 /// What a build found: how much of each pool it asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
-    /// Nodes: one a fragment, or one a page of them.
+    /// Nodes: one per fragment, or one per page of them.
     pub nodes: u64,
     /// Triangles around the eye.
     pub near_triangles: u64,
@@ -43,7 +43,7 @@ pub struct Demand {
     pub long_lists: u64,
     /// Triangles of the geometry.
     pub triangles: u64,
-    /// Triangles kept beside centres.
+    /// Triangles kept outside of centres.
     pub fringe: u64,
     /// Triangles with many cells of a view, for the binning builder.
     pub pairs: u64,
@@ -78,7 +78,7 @@ pub(crate) fn node_words(config: &Config) -> u64 {
     }
 }
 
-/// Fragments that a node has room for.
+/// Capacity of a node, in fragments.
 pub(crate) fn node_slots(config: &Config) -> u64 {
     if config.storage == Storage::Paged { config.page.into() } else { 1 }
 }
@@ -92,7 +92,7 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
 }
 
 /// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at
-/// the extent, and beside buckets their scale; with conservative coverage the head of the fringe.
+/// the extent, and with buckets their scale; with conservative coverage the head of the conservative list.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     let extent = match (config.accept.needs_triangles(), config.has_buckets()) {
         (true, true) => 2,
@@ -125,12 +125,12 @@ fn scan_words(config: &Config) -> u64 {
     if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }
 }
 
-/// Long lists that such pools have room for.
+/// Capacity of such pools for long lists.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
     sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)) / 2
 }
 
-/// Triangles with many cells that such pools have room for.
+/// Capacity of such pools for triangles with many cells.
 pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
@@ -166,7 +166,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Sizes::of("mmrt", sizes)
 }
 
-/// The first guess where nothing has been counted: a fragment a cell, and a triangle beside every fourth centre.
+/// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every fourth centre.
 pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsError> {
     let cells = cell_count(config);
     let fragments = config.fragments.unwrap_or(cells);
@@ -195,12 +195,12 @@ pub struct FormulaBytes {
     /// Per fragment: `m_f` of the table, where inline without what finds the payload, and payload 4 or 16. Paged:
     /// per page 4, and per slot 4 and the payload.
     pub fragments: u64,
-    /// With conservative and edge-on coverage: per cell 4, per triangle beside its centre 12; with the latter
+    /// With conservative and edge-on coverage: per cell 4, per triangle outside of a centre 12; with the latter
     /// 4 per 32 triangles.
     pub fringe: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
-    /// Header, 4 per triangle of the near list, 8 per long list, or where that is more 4 per triangle with
+    /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle with
     /// many cells of a view where they are binned, 4 per 1024 cells for the scan of SB, and 4 per 32
     /// triangles for their marks.
     pub rest: u64,
@@ -225,7 +225,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     };
     let buckets = if config.single_layer { 1 } else { u64::from(config.buckets) };
     let unbounded = matches!(config.storage, Storage::Sb | Storage::Ll | Storage::Dll);
-    // Columns of table 2: bytes a cell, bytes a fragment, and bytes for the scale of buckets.
+    // Columns of table 2: bytes per cell, bytes per fragment, and bytes for the scale of buckets.
     let (per_cell, per_fragment, scale) = match config.storage {
         Storage::Sb => (8, if config.inline { 4 } else { 8 }, 0),
         Storage::Ll => (4, 8, 0),
@@ -336,7 +336,7 @@ mod tests {
         }
     }
 
-    /// Bytes a cell with four buckets, and bytes a fragment beside the payload, decoupled as in table 2 of
+    /// Bytes per cell with four buckets, and bytes per fragment without the payload, decoupled as in table 2 of
     /// the paper, and inline, where only the S-buffer saves a word: the payload's index.
     #[test]
     fn storages_have_the_papers_bytes() {

@@ -13,7 +13,7 @@ rasray_ads::pool_names! {
         Nodes = "nodes",
         /// What fragments carry, where that is not in the nodes.
         Data = "data",
-        /// Triangles of the near box.
+        /// Triangles in the near region.
         Near = "near",
         /// Sums of the scan, and what a build remembers.
         Scratch = "scratch",

@@ -52,7 +52,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
                 rows[axis] = rows[axis].map(|x| x * (cells[axis] as f32 / side));
             }
             let width = |axis: usize| 2.0 * halves[axis] / cells[axis] as f32;
-            // A point's place in the camera's view is also turned and stretched: twice the rounding, and
+            // A point's place in the camera's view is also rotated and scaled: twice the rounding, and
             // narrow views more.
             let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
             (rows, stretch, stretch * side, width(0).max(width(1)))
@@ -60,7 +60,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
     let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
     let triangle_rounding = if config.has_fringe() { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
-    // Planes and depths stand for all that is in their cell, so they are met up to a cell beyond the geometry. A
+    // Planes and depths stand for all that is in their cell, so rays hit them up to a cell beyond the geometry. A
     // ray that ended at the bounds would not come behind what lies on them.
     let margin = if config.tests_triangles() { triangle_rounding } else { rounding + widest * farthest };
     // Half as deep as a ray moves sideways from one look at lists to the next, where steps are widest.
@@ -71,7 +71,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     let thickness = config.thickness.unwrap_or(0.5 * step * farthest);
     let cells = (faces as f32).max(camera_cells);
     // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be
-    // lost the march needs more, and what a ray meets outside of the near box is not behind the eye.
+    // lost the march needs more, and what a ray hits outside of the near region is not behind the eye.
     let near_size = if config.has_fringe() {
         (NEAR_BOX * cells * farthest).max(2.0 * triangle_rounding).max(1.0e-30)
     } else {
@@ -225,7 +225,7 @@ impl Design for Build {
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
-        // One cell may hold all of the fringe: a small object in a large world.
+        // One cell's conservative list may hold everything: a small object in a large world.
         16 + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
     }
 

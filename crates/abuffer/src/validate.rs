@@ -20,12 +20,12 @@ pub struct Contents {
     pub nodes: Vec<u32>,
     /// Payload of each fragment, where it is not inline.
     pub data: Vec<u32>,
-    /// Triangles of the near box.
+    /// Triangles in the near region.
     pub near: Vec<u32>,
     /// What the scan of contiguous lists left behind, and the lists that one dispatch does not sort with how
     /// far each is.
     pub scratch: Vec<u32>,
-    /// Triangle and next link of each node of the fringe.
+    /// Triangle and next link of each node of the conservative lists.
     pub fringe: Vec<u32>,
 }
 
@@ -44,12 +44,12 @@ impl Contents {
         self.header.demand.min(self.header.capacity) as usize * self.slots()
     }
 
-    /// Whether all that the build met was stored.
+    /// Whether all that the build found was stored.
     fn complete(&self) -> bool {
         self.header.demand <= self.header.capacity
     }
 
-    /// Fragments a node has room for.
+    /// Capacity of a node, in fragments.
     fn slots(&self) -> usize {
         node_slots(&self.config) as usize
     }
@@ -91,10 +91,10 @@ impl Contents {
         &self.node(link)[1 + inline..]
     }
 
-    /// The triangles of a cell's fringe, as far as they were stored.
+    /// The triangles of a cell's conservative list, as far as they were stored.
     ///
     /// # Errors
-    /// A link names no node, or leads in a circle.
+    /// A link points to no node, or leads in a circle.
     pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
         let mut found = Vec::new();
         if !self.config.has_fringe() {
@@ -146,8 +146,8 @@ impl Contents {
 }
 
 /// Checks that every allocated node is in exactly one list, that links agree in both directions, that
-/// depths lie within bounds, that lists are sorted where they should be, and that every node of the fringe is in
-/// exactly one.
+/// depths lie within bounds, that lists are sorted where they should be, and that every node of the conservative
+/// lists is in exactly one.
 ///
 /// # Errors
 /// The first fault found.

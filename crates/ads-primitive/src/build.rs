@@ -31,17 +31,17 @@ impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let visit = |name| visit(pipelines, config, name);
         let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths { count: visit("build_4_count")?, scan: Scan::new(pipelines, "build_5_scan")? })
+            Ok(Lengths { count: visit("build_5_count")?, scan: Scan::new(pipelines, "build_6_scan")? })
         };
         let compute = |wanted: bool, name| wanted.then(|| pipelines.compute(name)).transpose();
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             bounds: visit("build_2_bounds")?,
             scale: compute(config.buckets > 1, "build_3_scale")?,
-            pyramid: config.has_pyramid().then(|| Pyramid::new(pipelines, "build_3_pyramid")).transpose()?,
+            pyramid: config.has_pyramid().then(|| Pyramid::new(pipelines, "build_4_pyramid")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: visit("build_6_store")?,
-            status: pipelines.compute("build_7_status")?,
+            store: visit("build_7_store")?,
+            status: pipelines.compute("build_8_status")?,
         })
     }
 
@@ -63,13 +63,13 @@ impl Build {
             target.compute_pass(recorder, "primitive/build_3_scale", scale, groups, 0, shaders);
         }
         if let Some(pyramid) = &self.pyramid {
-            pyramid.record(recorder, target, "primitive/build_3_pyramid", &views, shaders);
+            pyramid.record(recorder, target, "primitive/build_4_pyramid", &views, shaders);
         }
         if let Some(lengths) = &self.lengths {
             lengths.count.record(recorder, target, &views);
-            lengths.scan.record(recorder, target, "primitive/build_5_scan", lists, 0, shaders);
+            lengths.scan.record(recorder, target, "primitive/build_6_scan", lists, 0, shaders);
         }
         self.store.record(recorder, target, &views);
-        target.status_pass(recorder, "primitive/build_7_status", &self.status);
+        target.status_pass(recorder, "primitive/build_8_status", &self.status);
     }
 }

@@ -14,7 +14,7 @@ pub enum Storage {
     Contiguous,
 }
 
-/// Where the faces of the cube meet. Changes no hit where [`Config::is_exact`].
+/// The point at which the faces of the cube touch. Changes no hit where [`Config::is_exact`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Centre {
     /// At the eye, as in the paper.
@@ -35,7 +35,7 @@ pub struct Config {
     pub buckets: u32,
     /// How lists are kept.
     pub storage: Storage,
-    /// Where the faces meet.
+    /// The point at which the faces touch.
     pub centre: Centre,
     /// Who puts triangles into tiles. Changes no hit.
     pub builder: Builder,
@@ -44,7 +44,7 @@ pub struct Config {
     pub pyramid: bool,
     /// Which tiles list a triangle.
     pub coverage: Coverage,
-    /// When a triangle that a ray meets is a hit.
+    /// When a triangle that a ray intersects is a hit.
     pub accept: Accept,
     /// Where the search of a tile ends.
     pub stop: Stop,
@@ -56,7 +56,7 @@ pub struct Config {
     pub skip: bool,
     /// How pools are reached.
     pub addressing: Addressing,
-    /// Entries to make room for before the first build; a guess from the cells where absent.
+    /// Entries to allocate for the first build; a guess from the cells where absent.
     pub entries: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,
@@ -143,9 +143,9 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels a side")?;
-        range("tile", self.tile, 1, 64, "1 to 64 pixels a side")?;
-        range("buckets", self.buckets, 1, 64, "1 to 64 buckets a tile")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels along a side")?;
+        range("tile", self.tile, 1, 64, "1 to 64 pixels along a side")?;
+        range("buckets", self.buckets, 1, 64, "1 to 64 buckets per tile")?;
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: take builder raster";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });

@@ -12,9 +12,9 @@ pub struct Header {
     pub demand: u32,
     /// Entries the pool holds.
     pub capacity: u32,
-    /// Triangles that meet the near box.
+    /// Triangles that intersect the near region.
     pub near_demand: u32,
-    /// Triangles the near list holds.
+    /// Triangles in the near-region list.
     pub near_capacity: u32,
     /// List entries that named no node.
     pub corrupted: u32,
@@ -24,7 +24,7 @@ pub struct Header {
     pub tile: u32,
     /// Farthest that the geometry is from the centre along an axis, metres.
     pub reach: f32,
-    /// Half side of the near box, metres.
+    /// Half side of the near region, metres.
     pub near_size: f32,
     /// Bound of how far rounding moves a triangle against a ray, metres.
     pub rounding: f32,
@@ -42,7 +42,7 @@ pub struct Header {
     pub entries_address: [u32; 2],
     /// Device address of the sums of the scan.
     pub sums_address: [u32; 2],
-    /// Device address of the near list.
+    /// Device address of the near-region list.
     pub near_address: [u32; 2],
     /// Device address of the pairs.
     pub pairs_address: [u32; 2],

@@ -101,7 +101,7 @@ pub struct FormulaBytes {
     pub entries: u64,
     /// Per 1024 numbers that are scanned: a sum of 4.
     pub scan: u64,
-    /// Header, 4 per triangle of the near list, and 24 per triangle where a compute pass puts them into tiles.
+    /// Header, 4 per triangle of the near-region list, and 24 per triangle where a compute pass puts them into tiles.
     pub rest: u64,
 }
 

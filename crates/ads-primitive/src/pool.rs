@@ -13,7 +13,7 @@ rasray_ads::pool_names! {
         Entries = "entries",
         /// Sums of the scan.
         Sums = "sums",
-        /// Triangles of the near box.
+        /// Triangles in the near region.
         Near = "near",
         /// Triangles with many tiles of a face.
         Pairs = "pairs",

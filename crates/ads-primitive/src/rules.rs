@@ -10,7 +10,7 @@ pub enum Coverage {
     Hardware,
 }
 
-/// When a triangle that a ray meets is a hit.
+/// When a triangle that a ray intersects is a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Accept {
     /// By its t, wherever it lies.

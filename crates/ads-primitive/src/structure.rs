@@ -35,7 +35,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
     // centre is from the frame origin.
     let rounding = TRIANGLE_ROUNDING * farthest;
-    // What a ray outside of the near box meets is not behind the centre, also where tiles are few.
+    // What a ray hits outside of the near region is not behind the centre, also where tiles are few.
     let near_size = (NEAR_BOX * config.tiles() as f32 * farthest).max(2.0 * rounding);
     Header {
         capacity: parts.elements(Pool::Entries) as u32,

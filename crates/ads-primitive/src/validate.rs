@@ -15,7 +15,7 @@ pub struct Contents {
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,
-    /// Triangles of the near box.
+    /// Triangles in the near region.
     pub near: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! The brute-force structure: every ray tests every triangle. It is the baseline of every judgement.
+//! The brute-force structure: every ray tests every triangle. Every other structure is compared with it.
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 

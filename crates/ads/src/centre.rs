@@ -1,4 +1,4 @@
-//! Where the faces of a cube meet that need not meet at the eye.
+//! The point at which the faces of a cube touch, where that need not be the eye.
 
 /// Rays from farther than `ORIGIN_LIMIT` times the geometry are tested one by one; eyes stay nearer than this.
 const EYE_LIMIT: f32 = 3.5;

@@ -1,5 +1,5 @@
 //! What all acceleration data structures of rasray share: the contract, geometry, ray queues and the
-//! kernels that trace them, and a brute-force structure that every other one is judged against.
+//! kernels that trace them, and a brute-force structure that every other one is compared with.
 //!
 //! # The contract
 //! A [`Structure`] owns three things: how it is built from a [`Geometry`], how rays are traced through
@@ -70,5 +70,3 @@ pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMIT
 pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
 /// A draw whose triangles are alpha-masked.
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
-/// A draw that does not move.
-pub const DRAW_STATIC: u32 = rasray_shaders_glsl::constants::contract::DRAW_STATIC;

@@ -1,4 +1,4 @@
-//! Depth bounds of blocks of cells on the device: what rays leap by.
+//! Depth bounds of blocks of cells on the device: what rays skip blocks by.
 
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;

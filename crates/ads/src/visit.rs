@@ -126,7 +126,7 @@ impl PairsPass {
 }
 
 /// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
-/// `build_2_bounds.alpha` has compute shaders `build_2_bounds_bin.alpha` and `build_2_bounds_bin_many.alpha`
+/// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_many.alpha`
 /// beside it.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {

@@ -9,7 +9,7 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
 use tracing_subscriber::EnvFilter;
 
-/// How much is said beside results and errors.
+/// How much is said in addition to results and errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Talk {
     /// Nothing.
@@ -52,7 +52,7 @@ pub(crate) fn write_out(bytes: &[u8]) -> io::Result<()> {
 /// [`AppError::Refused`] when stdout takes no more.
 pub(crate) fn print(text: &str) -> Result<(), AppError> {
     write_out(shown(text).as_bytes()).map_err(|error| {
-        AppError::refused(format!("stdout: {error}"), "send the output somewhere with room for it")
+        AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
     })
 }
 

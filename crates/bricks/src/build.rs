@@ -16,7 +16,7 @@ const SCAN_BRICKS: u32 = 1;
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    /// The near box and the slices of a cube's faces, from depths; views along axes have neither.
+    /// The near region and the slices of a cube's faces, from depths; views along axes have neither.
     depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
     cells: ComputePipeline,
@@ -35,8 +35,8 @@ impl Build {
         let reaches = || -> Result<_, AdsError> {
             Ok([
                 named("build_9_reach_slices")?,
-                named("build_9_reach_columns")?,
-                named("build_9_reach_rows")?,
+                named("build_10_reach_columns")?,
+                named("build_11_reach_rows")?,
             ])
         };
         Ok(Self {
@@ -55,8 +55,8 @@ impl Build {
             count: pipelines.compute("build_6_count")?,
             store: pipelines.compute("build_8_store")?,
             reaches: config.skip.then(reaches).transpose()?,
-            triangles: config.corners.then(|| pipelines.compute("build_10_triangles")).transpose()?,
-            status: pipelines.compute("build_11_status")?,
+            triangles: config.corners.then(|| pipelines.compute("build_12_triangles")).transpose()?,
+            status: pipelines.compute("build_13_status")?,
         })
     }
 
@@ -97,8 +97,8 @@ impl Build {
             pass(recorder, label, reach, bricks / bricks_of_line, compute);
         }
         if let Some(copy) = &self.triangles {
-            pass(recorder, "bricks/build_10_triangles", copy, triangles, compute);
+            pass(recorder, "bricks/build_12_triangles", copy, triangles, compute);
         }
-        target.status_pass(recorder, "bricks/build_11_status", &self.status);
+        target.status_pass(recorder, "bricks/build_13_status", &self.status);
     }
 }

@@ -32,7 +32,7 @@ pub struct Config {
     pub builder: Builder,
     /// How pools are reached.
     pub addressing: Addressing,
-    /// Entries to make room for before the first build; 16 per triangle where absent.
+    /// Entries to allocate for the first build; 16 per triangle where absent.
     pub entries: Option<u64>,
     /// How much of their work rays record.
     pub counters: Counters,

@@ -96,7 +96,7 @@ pub(crate) struct Placement {
     pub(crate) centre: [f32; 3],
     /// Half the longest side of the bounds; more where the eye is far away.
     pub(crate) reach: f32,
-    /// How far a ray may be from a triangle that it meets.
+    /// How far a ray may be from a triangle that it hits.
     pub(crate) rounding: f32,
     /// Corner of the first cell.
     pub(crate) lower: [f32; 3],

@@ -12,9 +12,9 @@ pub struct Header {
     pub demand: u32,
     /// Entries the pool holds.
     pub capacity: u32,
-    /// Triangles that meet the near box.
+    /// Triangles that intersect the near region.
     pub near_demand: u32,
-    /// Triangles the near list holds.
+    /// Triangles in the near-region list.
     pub near_capacity: u32,
     /// List entries that named no triangle.
     pub corrupted: u32,
@@ -27,7 +27,7 @@ pub struct Header {
     /// Farthest that the geometry is from the centre along an axis, metres; of views along axes, more where
     /// the eye is far away.
     pub reach: f32,
-    /// Half side of the near box, metres.
+    /// Half side of the near region, metres.
     pub near_size: f32,
     /// Bound of how far rounding moves a triangle against a ray, metres.
     pub rounding: f32,
@@ -49,7 +49,7 @@ pub struct Header {
     pub entries_address: [u32; 2],
     /// Device address of the sums of the scan, later of the distances.
     pub sums_address: [u32; 2],
-    /// Device address of the near list.
+    /// Device address of the near-region list.
     pub near_address: [u32; 2],
     /// Device address of the records.
     pub records_address: [u32; 2],
@@ -67,7 +67,7 @@ pub struct Header {
     pub cell_demand: u32,
     /// Lists the pool holds.
     pub cell_capacity: u32,
-    /// Triangles there is room for.
+    /// Capacity for triangles.
     pub triangle_capacity: u32,
     /// Triangles with many columns of a view.
     pub pairs: u32,

@@ -85,8 +85,8 @@ pub struct FormulaBytes {
     pub entries: u64,
     /// 4 per brick where distances of empty ones are found; else 4 per 1024 numbers that are scanned.
     pub scan: u64,
-    /// Header, 4 per triangle of the near list, 12 per triangle in a column, and per triangle 36 for its corners or 24
-    /// while it is stored.
+    /// Header, 4 per triangle of the near-region list, 12 per triangle in a column, and per triangle 36 for its
+    /// corners or 24 while it is stored.
     pub rest: u64,
 }
 

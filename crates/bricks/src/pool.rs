@@ -13,7 +13,7 @@ rasray_ads::pool_names! {
         Entries = "entries",
         /// Sums of scans, later distances.
         Sums = "sums",
-        /// Triangles of the near box.
+        /// Triangles in the near region.
         Near = "near",
         /// Triangles in columns.
         Records = "records",

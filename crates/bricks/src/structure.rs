@@ -24,8 +24,8 @@ pub type Bricks = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Columns, rows and slices of each view, one brick where there is no room for those that the geometry
-/// asks for; and whether there is.
+/// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the geometry
+/// asks for; and whether it does.
 fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     let Parts { config, geometry, .. } = parts;
     let wanted = config.cells(geometry);
@@ -47,7 +47,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
     // centre is from the frame origin.
     let rounding = BRICK_ROUNDING * reach;
-    // What a ray outside of the near box meets is not behind the centre, also where columns are few.
+    // What a ray hits outside of the near region is not behind the centre, also where columns are few.
     let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
     Header {
         capacity: parts.elements(Pool::Entries) as u32,

@@ -3,7 +3,7 @@
 use rasray_ads::{Addressing, AdsError, Counters};
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
 
-/// Who makes the tree.
+/// What builds the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
     /// The host, by the surface area heuristic: slow to build, fast to trace.
@@ -25,7 +25,7 @@ impl Builder {
 /// Everything that may be chosen. Nothing of it changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
-    /// Who makes the tree.
+    /// What builds the tree.
     pub builder: Builder,
     /// Most triangles of a leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic decides below that.
     pub leaf: u32,

@@ -44,7 +44,7 @@ pub(crate) fn union(a: Box3, b: Box3) -> Box3 {
     ]
 }
 
-/// Builds a tree over triangles with these boxes, with at most `leaf` triangles a leaf.
+/// Builds a tree over triangles with these boxes, with at most `leaf` triangles per leaf.
 pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     if boxes.is_empty() {
         return Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::new() };

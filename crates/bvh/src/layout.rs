@@ -8,7 +8,7 @@ use crate::{Builder, Config, Header, Node, Pool, Record};
 /// Name of the structure in errors.
 pub(crate) const NAME: &str = "bvh";
 
-/// Words a triangle takes in the scratch pool of a build on the host before the order of the leaves: its box.
+/// Words that a triangle takes in the scratch pool of a build on the host before the order of the leaves: its box.
 pub(crate) const BOX_WORDS: u64 = 6;
 
 /// Words of the scratch pool.

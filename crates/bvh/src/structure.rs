@@ -62,7 +62,7 @@ fn on_device(triangles: u64) -> Prepared {
     Prepared { root, nodes: triangles.saturating_sub(1) }
 }
 
-/// Whether there is room for the tree. It has no partial form: without room for all of it nothing is built.
+/// Whether the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
 fn has_room(parts: &Parts<Config>) -> bool {
     let Parts { config, geometry, pools, .. } = parts;
     let sizes = pools.sizes();
@@ -118,7 +118,7 @@ impl rasray_ads::Demand for Demand {
     }
 }
 
-/// Rounds that a ray needs if it meets every box of the tree.
+/// Rounds that a ray needs if it hits every box of the tree.
 fn most_rounds(parts: &Parts<Config>) -> u32 {
     // Each triangle is tested once, each node entered once, and after pauses each child left once.
     let units = 4 * u64::from(parts.geometry.triangle_count());

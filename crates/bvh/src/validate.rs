@@ -23,7 +23,7 @@ pub struct Shape {
     pub leaves: usize,
     /// Inner nodes on the longest way from the root to a leaf.
     pub levels: usize,
-    /// Expected nodes and triangles that a ray through the root's box meets, by surface area; 0 where that
+    /// Expected nodes and triangles that a ray through the root's box hits, by surface area; 0 where that
     /// box has none.
     pub cost: f64,
 }
@@ -33,7 +33,7 @@ pub struct Shape {
 #[non_exhaustive]
 pub enum Fault {
     /// A child is no node or run of records.
-    #[error("node {node}: child {reference:#010x} names neither a node nor records")]
+    #[error("node {node}: child {reference:#010x} points to neither a node nor records")]
     Dangling {
         /// The node.
         node: u32,

@@ -30,7 +30,7 @@ pub fn pack_emissive(
     for (draw, shading) in posed.draws.iter().zip(draw_shadings.iter()) {
         let material = &scene.materials[shading.material as usize];
         let radiosity = PI * luminance(material.emission) * if material.double_sided { 2.0 } else { 1.0 };
-        // Unlit materials are not lights; what blends is met by scattered rays, as often as its opacity says.
+        // Unlit materials are not lights; scattered rays hit what blends, as often as its opacity says.
         if material.unlit || material.alpha_mode == AlphaMode::Blend || radiosity == 0.0 {
             first_of_draw.push(None);
             continue;

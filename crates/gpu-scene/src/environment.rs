@@ -15,7 +15,7 @@ use crate::{
 pub struct EnvironmentTables {
     /// `ENVIRONMENT_*`.
     pub kind: u32,
-    /// Texels a row; 0 for a constant environment.
+    /// Texels per row; 0 for a constant environment.
     pub width: u32,
     /// Rows; 0 for a constant environment.
     pub height: u32,
@@ -25,7 +25,7 @@ pub struct EnvironmentTables {
     pub irradiance: f64,
     /// Radiance of a constant environment, W/(sr m^2).
     pub constant: [f32; 3],
-    /// Three words a texel.
+    /// Three words per texel.
     pub radiance: Vec<f32>,
     /// Cumulative share of the rows, then of the texels within every row.
     pub distribution: Vec<f32>,

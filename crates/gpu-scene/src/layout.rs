@@ -45,7 +45,7 @@ pub struct Frame {
     pub emissive_count: u32,
     /// `ENVIRONMENT_*`.
     pub environment_kind: u32,
-    /// Texels a row; 0 unless latitude-longitude.
+    /// Texels per row; 0 unless latitude-longitude.
     pub environment_width: u32,
     /// Rows; 0 unless latitude-longitude.
     pub environment_height: u32,

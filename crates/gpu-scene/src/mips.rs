@@ -12,7 +12,7 @@ pub enum Encoding {
 /// One level: RGBA texels with red in the lowest byte, rows top first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Level {
-    /// Texels a row.
+    /// Texels per row.
     pub width: u32,
     /// Rows.
     pub height: u32,

@@ -120,7 +120,7 @@ impl Posed {
     }
 
     /// Bad vertices move onto a good one: nothing but collapsed triangles refers to them, and no
-    /// pass that reads all positions meets a value that is not finite.
+    /// pass that reads all positions finds a value that is not finite.
     fn collapse_bad_vertices(&mut self) {
         let stand_in = self.positions.iter().copied().find(|&p| is_usable(p)).unwrap_or([0.0; 3]);
         for position in &mut self.positions {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rasray_scene::{AlphaMode, Scene};
-use rasray_shaders_glsl::constants::contract::{DRAW_ALPHA_MASKED, DRAW_STATIC};
+use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
 
 use crate::{
     GpuSceneError, Parts, Posed, Sampling, TexelRuns, View,
@@ -131,7 +131,7 @@ fn draw_flags(scene: &Scene, instance: usize, parts: &Parts) -> u32 {
     let mesh = scene.instances.get(instance).and_then(|instance| scene.meshes.get(instance.mesh));
     let material = mesh.and_then(|mesh| scene.materials.get(mesh.material));
     let masked = material.is_some_and(|material| matches!(material.alpha_mode, AlphaMode::Mask { .. }));
-    DRAW_STATIC | if masked && parts.alpha { DRAW_ALPHA_MASKED } else { 0 }
+    if masked && parts.alpha { DRAW_ALPHA_MASKED } else { 0 }
 }
 
 /// Diagonal of the box around all placed meshes, metres; 0 for an empty scene. Vertices that are

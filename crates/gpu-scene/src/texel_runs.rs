@@ -9,7 +9,7 @@ pub const TEXEL_BYTES: u64 = 4;
 /// Largest exponent of a run's length: four runs then have all texels that 32 bits number.
 const LARGEST_SHIFT: u32 = 30;
 
-/// The length of a run of texels, a power of two. Textures lie where they come to lie: one may begin in one run and end
+/// The length of a run of texels, a power of two. Textures are not aligned to runs: one may begin in one run and end
 /// in the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TexelRuns {

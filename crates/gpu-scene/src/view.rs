@@ -32,7 +32,7 @@ pub enum Sampler {
     Pcg,
 }
 
-/// How pixels are sampled, beside the seed of the view.
+/// How pixels are sampled, except for the seed of the view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampling {
     /// Where random numbers come from.

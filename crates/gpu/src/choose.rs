@@ -238,7 +238,7 @@ impl Candidate {
     }
 }
 
-/// Compute is needed; graphics beside it is preferred.
+/// Compute is needed; a queue with graphics as well is preferred.
 fn choose_family(families: &[vk::QueueFamilyProperties], fixed: Option<u32>) -> Option<QueueFamily> {
     let offer = |index: usize, family: &vk::QueueFamilyProperties| {
         let computes = family.queue_flags.contains(vk::QueueFlags::COMPUTE) && family.queue_count > 0;

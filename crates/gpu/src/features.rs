@@ -19,30 +19,12 @@ pub enum Feature {
     DynamicRendering,
     /// Storage buffer writes from fragment shaders (`fragmentStoresAndAtomics`).
     FragmentStoresAndAtomics,
-    /// Storage buffer writes from vertex shaders (`vertexPipelineStoresAndAtomics`).
-    VertexStoresAndAtomics,
     /// Several views in one draw (`multiview`).
     Multiview,
-    /// The layer written by the vertex shader (`shaderOutputLayer`).
-    ShaderOutputLayer,
     /// Coverage of every touched pixel by the hardware (`VK_EXT_conservative_rasterization`).
     ConservativeRasterization,
     /// Buffers reached by 64-bit address (`bufferDeviceAddress`).
     BufferDeviceAddress,
-    /// 64-bit integers in shaders (`shaderInt64`).
-    ShaderInt64,
-    /// 64-bit integer atomics on storage buffers (`shaderBufferInt64Atomics`).
-    BufferInt64Atomics,
-    /// 32-bit float addition on storage buffers as an atomic (`VK_EXT_shader_atomic_float`).
-    BufferFloat32AtomicAdd,
-    /// 64-bit floats in shaders (`shaderFloat64`).
-    ShaderFloat64,
-    /// 16-bit values in storage buffers (`storageBuffer16BitAccess`).
-    StorageBuffer16Bit,
-    /// 8-bit values in storage buffers (`storageBuffer8BitAccess`).
-    StorageBuffer8Bit,
-    /// The Vulkan memory model (`vulkanMemoryModel`).
-    VulkanMemoryModel,
     /// Basic, vote, ballot, shuffle and arithmetic subgroup operations in compute shaders.
     SubgroupOperations,
     /// Timestamps on the queue. Nothing has to be enabled for it: pools are reset in the command buffer.
@@ -51,23 +33,14 @@ pub enum Feature {
 
 impl Feature {
     /// Every feature this crate knows.
-    pub const ALL: [Feature; 18] = [
+    pub const ALL: [Feature; 9] = [
         Self::ScalarBlockLayout,
         Self::Synchronization2,
         Self::DynamicRendering,
         Self::FragmentStoresAndAtomics,
-        Self::VertexStoresAndAtomics,
         Self::Multiview,
-        Self::ShaderOutputLayer,
         Self::ConservativeRasterization,
         Self::BufferDeviceAddress,
-        Self::ShaderInt64,
-        Self::BufferInt64Atomics,
-        Self::BufferFloat32AtomicAdd,
-        Self::ShaderFloat64,
-        Self::StorageBuffer16Bit,
-        Self::StorageBuffer8Bit,
-        Self::VulkanMemoryModel,
         Self::SubgroupOperations,
         Self::TimestampQueries,
     ];
@@ -79,18 +52,9 @@ impl Feature {
             Self::Synchronization2 => "synchronization2",
             Self::DynamicRendering => "dynamicRendering",
             Self::FragmentStoresAndAtomics => "fragmentStoresAndAtomics",
-            Self::VertexStoresAndAtomics => "vertexPipelineStoresAndAtomics",
             Self::Multiview => "multiview",
-            Self::ShaderOutputLayer => "shaderOutputLayer",
             Self::ConservativeRasterization => "VK_EXT_conservative_rasterization",
             Self::BufferDeviceAddress => "bufferDeviceAddress",
-            Self::ShaderInt64 => "shaderInt64",
-            Self::BufferInt64Atomics => "shaderBufferInt64Atomics",
-            Self::BufferFloat32AtomicAdd => "shaderBufferFloat32AtomicAdd",
-            Self::ShaderFloat64 => "shaderFloat64",
-            Self::StorageBuffer16Bit => "storageBuffer16BitAccess",
-            Self::StorageBuffer8Bit => "storageBuffer8BitAccess",
-            Self::VulkanMemoryModel => "vulkanMemoryModel",
             Self::SubgroupOperations => "subgroup operations",
             Self::TimestampQueries => "timestamp queries",
         }
@@ -106,7 +70,6 @@ impl Feature {
                 Some(ash::khr::dynamic_rendering::NAME)
             }
             Self::ConservativeRasterization => Some(ash::ext::conservative_rasterization::NAME),
-            Self::BufferFloat32AtomicAdd => Some(ash::ext::shader_atomic_float::NAME),
             _ => None,
         }
     }
@@ -117,9 +80,7 @@ impl Feature {
             self,
             Self::DynamicRendering
                 | Self::FragmentStoresAndAtomics
-                | Self::VertexStoresAndAtomics
                 | Self::Multiview
-                | Self::ShaderOutputLayer
                 | Self::ConservativeRasterization
         )
     }
@@ -131,17 +92,8 @@ impl Feature {
             Self::Synchronization2 => Some(&mut structs.synchronization2.synchronization2),
             Self::DynamicRendering => Some(&mut structs.dynamic_rendering.dynamic_rendering),
             Self::FragmentStoresAndAtomics => Some(&mut structs.core.fragment_stores_and_atomics),
-            Self::VertexStoresAndAtomics => Some(&mut structs.core.vertex_pipeline_stores_and_atomics),
             Self::Multiview => Some(&mut structs.v11.multiview),
-            Self::ShaderOutputLayer => Some(&mut structs.v12.shader_output_layer),
             Self::BufferDeviceAddress => Some(&mut structs.v12.buffer_device_address),
-            Self::ShaderInt64 => Some(&mut structs.core.shader_int64),
-            Self::BufferInt64Atomics => Some(&mut structs.v12.shader_buffer_int64_atomics),
-            Self::BufferFloat32AtomicAdd => Some(&mut structs.atomic_float.shader_buffer_float32_atomic_add),
-            Self::ShaderFloat64 => Some(&mut structs.core.shader_float64),
-            Self::StorageBuffer16Bit => Some(&mut structs.v11.storage_buffer16_bit_access),
-            Self::StorageBuffer8Bit => Some(&mut structs.v12.storage_buffer8_bit_access),
-            Self::VulkanMemoryModel => Some(&mut structs.v12.vulkan_memory_model),
             Self::ConservativeRasterization | Self::SubgroupOperations | Self::TimestampQueries => None,
         }
     }
@@ -230,7 +182,6 @@ pub(crate) struct FeatureStructs {
     v12: vk::PhysicalDeviceVulkan12Features<'static>,
     synchronization2: vk::PhysicalDeviceSynchronization2Features<'static>,
     dynamic_rendering: vk::PhysicalDeviceDynamicRenderingFeatures<'static>,
-    atomic_float: vk::PhysicalDeviceShaderAtomicFloatFeaturesEXT<'static>,
 }
 
 impl FeatureStructs {
@@ -253,9 +204,6 @@ impl FeatureStructs {
         if knows(Feature::DynamicRendering) {
             chain = chain.push_next(&mut self.dynamic_rendering);
         }
-        if knows(Feature::BufferFloat32AtomicAdd) {
-            chain = chain.push_next(&mut self.atomic_float);
-        }
         let answer = body(&mut chain);
         self.core = chain.features;
         answer
@@ -269,18 +217,21 @@ mod tests {
     #[test]
     fn merging_prefers_required_over_optional_and_removes_duplicates() {
         let first = Requirements {
-            required: vec![Feature::ShaderInt64],
-            optional: vec![(Feature::BufferInt64Atomics, "one word per node")],
+            required: vec![Feature::BufferDeviceAddress],
+            optional: vec![(Feature::Multiview, "one draw for all views")],
             storage_buffers: 12,
         };
         let second = Requirements {
-            required: vec![Feature::BufferInt64Atomics, Feature::ShaderInt64],
-            optional: vec![(Feature::ShaderInt64, "faster sort"), (Feature::ShaderFloat64, "an oracle")],
+            required: vec![Feature::Multiview, Feature::BufferDeviceAddress],
+            optional: vec![
+                (Feature::BufferDeviceAddress, "large pools"),
+                (Feature::FragmentStoresAndAtomics, "raster builds"),
+            ],
             storage_buffers: 8,
         };
         let both = first.merge(&second);
-        assert_eq!(both.required, [Feature::ShaderInt64, Feature::BufferInt64Atomics]);
-        assert_eq!(both.optional, [(Feature::ShaderFloat64, "an oracle")]);
+        assert_eq!(both.required, [Feature::Multiview, Feature::BufferDeviceAddress]);
+        assert_eq!(both.optional, [(Feature::FragmentStoresAndAtomics, "raster builds")]);
         assert_eq!(both.storage_buffers, 12);
     }
 

@@ -1,4 +1,4 @@
-//! Limits of a device, as far as this project meets them.
+//! Limits of a device, as far as this project depends on them.
 
 use ash::vk;
 

@@ -1,7 +1,7 @@
 //! From hits to radiance: ray casting, ambient occlusion, path tracing, and the film.
 //!
 //! An [`Integrator`] records waves: runs of pixels of which one sample is taken. Each wave fills a
-//! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was met,
+//! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was hit,
 //! and adds to a [`Film`]. Integrators name no structure, and structures know nothing of them.
 //!
 //! What is shaded and which random numbers are drawn is written in `docs/shading.md`; random numbers

@@ -1,4 +1,4 @@
-//! Ray casting: what camera rays meet, lit from the eye.
+//! Ray casting: what camera rays hit, lit from the eye.
 
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::Recorder;

@@ -61,21 +61,21 @@ impl Build {
         let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
         let layers = match config.making {
             Making::Single => Layers::Single {
-                store: covered("build_3_store")?,
-                sort: pipelines.compute("build_5_sort")?,
-                sort_long: pipelines.compute("build_6_sort_long")?,
+                store: covered("build_4_store")?,
+                sort: pipelines.compute("build_7_sort")?,
+                sort_long: pipelines.compute("build_8_sort_long")?,
             },
-            Making::Peel => Layers::Peel { peel: draw("build_3_peel")?, grow: draw("build_1_count")? },
+            Making::Peel => Layers::Peel { peel: draw("build_5_peel")?, grow: draw("build_2_count")? },
         };
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
-            pairs: visits.pairs("build_0_pairs")?,
-            count: covered("build_1_count")?,
-            scan: Scan::new(pipelines, "build_2_scan")?,
+            pairs: visits.pairs("build_1_pairs")?,
+            count: covered("build_2_count")?,
+            scan: Scan::new(pipelines, "build_3_scan")?,
             layers,
-            fringe: kept.then(|| visits.visit("build_raster.fringe", "build_4_fringe", "")).transpose()?,
-            attributes: stored.then(|| pipelines.compute("build_7_attributes")).transpose()?,
-            status: pipelines.compute("build_8_status")?,
+            fringe: kept.then(|| visits.visit("build_raster.fringe", "build_6_fringe", "")).transpose()?,
+            attributes: stored.then(|| pipelines.compute("build_9_attributes")).transpose()?,
+            status: pipelines.compute("build_10_status")?,
         })
     }
 
@@ -97,7 +97,7 @@ impl Build {
         }
         let views = [ViewDraw { side, views: DRAWS, first: 0 }];
         self.count.record(recorder, target, &views);
-        self.scan.record(recorder, target, "ldc/build_2_scan", cells, 0, shaders);
+        self.scan.record(recorder, target, "ldc/build_3_scan", cells, 0, shaders);
         match &self.layers {
             Layers::Single { store, .. } => store.record(recorder, target, &views),
             Layers::Peel { peel, grow } => {
@@ -111,16 +111,16 @@ impl Build {
         // Long lists are named where triangles with many cells were, so all triangles are visited before.
         if let Layers::Single { sort, sort_long, .. } = &self.layers {
             let groups = |items: u64| items.div_ceil(u64::from(LDC_GROUP_SIZE));
-            target.compute_pass(recorder, "ldc/build_5_sort", sort, groups(cells), 0, shaders);
+            target.compute_pass(recorder, "ldc/build_7_sort", sort, groups(cells), 0, shaders);
             let long = groups(long_capacity(config, target.pools.sizes()));
             let rounds = LONG_LIST_ROUNDS;
-            target.rounds_pass(recorder, "ldc/build_6_sort_long", sort_long, long, rounds, shaders);
+            target.rounds_pass(recorder, "ldc/build_8_sort_long", sort_long, long, rounds, shaders);
         }
         if let Some(attributes) = &self.attributes {
             let groups = target.pools.sizes().elements_of(Pool::Payload).div_ceil(u64::from(LDC_GROUP_SIZE));
-            target.compute_pass(recorder, "ldc/build_7_attributes", attributes, groups, 0, shaders);
+            target.compute_pass(recorder, "ldc/build_9_attributes", attributes, groups, 0, shaders);
         }
-        target.status_pass(recorder, "ldc/build_8_status", &self.status);
+        target.status_pass(recorder, "ldc/build_10_status", &self.status);
     }
 }
 
@@ -134,7 +134,7 @@ fn record_peeling(
     target: BuildTarget<'_>,
 ) {
     let shaders = Access::COMPUTE | Access::FRAGMENT;
-    recorder.begin_pass("ldc/build_3_peel");
+    recorder.begin_pass("ldc/build_5_peel");
     recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
     for pool in [Pool::Depths, Pool::Payload].map(|pool| target.pools.pool(pool)) {
         recorder.fill(pool, 0, pool.size(), u32::MAX);

@@ -10,18 +10,18 @@ pub enum Accept {
     Tolerance,
     /// The same with a tolerance that follows the lean of its triangle: half of its rise over the cell.
     Slope,
-    /// The ray meets the plane of its triangle within the cell.
+    /// The ray intersects the plane of its triangle within the cell.
     Plane,
 }
 
-/// Which cells a triangle gets a fragment in.
+/// In which cells a triangle gets a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// Those whose centre the rasterizer covers, with its sub-pixel grid.
     Hardware,
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
-    /// The same, and it is kept beside the centre of other cells that it reaches into, where no fragment stands
+    /// The same, and it is kept in other cells that it reaches into, where no fragment stands
     /// for it: there its own hits count.
     Conservative,
 }
@@ -53,7 +53,7 @@ pub enum Making {
     Peel,
 }
 
-/// What a fragment carries beside its depth.
+/// What a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
@@ -66,9 +66,9 @@ pub enum Payload {
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Cells a side of each view, 1 to 8192.
+    /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Cells a side of a block, a power of two up to 64. Changes no hit.
+    /// Cells along a side of a block, a power of two up to 64. Changes no hit.
     pub block: u32,
     /// Levels of blocks, 1 or 2; those of the second hold 8 x 8 of the first. Changes no hit.
     pub levels: u32,
@@ -93,11 +93,11 @@ pub struct Config {
     /// For diagnostics: keep the triangle of each fragment behind [`Payload::Attributes`]. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
-    /// Skip blocks and parts of lists that the ray's depths cannot meet. Changes no hit.
+    /// Skip blocks and parts of lists that the ray's depths cannot overlap. Changes no hit.
     pub skip: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments to make room for before the first build; a guess from the resolution where absent.
+    /// Fragments to allocate for the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,
@@ -151,10 +151,10 @@ impl Config {
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
         if !(1..=8192).contains(&self.resolution) {
-            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells a side");
+            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells along a side");
         }
         if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
-            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells a side");
+            return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells along a side");
         }
         if !(1..=2).contains(&self.levels) {
             return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");

@@ -12,15 +12,15 @@ pub struct Header {
     pub demand: u32,
     /// Places the pools hold.
     pub capacity: u32,
-    /// Triangles kept beside centres; counted once all fragments fit.
+    /// Triangles kept outside of centres; counted once all fragments fit.
     pub fringe_demand: u32,
-    /// Triangles the fringe holds.
+    /// Triangles in conservative lists.
     pub fringe_capacity: u32,
     /// Lists longer than the sort passes sort.
     pub unsorted: u32,
     /// List entries that named no fragment.
     pub corrupted: u32,
-    /// Cells a side of a view.
+    /// Cells along a side of a view.
     pub resolution: u32,
     /// Side of a cell, metres.
     pub cell: f32,
@@ -32,7 +32,7 @@ pub struct Header {
     pub long_demand: u32,
     /// Lower corner of the cube, metres relative to the frame origin.
     pub origin: [f32; 3],
-    /// Long lists that the pool of them has room for.
+    /// Capacity of their pool for long lists.
     pub long_capacity: u32,
     /// Lower corner of the geometry, metres relative to the frame origin.
     pub lower: [f32; 3],
@@ -46,13 +46,13 @@ pub struct Header {
     pub lists_address: [u32; 2],
     /// Device address of the depths.
     pub depths_address: [u32; 2],
-    /// Device address of what fragments carry beside their depth.
+    /// Device address of what fragments carry in addition to their depth.
     pub payload_address: [u32; 2],
     /// Device address of the blocks.
     pub blocks_address: [u32; 2],
-    /// Device address of the heads of the fringe.
+    /// Device address of the heads of the conservative lists.
     pub heads_address: [u32; 2],
-    /// Device address of the fringe.
+    /// Device address of the conservative lists' nodes.
     pub fringe_address: [u32; 2],
     /// Device address of the sums of the scan, and the long lists behind them.
     pub scratch_address: [u32; 2],
@@ -64,7 +64,7 @@ pub struct Header {
     pub beyond: u32,
     /// Triangles with many cells of their view, also those beyond the capacity; only of the binning builder.
     pub pairs: u32,
-    /// Those there is room for.
+    /// Capacity for them.
     pub pair_capacity: u32,
     /// Workgroups for them.
     pub groups: [u32; 3],

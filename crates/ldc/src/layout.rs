@@ -23,7 +23,7 @@ pub struct Demand {
     /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length takes one
     /// place more than it has fragments.
     pub fragments: u64,
-    /// Triangles beside centres.
+    /// Triangles outside of centres.
     pub fringe: u64,
     /// Lists that one dispatch does not sort.
     pub long_lists: u64,
@@ -81,12 +81,12 @@ fn words_behind_sums(config: &Config, sizes: &Sizes) -> u64 {
     sizes.elements_of(Pool::Scratch).saturating_sub(scratch_words(config, Demand::default()))
 }
 
-/// Long lists that such pools have room for.
+/// Capacity of such pools for long lists.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Single { words_behind_sums(config, sizes) / 2 } else { 0 }
 }
 
-/// Triangles with many cells that such pools have room for.
+/// Capacity of such pools for triangles with many cells.
 pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.builder == Builder::Binning { words_behind_sums(config, sizes) } else { 0 }
 }
@@ -96,7 +96,7 @@ pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.making == Making::Peel { words_behind_sums(config, sizes) } else { 0 }
 }
 
-/// The first guess where nothing has been counted: two fragments a cell, and a triangle beside the centre of
+/// The first guess where nothing has been counted: two fragments per cell, and a triangle outside of the centre of
 /// every fourth; and eight layers.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
@@ -105,16 +105,16 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0, layers, pairs: 1024 })
 }
 
-/// Bytes for counted cells, places of fragments, triangles beside centres and long lists.
+/// Bytes for counted cells, offsets of fragments, triangles outside of centres and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per cell: the end of its list 4, and with conservative coverage the head of its fringe 4.
+    /// Per cell: the end of its list 4, and with conservative coverage the head of its conservative list 4.
     pub cells: u64,
     /// Per block: smallest and largest depth 8, and slices 8 where it keeps them.
     pub blocks: u64,
     /// Per place: triangle 4, or colour and normal 8; and depth 2 or 4.
     pub fragments: u64,
-    /// Per triangle beside a centre: triangle, link and depths 12.
+    /// Per triangle outside of a centre: triangle, link and depths 12.
     pub fringe: u64,
     /// With ids: 4 per fragment.
     pub ids: u64,

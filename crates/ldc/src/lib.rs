@@ -1,5 +1,5 @@
 //! Layered depth cubes: the rasterizer stores every fragment of three orthographic views along the axes, each
-//! triangle in the view it faces most, and rays walk through the views one after the other.
+//! triangle in the view it faces most, and rays traverse the views one after the other.
 //!
 //! Source: Bürger, Hertel, Krüger, Westermann, "GPU rendering of secondary effects", VMV 2007 (LDC). All
 //! layers of a cell are made in one pass and lie one behind the other, sorted by depth, as peeling would

@@ -9,7 +9,7 @@ rasray_ads::pool_names! {
         Lists = "lists",
         /// Depths of fragments.
         Depths = "depths",
-        /// What fragments carry beside their depth.
+        /// What fragments carry in addition to their depth.
         Payload = "payload",
         /// What blocks of cells hold.
         Blocks = "blocks",

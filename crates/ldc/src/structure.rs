@@ -25,7 +25,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     let [lower, upper] = geometry.bounds();
     let largest = lower.iter().chain(&upper).fold(0.0_f32, |largest, x| largest.max(x.abs()));
     let extent = (0..3).fold(0.0_f32, |extent, axis| extent.max(upper[axis] - lower[axis]));
-    // Room for the rounding of what is subtracted from corner and ray.
+    // A margin for the rounding of what is subtracted from corner and ray.
     let rounding = 4.8e-7 * largest;
     // Where all geometry is one point its cells have a size all the same.
     let size = (extent + 4.0 * rounding).max(1.0e-30);
@@ -165,7 +165,7 @@ impl Design for Build {
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
-        // One cell may hold all of the fringe: a small object in a large world.
+        // One cell's conservative list may hold everything: a small object in a large world.
         16 + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
     }
 

@@ -20,9 +20,9 @@ pub struct Contents {
     /// Smallest (its complement) and largest depth of each block, and where it keeps them its slices; the second level
     /// follows the first.
     pub blocks: Vec<u32>,
-    /// First link of each cell's fringe.
+    /// First link of each cell's conservative list.
     pub heads: Vec<u32>,
-    /// Triangle and next link of each node of the fringe.
+    /// Triangle and next link of each node of the conservative lists.
     pub fringe: Vec<u32>,
 }
 
@@ -58,7 +58,7 @@ pub enum Fault {
         /// The depth, as text: it may be no number.
         z: String,
     },
-    /// A fragment or a node of the fringe names no triangle.
+    /// A fragment or a node of a conservative list holds no valid triangle.
     #[error("cell {cell}: there is no triangle {primitive}")]
     Primitive {
         /// Cell.
@@ -66,7 +66,7 @@ pub enum Fault {
         /// What is stored.
         primitive: u32,
     },
-    /// A link of the fringe names no node.
+    /// A link of a conservative list points to no node.
     #[error("cell {cell}: link {link} names no node")]
     Dangling {
         /// Cell.
@@ -116,7 +116,7 @@ impl Contents {
         }
     }
 
-    /// The triangles of a cell's fringe.
+    /// The triangles of a cell's conservative list.
     ///
     /// # Errors
     /// A link names no node, or the list is a ring.
@@ -175,7 +175,7 @@ fn half(bits: u32) -> f32 {
 
 /// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they
 /// should be, that depths lie within those of their blocks, that fragments which name triangles name some
-/// that exist, and that every node of the fringe is in exactly one list.
+/// that exist, and that every node of the conservative lists is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.

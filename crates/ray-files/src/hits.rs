@@ -18,7 +18,7 @@ pub struct TrueHit {
     pub ambiguous: bool,
 }
 
-/// Hits that another tracer found, one a ray.
+/// Hits that another tracer found, one per ray.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HitsFile {
     /// What the report calls the tracer.
@@ -32,11 +32,11 @@ pub struct HitsFile {
 enum Columns {
     /// In these fields of a record.
     Fields([Option<usize>; 4]),
-    /// In so many numbers beside each other.
+    /// In so many columns of numbers.
     Plain(usize),
 }
 
-/// A ray that met nothing.
+/// A ray that hit nothing.
 const MISS: Hit = Hit { t: f32::INFINITY, primitive: PRIMITIVE_NONE, a: 0.0, b: 0.0 };
 
 /// Reads hits: records with the fields `t` and `primitive`, and perhaps `u` and `v`, or N x 2 to 4 plain

@@ -1,7 +1,7 @@
 //! Rays and hits in files, so that another tracer can be held against the systems here on the same
 //! rays. `docs/ray-files.md` describes the formats.
 //!
-//! Whatever a file holds, reading it gives rays and hits that can be traced and judged, or an error that
+//! Whatever a file holds, reading it gives rays and hits that can be traced and compared, or an error that
 //! names the file, the place and the fix.
 
 mod binary;

@@ -86,7 +86,7 @@ fn hits_survive_npy_bit_for_bit() {
     // Fragments have no weights of vertices.
     let bytes = hits_to_npy(&hits, StructureKind::Fragment);
     assert!(hits_from_npy(&bytes).expect("what was written")[0].a.is_nan());
-    // The oracle's answers can be judged as well: they have fields of the same names.
+    // The oracle's answers can be compared as well: they have fields of the same names.
     let truth = TrueHit { t: 2.5, primitive: 3, barycentrics: [0.5, 0.25], ambiguous: true };
     let read = hits_from_npy(&truth_to_npy(&[truth])).expect("what was written");
     assert_eq!(read, [Hit { t: 2.5, primitive: 3, a: 0.5, b: 0.25 }]);

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-/// A stretch of a ray within one cell.
+/// A segment of a ray within one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellChord {
     /// The view, 0 to 5: along axis `view / 2`, towards positive values where it is even.
@@ -22,7 +22,7 @@ impl std::fmt::Display for CellChord {
 }
 
 /// Cells in the order in which the ray crosses them for `range[0] < t < range[1]`. The origin is relative to
-/// the eye, in metres; the direction need not be unit; the resolution is the number of cells a side.
+/// the eye, in metres; the direction need not be unit; the resolution is the number of cells along a side.
 /// A ray along a boundary is given to the cell above it. Empty for a direction of zero.
 pub fn cells_along(
     origin: [f64; 3],

@@ -1,4 +1,4 @@
-//! Stacked bars, one a run: time per pass and memory per part.
+//! Stacked bars, one per run: time of each pass and memory of each part.
 
 use super::axes;
 use super::markup::plot_text;
@@ -51,7 +51,7 @@ fn ranked<'a>(parts: impl Iterator<Item = Part<'a>>) -> Vec<&'a str> {
     sizes.into_iter().map(|(name, _)| name).collect()
 }
 
-/// A run's name on two lines, so that names leave room for bars on a phone.
+/// A run's name on two lines, so that names leave space for bars on a phone.
 fn bar_name(run: &Run) -> String {
     let rest = [Some(&run.preset), run.variant.as_ref()];
     let rest = rest.into_iter().flatten().map(|word| plot_text(word)).collect::<Vec<_>>();

@@ -1,4 +1,4 @@
-//! How |dt|/t is distributed: histograms, and percentiles beside each other.
+//! How |dt|/t is distributed: histograms, and percentiles next to each other.
 
 use super::axes;
 use super::markup::plot_text;

@@ -1,4 +1,4 @@
-//! Hard cases: what each demands and which run met it.
+//! Hard cases: what each demands and which run passed.
 
 use super::markup::Markup;
 use super::names::{MOST_HARD_CASES, hard_cases};
@@ -38,7 +38,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     Some(Section::new("hard-cases", "Hard cases", body))
 }
 
-/// How many cases each contestant met.
+/// How many cases each contestant passed.
 fn scores(body: &mut Markup, runs: &[(&Run, &HardRecord)]) {
     let mut names: Vec<String> = Vec::new();
     for (run, _) in runs {

@@ -29,7 +29,7 @@ use rasray_report::figures::Figures;
 /// Figures that do not fit the report: a run that is not there, or a picture that lacks pixels.
 pub fn page(report: &Report, figures: &Figures) -> Result<Vec<u8>, HtmlError> {
     check(report, figures)?;
-    // Of many hard cases the verdicts are the summary, and a row a run is what to look up in.
+    // Of many hard cases the verdicts are the summary, and a row per run is what to look up in.
     let (summary, hard) = (summary::section(report), hard::section(report));
     let many = names::hard_cases(&report.runs) > names::MOST_HARD_CASES;
     let [first, second] = if many { [hard, summary] } else { [summary, hard] };

@@ -51,7 +51,7 @@ pub(super) fn colour(scale: &Scale, value: f64) -> [u8; 3] {
     })
 }
 
-/// A PNG as the address of an image: three bytes a pixel, rows from the top.
+/// A PNG as the address of an image: three bytes per pixel, rows from the top.
 ///
 /// # Errors
 /// Not as many bytes as pixels need, or what the encoder says.

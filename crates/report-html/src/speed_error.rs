@@ -51,7 +51,7 @@ fn errors(run: &Run) -> Option<u64> {
     Some(accuracy.missed + accuracy.false_hits + wrong)
 }
 
-/// Millions of rays a second.
+/// Millions of rays per second.
 fn rate(run: &Run) -> Option<f64> {
     let by_time = || Some(run.times.rays? as f64 / run.times.trace_ms? / 1000.0);
     run.times.mrays_per_s.or_else(by_time).filter(|rate| rate.is_finite() && *rate > 0.0)
@@ -82,7 +82,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     let mut plots = Vec::new();
     for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
         let runs = || indices.iter().map(|index| &report.runs[*index]);
-        // The rays of one set are the same for every run; the fewest judged is the honest floor.
+        // The rays of one set are the same for every run; the fewest compared is the honest floor.
         let rays = runs().filter_map(judged).min().unwrap_or(1);
         let kinds: [(Measure, Vec<Entry<'_>>); 3] = [
             (

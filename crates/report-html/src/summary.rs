@@ -1,4 +1,4 @@
-//! The table with one row a run; a click on a heading sorts it.
+//! The table with one row per run; a click on a heading sorts it.
 
 use super::markup::Markup;
 use super::names::workload;
@@ -131,8 +131,8 @@ const COLUMNS: &[Column] = &[
         cell: |run| number(counter(run, |counters| counters.tests_per_ray), 2),
     },
     Column {
-        heading: "rays judged",
-        meaning: "unambiguous rays that the oracle judged",
+        heading: "rays compared",
+        meaning: "unambiguous rays that the oracle compared",
         cell: |run| count(accuracy(run, |hits| hits.rays.checked_sub(hits.ambiguous))),
     },
     Column {
@@ -272,7 +272,7 @@ fn certainty(body: &mut Markup, statistics: &Statistics) {
     );
 }
 
-/// One row a run.
+/// One row per run.
 fn rows(body: &mut Markup, title: &'static str, runs: &[&Run], columns: &[&Column]) {
     let numbers = columns.iter().map(|column| Heading::number(column.heading, Some(column.meaning)));
     let headings = ["system", "preset", "rays"].map(Heading::words).into_iter().chain(numbers);

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
-    /// Rays judged.
+    /// Rays whose answer was compared.
     pub rays: u64,
     /// Rays that no f32 program can decide.
     pub ambiguous: u64,
@@ -175,7 +175,7 @@ pub struct ImageError {
     pub non_finite: Option<u64>,
 }
 
-/// What a hard case demands and whether it was met.
+/// What a hard case demands and whether a run passes.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardRecord {

@@ -89,9 +89,9 @@ pub struct SceneRecord {
 pub struct SmallerImageRecord {
     /// Name or file.
     pub name: String,
-    /// Texels a row and rows in the scene.
+    /// Texels per row and rows in the scene.
     pub from: [u32; 2],
-    /// Texels a row and rows as it was used.
+    /// Texels per row and rows as it was used.
     pub to: [u32; 2],
 }
 
@@ -281,7 +281,7 @@ pub struct Memory {
     /// The formula of the system's page on counted fragments, entries and cells.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub formula_bytes: Option<u64>,
-    /// Room in the structure's pools.
+    /// Capacity of the structure's pools.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capacity_bytes: Option<u64>,
     /// Kept only to measure.
@@ -320,7 +320,7 @@ pub struct Counters {
     /// Entries that the pools were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demand: Option<u64>,
-    /// Entries that the pools have room for.
+    /// Entries that the pools can hold.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capacity: Option<u64>,
     /// Entries missing from what was traced.

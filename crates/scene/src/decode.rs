@@ -14,7 +14,7 @@ use crate::{Image, Limits, SceneError, Warning};
 const MAX_SIDE: u32 = 1 << 16;
 
 /// Decodes a PNG or JPEG image, told apart by its first bytes, to RGBA8 with the first
-/// row at the top. More than 8 bits a channel are rounded, with a warning; an image without alpha
+/// row at the top. More than 8 bits per channel are rounded, with a warning; an image without alpha
 /// is opaque; grey becomes three equal channels. Values are taken as stored: no colour profile is applied.
 ///
 /// `path` is the scene file, for messages; `name` names the image.
@@ -104,7 +104,7 @@ fn decode_as(
     let mut bounds = image::Limits::default();
     bounds.max_image_width = Some(MAX_SIDE);
     bounds.max_image_height = Some(MAX_SIDE);
-    // 16 bytes a texel: four channels of f32, the widest a decoder hands out.
+    // 16 bytes per texel: four channels of f32, the widest a decoder hands out.
     bounds.max_alloc = Some(limits.image_pixels.saturating_mul(16).saturating_add(1 << 20));
     reader.limits(bounds);
     let decoder = reader.into_decoder().map_err(failed)?;

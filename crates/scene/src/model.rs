@@ -215,7 +215,7 @@ pub enum Filter {
 pub struct Image {
     /// Name or file.
     pub name: String,
-    /// Texels a row, at least 1.
+    /// Texels per row, at least 1.
     pub width: u32,
     /// Rows, at least 1.
     pub height: u32,
@@ -267,7 +267,7 @@ pub enum Environment {
     Constant([f32; 3]),
     /// Latitude-longitude map: u grows with the azimuth from +x over +z, v from +y (top) down.
     LatLong {
-        /// Texels a row.
+        /// Texels per row.
         width: u32,
         /// Rows.
         height: u32,

@@ -1,6 +1,6 @@
 //! What of a scene a render can observe; the rest need not be uploaded, stored, compiled in or traced.
 //!
-//! Two things decide whether a [`Term`] is needed: the scene must have it where a ray can meet it,
+//! Two things decide whether a [`Term`] is needed: the scene must have it where a ray can hit it,
 //! and the integrator must look at it. Every verdict comes with a sentence that says why.
 //!
 //! Positions, indices and the table of draws are always needed and have no term.
@@ -17,7 +17,7 @@ use crate::Scene;
 /// What is done with the hits of rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Integrator {
-    /// Emission and base colour of what camera rays meet, lit from the eye.
+    /// Emission and base colour of what camera rays hit, lit from the eye.
     Raycast,
     /// Visibility of a white environment; sees no material but alpha masks.
     AmbientOcclusion,

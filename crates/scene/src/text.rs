@@ -1,4 +1,4 @@
-//! Text from files, cut to the length that a message has room for. Whoever writes it to a terminal escapes it.
+//! Text from files, cut to the length that fits a message. Whoever writes it to a terminal escapes it.
 
 use std::fmt::Display;
 

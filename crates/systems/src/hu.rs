@@ -4,7 +4,7 @@ use rasray_voxel::{Config, Payload, Voxels};
 
 use crate::{Preset, Spec, System, SystemsError, voxel};
 
-/// Cells a side of a view in the paper.
+/// Cells along a side of a view in the paper.
 const PUBLISHED_RESOLUTION: u32 = 1280;
 
 /// The registry's row.

@@ -73,7 +73,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Cells a side of a view where nothing else is asked for.
+/// Cells along a side of a view where nothing else is asked for.
 const RESOLUTION: u32 = 512;
 
 /// The larger of the two sizes of the paper's table.

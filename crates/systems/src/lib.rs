@@ -1,5 +1,5 @@
 //! Systems as data: which structure, which presets, which options. The command, tests and benches loop
-//! over [`SYSTEMS`] and make structures through [`Spec`]; beside it only tests that look into a structure name one.
+//! over [`SYSTEMS`] and make structures through [`Spec`]; apart from it only tests that look into a structure name one.
 
 mod bricks;
 mod brute_force;

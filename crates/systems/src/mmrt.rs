@@ -83,7 +83,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Cells a side where nothing else is asked for.
+/// Cells along a side where nothing else is asked for.
 const RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for.

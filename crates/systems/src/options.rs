@@ -223,7 +223,7 @@ pub const OPTIONS: &[OptionRow] = &[
             ("dda", "A step for each cell of the longer axis"),
             ("exact", "Every cell that the ray crosses"),
             ("pyramid", "The same, skipping blocks of cells that hold nothing at the ray's depths"),
-            ("jump", "From where the ray leaves a tile half a pixel on"),
+            ("jump", "To half a pixel beyond the point where the ray leaves a tile"),
         ],
         "How a ray steps through cells",
     ),
@@ -239,7 +239,7 @@ pub const OPTIONS: &[OptionRow] = &[
         "jitter",
         Method,
         MayChange,
-        "With --march samples: where steps are longer than a cell, each ray looks at a place of its own in them",
+        "With --march samples: where steps are longer than a cell, each ray samples them at an offset of its own",
     ),
     words(
         "stop",
@@ -273,7 +273,7 @@ pub const OPTIONS: &[OptionRow] = &[
             ("eye", "At the eye"),
             ("scene", "At the eye within the scene; for an eye outside, within the middle of the scene"),
         ],
-        "Lists of triangles: where the faces of the cube meet",
+        "Lists of triangles: the centre from which the faces of the cube are seen",
     ),
     words(
         "axes",
@@ -314,7 +314,7 @@ pub const OPTIONS: &[OptionRow] = &[
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
         ],
-        "Who makes the structure, and how",
+        "What builds the structure, and how",
     ),
     row(
         "leaf",
@@ -340,7 +340,7 @@ pub const OPTIONS: &[OptionRow] = &[
             ("bounds", "The smallest and the largest"),
             ("slices", "The same, and which of 64 slices of depth hold something"),
         ],
-        "What a block of cells says of the depths in it",
+        "What a block of cells stores of the depths in it",
     ),
     switch("corners", Speed, Same, "Keep triangles' corners once more, one behind the other"),
     words(
@@ -361,7 +361,7 @@ pub const OPTIONS: &[OptionRow] = &[
     row(
         "capacity",
         Limit,
-        // It says how much room there is, not what is stored: too little is grown.
+        // A capacity, not what is stored: one that is too small grows.
         Same,
         Values::Whole(0, u32::MAX),
         &["0", "1", "1000"],
@@ -370,9 +370,9 @@ pub const OPTIONS: &[OptionRow] = &[
     switch(
         "ids",
         Diagnostic,
-        // What a hit names, and nothing else of it.
+        // The primitive that a hit reports, and nothing else of it.
         MayChange,
-        "Keep triangles next to payloads without them, so that hits name them",
+        "Keep triangles next to payloads without them, so that hits report them",
     ),
 ];
 

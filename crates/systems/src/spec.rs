@@ -181,7 +181,7 @@ impl Spec {
         self.with_options([(option.to_owned(), value.to_owned())])
     }
 
-    /// The same with more options over the preset, looked at all at once: some go only beside others.
+    /// The same with more options over the preset, checked all at once: some are valid only with others.
     ///
     /// # Errors
     /// The system has no such option or value.
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn published_has_the_papers_sizes() {
-        // Cells a side of a view, and voxels a side where the structure has them.
+        // Cells along a side of a view, and voxels along a side where the structure has them.
         let sizes = |spec: &Spec| match spec.system().name {
             "mmrt" => mmrt::config(spec).map(|config| (config.resolution, None)),
             "dirt" => dirt::config(spec).map(|config| (config.resolution, None)),

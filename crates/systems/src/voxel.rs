@@ -67,10 +67,10 @@ pub(crate) fn names() -> Vec<&'static str> {
     crate::given::names(OPTIONS)
 }
 
-/// Cells a side of a view of the repaired structure where nothing else is asked for.
+/// Cells along a side of a view of the repaired structure where nothing else is asked for.
 pub(crate) const RESOLUTION: u32 = 512;
 
-/// Voxels a side of both papers. With another resolution than theirs the first one's rule follows it.
+/// Voxels along a side of both papers. With another resolution than theirs the first one's rule follows it.
 pub(crate) const PUBLISHED_GRID: u32 = 64;
 
 /// A preset with its paper's voxels, where the resolution is the paper's as well.

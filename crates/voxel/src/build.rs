@@ -55,24 +55,24 @@ impl Build {
         let masked = if alpha { ".alpha" } else { "" };
         let variant = if stored { ".attributes" } else { masked };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
-        let voxels = || visits.visit("build_columns", "build_1_voxels", "");
+        let voxels = || visits.visit("build_columns", "build_2_voxels", "");
         let lengths = || -> Result<Lengths, AdsError> {
-            let count = visits.visit("build_raster", "build_3_count", masked)?;
-            Ok(Lengths { count, scan: Scan::new(pipelines, "build_4_scan")? })
+            let count = visits.visit("build_raster", "build_4_count", masked)?;
+            Ok(Lengths { count, scan: Scan::new(pipelines, "build_5_scan")? })
         };
         let sort = || -> Result<Sort, AdsError> {
-            let all = pipelines.compute("build_6_sort")?;
-            Ok(Sort { all, long: pipelines.compute("build_7_sort_long")? })
+            let all = pipelines.compute("build_7_sort")?;
+            Ok(Sort { all, long: pipelines.compute("build_8_sort_long")? })
         };
         Ok(Self {
-            pairs: visits.pairs("build_0_pairs")?,
+            pairs: visits.pairs("build_1_pairs")?,
             voxels: (config.marking() == Marking::Triangles).then(voxels).transpose()?,
-            axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_2_axes")).transpose()?,
+            axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_3_axes")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
-            store: visits.visit("build_raster", "build_5_store", variant)?,
+            store: visits.visit("build_raster", "build_6_store", variant)?,
             sort: config.sorts().then(sort).transpose()?,
-            longest: (!config.bisects()).then(|| pipelines.compute("build_6_longest")).transpose()?,
-            status: pipelines.compute("build_8_status")?,
+            longest: (!config.bisects()).then(|| pipelines.compute("build_9_longest")).transpose()?,
+            status: pipelines.compute("build_10_status")?,
         })
     }
 
@@ -100,7 +100,7 @@ impl Build {
         }
         let axes = |recorder: &mut Recorder<'_>| {
             if let Some(axes) = &self.axes {
-                target.compute_pass(recorder, "voxel/build_2_axes", axes, words.div_ceil(group), 0, shaders);
+                target.compute_pass(recorder, "voxel/build_3_axes", axes, words.div_ceil(group), 0, shaders);
             }
         };
         // Where all views keep all, normals come with the fragments, and the axes after these.
@@ -109,7 +109,7 @@ impl Build {
         }
         if let Some(lengths) = &self.lengths {
             lengths.count.record(recorder, target, &views);
-            lengths.scan.record(recorder, target, "voxel/build_4_scan", lists, 0, shaders);
+            lengths.scan.record(recorder, target, "voxel/build_5_scan", lists, 0, shaders);
         }
         self.store.record(recorder, target, &views);
         if config.axes == Axes::All {
@@ -117,16 +117,16 @@ impl Build {
         }
         if let Some(sort) = &self.sort {
             let a_thread = if config.storage == Storage::Linked { u64::from(NODE_SORT_LISTS) } else { 1 };
-            let (label, groups) = ("voxel/build_6_sort", lists.div_ceil(group * a_thread));
+            let (label, groups) = ("voxel/build_7_sort", lists.div_ceil(group * a_thread));
             target.compute_pass(recorder, label, &sort.all, groups, 0, Access::COMPUTE);
             let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
-            let (label, rounds) = ("voxel/build_7_sort_long", LONG_LIST_ROUNDS);
+            let (label, rounds) = ("voxel/build_8_sort_long", LONG_LIST_ROUNDS);
             target.rounds_pass(recorder, label, &sort.long, long, rounds, Access::COMPUTE);
         }
         if let Some(longest) = &self.longest {
-            let (label, groups) = ("voxel/build_6_longest", lists.div_ceil(group));
+            let (label, groups) = ("voxel/build_9_longest", lists.div_ceil(group));
             target.compute_pass(recorder, label, longest, groups, 0, Access::COMPUTE);
         }
-        target.status_pass(recorder, "voxel/build_8_status", &self.status);
+        target.status_pass(recorder, "voxel/build_10_status", &self.status);
     }
 }

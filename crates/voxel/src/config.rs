@@ -38,11 +38,11 @@ pub enum March {
 pub enum Accept {
     /// Between two points of the ray with an even and an odd number of fragments before them in their cells.
     Parity,
-    /// The ray meets the plane of its triangle within the cell. Needs [`March::Exact`].
+    /// The ray intersects the plane of its triangle within the cell. Needs [`March::Exact`].
     Plane,
 }
 
-/// Which cells a triangle is kept in.
+/// Which cells keep a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// Those whose centre the rasterizer covers, with its sub-pixel grid.
@@ -87,7 +87,7 @@ impl Storage {
     }
 }
 
-/// What a fragment carries beside its depth.
+/// What a fragment carries in addition to its depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
@@ -102,9 +102,9 @@ pub enum Payload {
 /// Everything that may be chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// Cells a side of each view, 1 to 8192.
+    /// Cells along a side of each view, 1 to 8192.
     pub resolution: u32,
-    /// Voxels a side, 1 to 1024; the square root of three times the resolution where absent.
+    /// Voxels along a side, 1 to 1024; the square root of three times the resolution where absent.
     pub grid: Option<u32>,
     /// Which views keep a fragment.
     pub axes: Axes,
@@ -127,13 +127,13 @@ pub struct Config {
     pub ids: bool,
     /// How lists are kept.
     pub storage: Storage,
-    /// Fragments a page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
+    /// Fragments per page, 1 to 8; only for [`Storage::Paged`]. Changes no hit.
     pub page: u32,
     /// Sort lists, so that a search can begin and end within; not for [`Storage::Paged`]. Changes no hit.
     pub sort: bool,
     /// How pools are reached. Changes no hit.
     pub addressing: Addressing,
-    /// Fragments, or pages of them, to make room for before the first build; a guess from the resolution where absent.
+    /// Fragments, or pages of them, to allocate for the first build; a guess from the resolution where absent.
     pub fragments: Option<u64>,
     /// How much of their work rays record. Changes no hit.
     pub counters: Counters,
@@ -190,7 +190,7 @@ impl Config {
         }
     }
 
-    /// Voxels a side.
+    /// Voxels along a side.
     pub fn grid(&self) -> u32 {
         let balanced = (3.0 * f64::from(self.resolution)).sqrt().round();
         self.grid.unwrap_or(balanced as u32).clamp(1, numbers::VOXEL_GRID_LIMIT)
@@ -224,10 +224,10 @@ impl Config {
                 Err(AdsError::Option { option, value: value.to_string(), expected })
             }
         };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells a side")?;
-        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels a side")?;
-        range("samples", self.samples, 1, 64, "1 to 64 steps a voxel")?;
-        range("page", self.page, 1, 8, "1 to 8 fragments a page")?;
+        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
+        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels along a side")?;
+        range("samples", self.samples, 1, 64, "1 to 64 steps per voxel")?;
+        range("page", self.page, 1, 8, "1 to 8 fragments per page")?;
         let budget = self.work_budget.unwrap_or(u32::MAX);
         range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")?;
         if self.accept == Accept::Plane && self.march == March::Samples {

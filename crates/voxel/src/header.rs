@@ -8,23 +8,23 @@ use bytemuck::{Pod, Zeroable};
 pub struct Header {
     /// `STATUS_*` bits; without `STATUS_COMPLETE` traces answer "not ready".
     pub status: u32,
-    /// Fragments met by the build, or pages begun for them, also those beyond the capacity.
+    /// Fragments found by the build, or pages begun for them, also those beyond the capacity.
     pub demand: u32,
     /// Fragments or pages the pool holds.
     pub capacity: u32,
-    /// Fragments met by the build.
+    /// Fragments found by the build.
     pub fragments: u32,
     /// Lists longer than the sort passes sort.
     pub unsorted: u32,
     /// Lists too long for one dispatch of the sort.
     pub long_demand: u32,
-    /// Long lists that the pool of them has room for.
+    /// Capacity of their pool for long lists.
     pub long_capacity: u32,
     /// Lists that reached beyond the pool or came back to themselves.
     pub corrupted: u32,
-    /// Cells a side of a view.
+    /// Cells along a side of a view.
     pub resolution: u32,
-    /// Voxels a side.
+    /// Voxels along a side.
     pub grid: u32,
     /// Fragments of the longest list where lists are not bisected; all bits set where that is not known.
     pub longest: u32,
@@ -52,7 +52,7 @@ pub struct Header {
     pub scratch_address: [u32; 2],
     /// Triangles with many cells of a view, also those beyond the capacity; only of the binning builder.
     pub pairs: u32,
-    /// Those there is room for.
+    /// Capacity for them.
     pub pair_capacity: u32,
     /// Workgroups for them.
     pub groups: [u32; 3],

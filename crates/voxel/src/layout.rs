@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
 use crate::{Axes, Builder, Config, Header, Payload, Pool, Storage};
 
-/// Lists of all three views: one a cell.
+/// Lists of all three views: one per cell.
 pub fn list_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
@@ -74,13 +74,13 @@ fn scan_words(config: &Config) -> u64 {
     }
 }
 
-/// Long lists that such pools have room for.
+/// Capacity of such pools for long lists.
 pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
     let behind = sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config));
     if config.sorts() { behind / 2 } else { 0 }
 }
 
-/// Triangles with many cells that such pools have room for.
+/// Capacity of such pools for triangles with many cells.
 pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
@@ -95,7 +95,7 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
     cells(config.resolution).max(8 * cells(config.grid()))
 }
 
-/// The first guess where nothing has been counted: one a cell of one view.
+/// The first guess where nothing has been counted: one per cell of one view.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
     plan(config, Demand { entries, long_lists: 0, pairs: 1024 })

@@ -10,7 +10,7 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Four bits a voxel: the axes it is searched along, and whether something lies in it.
+    /// Four bits per voxel: the axes it is searched along, and whether something lies in it.
     pub voxels: Vec<u32>,
     /// Of each cell: where its fragments end; or a link to the newest, the place + 1; or the word that leads
     /// to the newest page. 0 where a linked list is empty.

@@ -42,8 +42,8 @@ pub enum CompileError {
     Glsl(String),
 }
 
-/// What is done to every module beside what its text says: words that were kept from before are of the same module only
-/// where this is the same as well.
+/// What is done to every module in addition to what its text says: words that were kept from before are of the same
+/// module only where this is the same as well.
 const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reaches\n";
 
 /// One module to compile.

@@ -65,7 +65,7 @@ fn records_of_queues_and_geometry() {
         vertex_count, triangle_count, draw_count, outside, lower, upper,
     });
     // Modules have what they read alone, and few read draws.
-    check_layout!([&shaders::LDC_BUILD_4_FRINGE], Draw as "Draw" { first_triangle, triangle_count, instance, flags });
+    check_layout!([&shaders::LDC_BUILD_6_FRINGE], Draw as "Draw" { first_triangle, triangle_count, instance, flags });
 }
 
 /// Whatever module a shared record is declared in, it is the same record.

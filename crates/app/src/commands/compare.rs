@@ -19,7 +19,7 @@ const DEFAULT_RAYS: u32 = 200_000;
 /// Sets of rays unless told.
 const DEFAULT_SETS: [RaySet; 2] = [RaySet::Incoherent, RaySet::Camera];
 
-/// Traces the same rays through several systems and reports speed beside error; `line` is the command
+/// Traces the same rays through several systems and reports speed next to error; `line` is the command
 /// as it was typed.
 ///
 /// # Errors

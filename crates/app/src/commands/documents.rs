@@ -48,5 +48,5 @@ fn command_page(line: &Command, name: &str) -> Result<Command, AppError> {
 }
 
 fn full(error: &io::Error) -> AppError {
-    AppError::refused(format!("stdout: {error}"), "send the output somewhere with room for it")
+    AppError::refused(format!("stdout: {error}"), "send the output somewhere with space for it")
 }

@@ -1,4 +1,4 @@
-//! A file that is whole or not there: written beside its place, synchronised, then renamed.
+//! A file that is whole or not there: written next to its place, synchronised, then renamed.
 
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -24,7 +24,7 @@ pub struct Destination {
 /// How bytes get to a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Written beside it and renamed.
+    /// Written next to it and renamed.
     File,
     /// A device or a pipe: written directly, as nothing can be renamed over it.
     Special,

@@ -29,7 +29,7 @@ const HEADS: [&str; 15] = [
     "wrong",
 ];
 
-/// The table, one row a run, with |dt|/t percentiles behind the counts of wrong answers. What was not measured is an
+/// The table, one row per run, with |dt|/t percentiles behind the counts of wrong answers. What was not measured is an
 /// empty cell. Counts are over the unambiguous rays, whose number heads the table with the scene and the device.
 pub fn markdown(report: &Report) -> String {
     let heads: Vec<&str> = HEADS.into_iter().chain(["dt/t p50", "dt/t p99"]).collect();
@@ -49,9 +49,9 @@ fn title(report: &Report) -> String {
     let software = if device.software { ", a software driver: times are for ratios" } else { "" };
     let judged = report.runs.iter().filter_map(|run| run.accuracy.as_ref()).map(judged);
     let rays = match (judged.clone().min(), judged.max()) {
-        (Some(least), Some(most)) if least == most => format!("{} unambiguous rays a set. ", grouped(most)),
+        (Some(least), Some(most)) if least == most => format!("{} unambiguous rays per set. ", grouped(most)),
         (Some(least), Some(most)) => {
-            format!("{} to {} unambiguous rays a set. ", grouped(least), grouped(most))
+            format!("{} to {} unambiguous rays per set. ", grouped(least), grouped(most))
         }
         _ => String::new(),
     };

@@ -7,7 +7,7 @@ use rasray_report::{HardRecord, Report, Run, Statistics};
 use rasray_report::{bytes, columns, grouped};
 use std::fmt::Write;
 
-/// One row per run: speed beside error.
+/// One row per run: speed next to error.
 fn summary(runs: &[Run]) -> String {
     let dash = || "-".to_owned();
     let titles = [

@@ -95,8 +95,8 @@ fn positions_indices_and_draws_follow_scene_order() {
     assert_eq!(posed.positions[2], [1.0, 1.0, 0.25], "the origin is taken off in f64");
     assert_eq!(posed.positions[5], [(-2.0f64 - 1e6) as f32, 0.0, 0.0]);
     assert_eq!(posed.draws[1].first_triangle, 2);
-    assert_eq!(posed.draws[0].flags, contract::DRAW_STATIC | contract::DRAW_ALPHA_MASKED);
-    assert_eq!(posed.draws[2].flags, contract::DRAW_STATIC);
+    assert_eq!(posed.draws[0].flags, contract::DRAW_ALPHA_MASKED);
+    assert_eq!(posed.draws[2].flags, 0);
     assert_eq!(posed.upper, [1.0, 1.0, 0.25]);
     assert_eq!(posed.lower, [-1_000_002.0, 0.0, 0.0]);
 }
@@ -202,7 +202,7 @@ fn what_is_not_observed_is_not_packed() {
     let opaque = Parts { alpha: false, ..Parts::VISIBILITY };
     let tables = pack(&scene(), DVec3::ZERO, &opaque);
     assert!(tables.textures.is_empty() && tables.texels.is_empty());
-    assert_eq!(tables.posed.draws[0].flags, contract::DRAW_STATIC);
+    assert_eq!(tables.posed.draws[0].flags, 0);
     assert_eq!(tables.materials[0].flags, 0);
     let posed = |parts| pack(&scene(), DVec3::ZERO, &parts).posed.positions;
     assert_eq!(posed(Parts::ALL), posed(Parts::VISIBILITY));

@@ -54,10 +54,10 @@ unsafe fn note_made<T: Handle + Copy>(made: *mut T, count: u32) {
 /// Leaves null behind for what was not made, as Vulkan demands of pipelines.
 ///
 /// # Safety
-/// `made` points to room for `count` handles, to which nothing else has access.
+/// `made` points to space for `count` handles, to which nothing else has access.
 unsafe fn leave_none<T: Handle>(made: *mut T, count: u32) {
     for index in 0..count as usize {
-        // SAFETY: the caller vouches for room for `count` handles.
+        // SAFETY: the caller vouches for space for `count` handles.
         unsafe { made.add(index).write(T::from_raw(0)) };
     }
 }
@@ -80,7 +80,7 @@ macro_rules! fallible {
                     let is_lost_wait =
                         failed == Some(Code::ERROR_DEVICE_LOST) && stringify!($name).contains("Wait");
                     if let (Some(code), false) = (failed, is_lost_wait) {
-                        // SAFETY: the caller provides room for as many handles.
+                        // SAFETY: the caller provides space for as many handles.
                         $(unsafe { leave_none($made, $count) };)?
                         return code;
                     }

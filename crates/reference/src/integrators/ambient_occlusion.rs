@@ -8,7 +8,7 @@ use crate::shading::{
 };
 
 impl Tracer<'_> {
-    /// One sample: 1 if nothing is met within `distance` metres, else 0.
+    /// One sample: 1 if nothing is hit within `distance` metres, else 0.
     pub(super) fn ambient_occlusion(&self, view: &View, distance: f32, random: Numbers) -> Vec3 {
         let ray = camera_ray(view, self.posed.frame_origin(), pixel_position(view.width, random));
         let Some(surface) = self.closest(&ray) else { return Vec3::ONE };

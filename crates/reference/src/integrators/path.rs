@@ -20,17 +20,17 @@ struct PathState {
     random: Numbers,
     throughput: Vec3,
     radiance: Vec3,
-    /// 1/sr of the last scattering; `None`: emission met next counts fully.
+    /// 1/sr of the last scattering; `None`: emission hit next counts fully.
     bsdf_pdf: Option<f32>,
     /// Material whose inside the path is in.
     medium: Option<usize>,
     /// Scatterings so far.
     bounce: u32,
-    /// Blended surfaces met so far.
+    /// Blended surfaces hit so far.
     layers: u32,
 }
 
-/// Weight of the technique with density `used` beside one with density `other`.
+/// Weight of the technique with density `used` against one with density `other`.
 fn power_heuristic(used: f32, other: f32) -> f32 {
     if !(other > 0.0) {
         return 1.0;
@@ -81,7 +81,7 @@ impl Tracer<'_> {
             let passes = state.random.float(RANDOM_OPACITY_FIRST + state.layers) >= surface.opacity;
             state.layers += 1;
             if passes {
-                // Shadow rays end here, so light sampling cannot have found what is met next.
+                // Shadow rays end here, so light sampling cannot have found what is hit next.
                 state.bsdf_pdf = None;
                 let ahead = spawn_ray(surface, ray.direction, f32::INFINITY);
                 return Some(Ray { cone_width: footprint, cone_spread: ray.cone_spread, ..ahead });

@@ -14,7 +14,7 @@ struct Member {
     angle: f64,
 }
 
-/// Whether the unsure triangles meet in shared edges all around the ray, so that a test which
+/// Whether the unsure triangles share edges all around the ray, so that a test which
 /// rounds every vertex in one way and decides every edge in one way must find one of them.
 ///
 /// Rounding moves vertices by less than their distance from untouched edges. If all touched edges

@@ -216,7 +216,7 @@ impl<'a> Oracle<'a> {
         }
         let hits = || contacts.iter().filter(|(_, contact)| contact.hit);
         let nearest_t = hits().map(|(_, contact)| contact.t).fold(f64::INFINITY, f64::min);
-        // Two planes that meet in the ray's own point give t with a relative error below 2^-38 each.
+        // Two planes that intersect in the ray's own point give t with a relative error below 2^-38 each.
         let tie = nearest_t + nearest_t.abs() * 2.0_f64.powi(-36);
         let (outcome, t_range) = match hits().find(|(_, contact)| contact.t <= tie) {
             Some((slot, contact)) => {

@@ -19,7 +19,7 @@ impl Ray {
         Self { origin, t_min: 0.0, direction, t_max: f32::INFINITY, exclude_primitive: None }
     }
 
-    /// A ray that meets `point` at t = 1, up to the rounding of `point - origin`.
+    /// A ray through `point` at t = 1, up to the rounding of `point - origin`.
     pub fn towards(origin: [f32; 3], point: [f32; 3]) -> Self {
         Self::new(origin, std::array::from_fn(|axis| point[axis] - origin[axis]))
     }

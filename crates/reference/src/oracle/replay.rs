@@ -25,7 +25,7 @@ pub enum TestClass {
     Excluded,
     /// Refused by the alpha test.
     Transparent,
-    /// The ray passes beside the triangle.
+    /// The ray passes outside of the triangle.
     Beside,
 }
 
@@ -39,7 +39,7 @@ pub struct TestedTriangle {
     pub signs: [i32; 3],
     /// What it is to the ray.
     pub class: TestClass,
-    /// t of the plane, and the interval that single precision may report; `None` where the ray passes beside
+    /// t of the plane, and the interval that single precision may report; `None` where the ray passes outside of
     /// by more than rounding.
     pub t: Option<[f64; 3]>,
 }
@@ -62,9 +62,9 @@ pub struct OracleReplay {
     pub ray: Ray,
     /// Nodes in the order of visits; empty where all triangles are tested one by one.
     pub nodes: Vec<VisitedNode>,
-    /// Triangles in the order of tests, those that the ray passes beside left out.
+    /// Triangles in the order of tests, those that the ray passes outside of are left out.
     pub tests: Vec<TestedTriangle>,
-    /// Triangles tested that the ray passes beside by more than rounding.
+    /// Triangles tested that the ray passes outside of by more than rounding.
     pub beside: usize,
     /// The answer.
     pub verdict: Verdict,
@@ -158,7 +158,7 @@ impl fmt::Display for TestClass {
             Self::Behind => "behind a certain hit",
             Self::Excluded => "excluded by the ray",
             Self::Transparent => "transparent",
-            Self::Beside => "passed beside",
+            Self::Beside => "passed outside",
         })
     }
 }
@@ -183,7 +183,7 @@ impl fmt::Display for TestedTriangle {
 impl fmt::Display for OracleReplay {
     /// Nodes, tested triangles, the answer; one line each.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "oracle: {} nodes, {} triangles passed beside", self.nodes.len(), self.beside)?;
+        writeln!(f, "oracle: {} nodes, {} triangles passed outside", self.nodes.len(), self.beside)?;
         for VisitedNode { node, t, triangles } in &self.nodes {
             match triangles {
                 0 => writeln!(f, "  node {node}, t from {t}")?,

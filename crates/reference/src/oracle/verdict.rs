@@ -50,7 +50,7 @@ pub struct Verdict {
     /// of the range.
     pub ambiguous: bool,
     /// A miss is admissible. For ambiguous rays false if some hit is certain, or if the
-    /// candidates meet in shared edges all around the ray, so that a watertight test finds one.
+    /// candidates share edges all around the ray, so that a watertight test finds one.
     pub miss_allowed: bool,
     /// Only for ambiguous rays: the admissible triangles by ascending id.
     pub candidates: Vec<Candidate>,

@@ -17,7 +17,7 @@ pub struct View {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     /// Seed of all random numbers.
     pub seed: u32,

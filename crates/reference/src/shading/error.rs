@@ -32,7 +32,7 @@ pub enum ReferenceError {
         width: u32,
         /// Rows.
         height: u32,
-        /// Samples a pixel.
+        /// Samples per pixel.
         samples: u32,
     },
 }

@@ -65,7 +65,7 @@ impl LightTable {
             let material = posed.material(draw);
             let sides = if material.double_sided { 2.0 } else { 1.0 };
             let radiosity = PI * f64::from(luminance(Vec3::from(material.emission)).max(0.0)) * sides;
-            // Scattered rays alone meet what blends, as often as its opacity says.
+            // Scattered rays alone hit what blends, as often as its opacity says.
             if material.unlit || material.alpha_mode == AlphaMode::Blend || !(radiosity > 0.0) {
                 first_of_draw.push(None);
                 continue;

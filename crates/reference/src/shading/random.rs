@@ -26,7 +26,7 @@ pub const RANDOM_BSDF_U: u32 = 6;
 pub const RANDOM_BSDF_V: u32 = 7;
 /// Offset: whether the path goes on.
 pub const RANDOM_ROULETTE: u32 = 8;
-/// Dimension of the first blended surface that a path meets; the n-th adds n.
+/// Dimension of the first blended surface that a path hits; the n-th adds n.
 pub const RANDOM_OPACITY_FIRST: u32 = 65536;
 
 /// Which stream of random numbers is drawn from.

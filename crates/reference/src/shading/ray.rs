@@ -1,4 +1,4 @@
-//! Rays, and how they leave a surface without meeting it again through rounding.
+//! Rays, and how they leave a surface without hitting it again through rounding.
 
 use glam::Vec3;
 

@@ -151,7 +151,7 @@ fn shading_normal(interpolated: Vec3, geometric_normal: Vec3) -> Vec3 {
 }
 
 impl PosedScene<'_> {
-    /// What `ray` meets at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
+    /// What `ray` hits at `t` metres on a triangle; `barycentrics` are the weights of vertices 1 and 2.
     pub fn surface(&self, ray: &Ray, t: f32, primitive: u32, barycentrics: Vec2) -> Surface {
         let draw = self.draw_of(primitive);
         let material = self.material(draw);

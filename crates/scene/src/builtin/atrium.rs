@@ -194,7 +194,7 @@ fn arcades(shapes: &mut Shapes, ground: f64, fineness: Fineness) {
                 let plane = middle + outward * (ARCADE * face);
                 spandrel(shapes, plane, along, outward * facing, facing, (radius, rise), steps);
             }
-            // The underside of the arch. Beside it the wall rests on the capitals, which are wider.
+            // The underside of the arch. Next to it the wall rests on the capitals, which are wider.
             let angle = |u: f64| PI * (1.0 - u);
             shapes.patch(steps, 1, DVec2::new(3.0, 0.5), |u, v| {
                 let (sin, cos) = angle(u).sin_cos();

@@ -1,4 +1,4 @@
-//! Two mirrors that face each other: every ray between them meets one after another.
+//! Two mirrors that face each other: every ray between them hits one after another.
 
 use glam::{DVec2, DVec3};
 
@@ -29,7 +29,7 @@ impl Default for Corridor {
 
 /// A closed corridor along z. The walls at x = -width/2 and x = width/2 are perfect mirrors; floor,
 /// ceiling and ends are Lambertian, a strip of the ceiling glows, and a sphere stands on the floor.
-/// A path that meets k mirrors is dimmed by reflectance^k. The camera looks into a mirror at a slant.
+/// A path that hits k mirrors is dimmed by reflectance^k. The camera looks into a mirror at a slant.
 pub fn corridor(parameters: Corridor) -> Scene {
     let Corridor { reflectance, width } = parameters;
     let half = width / 2.0;

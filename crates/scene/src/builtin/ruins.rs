@@ -58,7 +58,7 @@ impl Default for Ruins {
 }
 
 /// Five heaps of faceted stones on a square of ground, stones buried in stones, with stumps of columns among them,
-/// under a low sun and a blue sky. Radii follow a power law, so that a ray meets many layers of triangles of every
+/// under a low sun and a blue sky. Radii follow a power law, so that a ray hits many layers of triangles of every
 /// size; large stones have 320 triangles, middle ones 80, crumbs 20. The camera stands at the edge of the ground.
 pub fn ruins(parameters: Ruins) -> Scene {
     let triangles = parameters.triangles.clamp(*Ruins::TRIANGLES.start(), *Ruins::TRIANGLES.end());
@@ -126,7 +126,7 @@ fn place(random: &mut Random) -> DVec3 {
     DVec3::new(x + share * radius * angle.cos(), surface * random.unit(), z + share * radius * angle.sin())
 }
 
-/// A faceted stone: a sphere cut down by a few planes, stretched and turned.
+/// A faceted stone: a sphere cut down by a few planes, scaled and rotated.
 fn stone(shapes: &mut Shapes, unit: &Icosphere, centre: DVec3, radius: f64, random: &mut Random) {
     let angles: [f64; 3] = std::array::from_fn(|_| TAU * random.unit());
     let turn = DMat3::from_quat(DQuat::from_euler(EulerRot::XYZ, angles[0], angles[1], angles[2]));

@@ -74,7 +74,7 @@ pub fn spheres(parameters: Spheres) -> Scene {
             (place / (across * across)) as f64,
         );
         let radius = cell * (0.2 + 0.25 * random.unit());
-        // Room to move within the cell, a hundredth of it kept free on all sides.
+        // Space to move within the cell, a hundredth of it kept free on all sides.
         let room = cell * 0.49 - radius;
         let jitter = DVec3::new(random.signed(), random.signed(), random.signed()) * room;
         let centre = DVec3::splat(-SIDE / 2.0) + (corner + 0.5) * cell + jitter;

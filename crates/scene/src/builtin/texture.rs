@@ -2,7 +2,7 @@
 
 use crate::{AlphaMode, Filter, Image, Material, Texture, TextureRef, Wrap};
 
-/// Texels a side of every picture here.
+/// Texels along a side of every picture here.
 const SIDE: u32 = 256;
 
 /// Fills a square image from a function of (u, v) in [0, 1)^2 that gives sRGB bytes and alpha.

@@ -124,7 +124,7 @@ impl Room<'_> {
     }
 
     /// The share of the surface, by area, whose front is open to the outside: from where three in four directions,
-    /// by the cosine law, meet nothing.
+    /// by the cosine law, hit nothing.
     fn outer_share(&self) -> f64 {
         let places = self.sight.places(PLACES_ON_SURFACE);
         // What is closer than this is the surface that the place lies on.

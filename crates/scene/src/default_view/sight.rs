@@ -1,4 +1,4 @@
-//! What a ray inside a scene meets first: a uniform grid over the placed triangles, in f64.
+//! What a ray inside a scene hits first: a uniform grid over the placed triangles, in f64.
 //!
 //! It answers a few thousand rays, once, so it is made for little work in the making: a grid of about
 //! as many cells as triangles, which is coarsened until the lists in the cells stay short in total.
@@ -21,7 +21,7 @@ const ENTRIES_FREE: usize = 1 << 20;
 /// Tests of a ray against a triangle, over all rays: about a second's worth.
 const MAX_TESTS: usize = 50_000_000;
 
-/// Where a ray meets a surface.
+/// Where a ray hits a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hit {
     /// Distance in lengths of the direction.
@@ -214,7 +214,7 @@ impl<'a> Sight<'a> {
         (cell.z * cells.y + cell.y) * cells.x + cell.x
     }
 
-    /// Where the ray meets the triangle's plane within its three edges.
+    /// Where the ray intersects the triangle's plane within its three edges.
     fn meet(&self, triangle: [u32; 2], origin: DVec3, direction: DVec3) -> Option<Hit> {
         let ([a, b, c], mirrored) = corners(self.scene, triangle)?;
         let (to_b, to_c, from_a) = (b - a, c - a, origin - a);

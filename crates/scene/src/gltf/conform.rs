@@ -10,7 +10,7 @@ use super::shape::{Kind, Member, ROOT};
 use crate::SceneError;
 use crate::text::shown;
 
-/// What a tree holds beside what the typed tree can.
+/// What a tree holds in addition to what the typed tree can.
 #[derive(Default)]
 pub(super) struct Found {
     /// Values of enumerations that the format does not know, by their place, as they are written.

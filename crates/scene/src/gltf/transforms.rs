@@ -36,7 +36,7 @@ fn read(path: &Path, index: usize, node: &Value, remarks: &mut Remarks) -> Resul
             return Err(SceneError::invalid(path, format!("nodes[{index}].matrix"), reason));
         }
         if ["translation", "rotation", "scale"].iter().any(|part| node.get(part).is_some()) {
-            let text = "has a matrix beside a translation, rotation or scale; only the matrix is used";
+            let text = "has a matrix next to a translation, rotation or scale; only the matrix is used";
             remarks.note("matrix-and-parts", &place, text);
         }
         let matrix3 = DMat3::from_cols(column(0), column(1), column(2));

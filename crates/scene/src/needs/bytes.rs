@@ -1,4 +1,4 @@
-//! About how many bytes of a scene are uploaded beside positions and indices.
+//! About how many bytes of a scene are uploaded in addition to positions and indices.
 
 use super::reads::Reads;
 use super::{Needs, Term, Workload};

@@ -47,7 +47,7 @@ fn moving_nodes(rig: &Rig) -> Vec<bool> {
             *node = true;
         }
     }
-    // Parents may come after children, so each unknown chain is walked up once and filled in.
+    // Parents may come after children, so each unknown chain is traversed upwards once and filled in.
     let mut known: Vec<Option<bool>> = vec![None; rig.nodes.len()];
     for start in 0..rig.nodes.len() {
         let mut chain = Vec::new();

@@ -167,7 +167,7 @@ fn translate(
     Ok(materials)
 }
 
-/// One instance a mesh; names that occur more than once get a running number.
+/// One instance per mesh; names that occur more than once get a running number.
 fn place(meshes: &[Mesh]) -> Vec<Instance> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     let mut instances = Vec::with_capacity(meshes.len());

@@ -31,7 +31,7 @@ fn every_value_of_the_command_line_is_one_of_the_registry() {
                     .map(|(name, word)| (name.to_owned(), word.to_owned()));
                 Spec::new(system.name, preset, options).is_ok()
             };
-            // Planes exclude attributes and samples; fringes need planes.
+            // Planes exclude attributes and samples; conservative lists need planes.
             let accepted = SYSTEMS.iter().any(|system| {
                 let accepts = ["interval", "plane", "parity", "tolerance", "t"];
                 let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));

@@ -76,7 +76,7 @@ fn light_through_a_blended_sheet_is_counted_once() {
     assert_mean(&image, 0.7 * 0.7, 0.002, 0.04);
 }
 
-/// Light samples choose no blended emitter: a scattered ray meets it with its opacity, and counts fully.
+/// Light samples choose no blended emitter: a scattered ray hits it as often as its opacity says, and counts fully.
 #[test]
 fn blended_emitters_are_met_by_scattered_rays_alone() {
     let emitter = Material { base_color: [0.0, 0.0, 0.0, 0.5], emission: [1.0; 3], ..diffuse(0.0) };

@@ -82,7 +82,7 @@ fn shading_normals_are_interpolated_and_facets_face_the_ray() {
     assert!((seen(&scene, true).normal - Vec3::from(tilted)).length() < 1.0e-6);
     assert!((seen(&scene, false).normal + Vec3::from(tilted)).length() < 1.0e-6);
 
-    // Stretching in z tilts normals the other way than positions.
+    // Scaling in z tilts normals the other way than positions.
     scene.instances[0].world_from_mesh = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 3.0)));
     let expected = Vec3::new(0.28, 0.0, 0.32).normalize();
     assert!((seen(&scene, true).normal - expected).length() < 1.0e-6);

@@ -1,5 +1,5 @@
 // What: sorts each list by depth, ties by payload, and renews the backward links. Lists too long for one dispatch are
-// named for build_8_reorder_long. Of paged lists each page is sorted.
+// enqueued for build_12_reorder_long. Of paged lists each page is sorted.
 // Reads: lists, nodes, data. Writes: lists, nodes, scratch, header.long_demand.
 // Source: MMRT section 3.3, reorder pass.
 #version 460

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
     VoxelRef voxel_built;
 };
 
-// One thread a word of eight voxels.
+// One thread per word of eight voxels.
 void main() {
     uint word = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
     uint count = voxel_count(voxel_built);

@@ -1,5 +1,5 @@
-// What: counts the triangles that rays cannot meet: those with an area that no cell of any view keeps.
-// Reads: header, bounds, geometry. Writes: header.lost. One invocation a word of marks.
+// What: counts the triangles that rays cannot hit: those with an area that no cell of any view keeps.
+// Reads: header, bounds, geometry. Writes: header.lost. One invocation per word of marks.
 // Source: not in the paper, which names edge-on triangles as its open limit.
 #version 460
 #include "contract/extensions.glsl"

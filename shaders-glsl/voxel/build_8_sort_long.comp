@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
     uint build_round;
 };
 
-// The same of a linked list: passes over it, as far as one dispatch goes.
+// The same of a linked list: skips through it, as far as one dispatch goes.
 void sort_linked_share(uint place) {
     uvec2 long_list = sort_long(voxel_built, place);
     if (long_list.y == LONG_LIST_DONE) {
