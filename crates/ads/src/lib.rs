@@ -20,6 +20,7 @@
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
+mod box_cells;
 mod brute_force;
 mod centre;
 mod counters;
@@ -41,6 +42,7 @@ mod viewpoint;
 mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
+pub use box_cells::BoxCells;
 pub use brute_force::BruteForce;
 pub use centre::centre_within;
 pub use counters::Counters;

@@ -2,16 +2,14 @@
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BoxCells, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::ads::NEAR_BOX;
-use rasray_shaders_glsl::constants::bricks::BRICK_ROUNDING;
+use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
 
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
-use crate::grid::placed;
 use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, Views};
 
@@ -36,7 +34,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let Parts { config, geometry, pools, .. } = parts;
     let bounds = geometry.bounds();
     let (cells, fits) = cells(parts);
-    let along_axes = (config.views == Views::Axes).then(|| placed(eye, bounds, cells));
+    let along_axes = (config.views == Views::Axes).then(|| BoxCells::over(bounds, cells, eye));
     let centre = along_axes.map_or_else(|| centre_within(eye, bounds), |at| at.centre);
     let [lower, upper] =
         bounds.map(|corner| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]));
@@ -44,7 +42,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let reach = along_axes.map_or(farthest, |at| at.reach);
     // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
     // centre is from the frame origin.
-    let rounding = BRICK_ROUNDING * reach;
+    let rounding = CELL_ROUNDING * reach;
     // What a ray outside of the near box meets is not behind the centre, also where columns are few.
     let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
     Header {
