@@ -34,6 +34,7 @@ mod pooled;
 mod pools;
 mod pyramid;
 mod queue;
+mod record_layout;
 mod scan;
 mod steps;
 mod structure;
@@ -56,6 +57,9 @@ pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{QueueCounters, QueueParts, RayQueue};
+pub use record_layout::RecordLayout;
+#[doc(hidden)]
+pub use record_layout::size_of_member;
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{

@@ -3,7 +3,8 @@
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BoxCells, BuildPipelines, Common, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
@@ -11,7 +12,7 @@ use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
 use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Pool, Views};
+use crate::{Config, Contents, Header, Pool, Views, well_formed};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
@@ -99,6 +100,12 @@ impl Design for Passes {
     const PREFIX: &'static str = "bricks";
     const TITLE: &'static str = "the bricks";
     const BUILD_READS_SCENE: bool = false;
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "BrickHeader" {
+        status, demand, capacity, near_demand, near_capacity, corrupted, columns, rows, slices, reach, near_size,
+        rounding, centre, lower, upper, cells_lower, cells_per_metre, bricks_address, lists_address, entries_address,
+        sums_address, near_address, records_address, triangles_address, slice_first, slice_shift, record_demand,
+        record_capacity, cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -216,6 +223,10 @@ impl Design for Passes {
             entries: words(Pool::Entries)?,
             near: words(Pool::Near)?,
         })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

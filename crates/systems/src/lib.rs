@@ -19,4 +19,16 @@ mod voxel;
 pub use error::SystemsError;
 pub use option_row::{Group, Hits, OptionRow, Values, Word};
 pub use options::{OPTIONS, option};
-pub use spec::{Preset, SYSTEMS, Spec, System};
+pub use spec::{Preset, Spec, System};
+
+/// Every system.
+pub static SYSTEMS: &[System] = &[
+    bricks::SYSTEM,
+    mmrt::SYSTEM,
+    dirt::SYSTEM,
+    hu::SYSTEM,
+    selective::SYSTEM,
+    ldc::SYSTEM,
+    bvh::SYSTEM,
+    brute_force::SYSTEM,
+];
