@@ -7,6 +7,7 @@ mod bvh;
 mod dirt;
 mod error;
 mod given;
+mod grid;
 mod hu;
 mod ldc;
 mod mmrt;
@@ -30,5 +31,6 @@ pub static SYSTEMS: &[System] = &[
     selective::SYSTEM,
     ldc::SYSTEM,
     bvh::SYSTEM,
+    grid::SYSTEM,
     brute_force::SYSTEM,
 ];
