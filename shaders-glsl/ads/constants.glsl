@@ -52,6 +52,10 @@
 // there a cell is as wide as the guard of the march, 16 units of rounding for each of nine distances.
 #define NEAR_BOX 4.8e-6
 
+// Cells list what lies within the rounding of the test in two coordinates (240 units) and that of the march (96), over
+// the distance of the geometry.
+#define CELL_ROUNDING 2.0e-5
+
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu
 

@@ -7,7 +7,7 @@
 
 #include "ads/views.glsl"
 #include "bricks/header.glsl"
-#include "bricks/axes.glsl"
+#include "ads/box_cells.glsl"
 #include "bricks/slices.glsl"
 #include "bricks/words.glsl"
 
@@ -55,8 +55,8 @@ BrickSlices brick_slices(BrickRef s) {
     return BrickSlices(int(BRICK_HEADER(s).slices), BRICK_HEADER(s).slice_first, BRICK_HEADER(s).slice_shift);
 }
 
-BrickAxes brick_axes(BrickRef s) {
-    return BrickAxes(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre, BRICK_HEADER(s).rounding);
+BoxCells brick_axes(BrickRef s) {
+    return BoxCells(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre, BRICK_HEADER(s).rounding);
 }
 
 // Faces of the cube, or the one view along an axis.

@@ -7,14 +7,14 @@
 #include "ads/bin_triangle.glsl"
 #include "ads/overlap.glsl"
 #include "bricks/accessors.glsl"
-#include "bricks/clip.glsl"
+#include "ads/box_clip.glsl"
 #include "bricks/margin.glsl"
 
 // Where columns and slices are.
 struct BrickSpace {
     BrickGrid grid;   // these two of the faces of a cube
     BrickSlices slices;
-    BrickAxes axes;       // these two of views along axes
+    BoxCells axes;       // these two of views along axes
     uvec3 cells;
 };
 
@@ -29,7 +29,7 @@ struct BrickBin {
     BrickSpace space;
     Overlap overlap;
     float margin;         // x/z: how far columns reach beyond their sides for the nearest corner
-    BrickClip clip;       // of views along axes
+    BoxClip clip;       // of views along axes
     ivec2 lower;          // first and last column and row that may hold any of it
     ivec2 upper;
 };
@@ -40,7 +40,7 @@ bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b
     bin.face = face;
     bin.space = space;
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
-        bin.clip = brick_clip_begin(space.axes, space.cells, a, b, c);
+        bin.clip = box_clip_begin(space.axes, space.cells, a, b, c);
         ivec2 last = ivec2(space.cells.xy) - 1;
         bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
         bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
@@ -64,7 +64,7 @@ bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b
 // The depths of the triangle within a square of `side` columns; false where it does not reach into it.
 bool brick_bin_depths(BrickBin bin, ivec2 column, int side, out vec2 depths) {
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
-        return brick_clip_depths(bin.clip, column, side, depths);
+        return box_clip_depths(bin.clip, column, side, depths);
     }
     float columns = float(bin.space.grid.columns);
     precise vec2 place = vec2(2 * column + side) / columns - 1.0;

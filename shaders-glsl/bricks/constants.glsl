@@ -11,10 +11,6 @@
 // Bricks that one step over empty ones crosses at most, its own included.
 #define BRICK_REACH 8u
 
-// Cells list what lies within the rounding of the test in two coordinates (240 units) and that of the march (96), over
-// the distance of the geometry.
-#define BRICK_ROUNDING 2.0e-5
-
 // How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
 #define BRICK_PLACE 9.6e-7
 

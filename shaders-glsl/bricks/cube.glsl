@@ -1,5 +1,5 @@
 // What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
-// touch in the centre, slices are parallel. bricks/axes.glsl has those of a view along an axis.
+// touch in the centre, slices are parallel. ads/box_cells.glsl has those of a view along an axis.
 // Reads, writes: nothing.
 // Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is
 // right to 96 u R metres and to 32 u in x/z; cells list what lies within that.

@@ -1,7 +1,7 @@
 // What: follows a ray through bricks of cells and tests the triangles that each cell lists.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
-// between them, and bricks/axes.glsl those of views along axes (BRICK_VIEWS), which have one view and
+// between them, and ads/box_cells.glsl those of views along axes (BRICK_VIEWS), which have one view and
 // no near region. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
 // axis of that exit gets the next index exactly, the others are found from the point there and kept between
 // where they were and the end of what was empty. So indices only go forwards, and a cell is missed by no more
@@ -71,7 +71,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     bool turns = true;
     bool paused = false;
     BrickRay r;
-    BrickLine line;
+    BoxLine line;
     bvec3 up;
     // The two triangles tested last: large ones stand in many cells in a row.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
@@ -79,7 +79,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     while (t <= t_last && !(t > state.best.t + slack)) {
         if (turns) {
             if (axes) {
-                line = brick_line(brick_axes(s), origin, ray.direction);
+                line = box_line(brick_axes(s), origin, ray.direction);
                 up = greaterThanEqual(line.direction, vec3(0.0));
             } else {
                 r = brick_ray(origin, ray.direction, face);
@@ -87,7 +87,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             }
             trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
             if (begins) {
-                cell = axes ? brick_line_cell_at(line, t, walk.cells)
+                cell = axes ? box_line_cell_at(line, t, walk.cells)
                     : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
                 cell = clamp(cell, ivec3(0), walk.cells - 1);
             }
@@ -105,7 +105,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         }
         BrickBox box = brick_box(s, walk, face, cell, up);
         ivec3 planes = mix(box.first, box.last + 1, up);
-        vec3 exits = axes ? brick_line_exits(line, planes) : brick_exits(r, planes, walk.column, walk.slices);
+        vec3 exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, walk.column, walk.slices);
         float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
         if (enters) {
             state.cells++;
@@ -147,7 +147,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         t = t_out;
         bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
         bool leaves_y = !leaves_x && exits.y <= exits.z;
-        ivec3 next = axes ? brick_line_cell_at(line, t, walk.cells)
+        ivec3 next = axes ? box_line_cell_at(line, t, walk.cells)
             : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
         next = clamp(next, mix(box.first, cell, up), mix(cell, box.last, up));
         ivec3 over = mix(box.first - 1, box.last + 1, up);

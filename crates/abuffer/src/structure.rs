@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
@@ -15,7 +15,7 @@ use crate::layout::{
     Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
     widest_view,
 };
-use crate::{Config, Contents, Header, March, Pool, Storage};
+use crate::{Config, Contents, Header, March, Pool, Storage, well_formed};
 
 /// A multiview, multilayer A-buffer, made from a [`Config`].
 pub type ABuffer = Pooled<Build>;
@@ -141,6 +141,14 @@ impl Design for Build {
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "AbufferHeader" {
+        status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
+        thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_cells,
+        camera_x, camera_y, camera_z, lost, triangles, fringe_demand, fringe_capacity, reach, rounding,
+        pairs, pair_capacity, groups,
+        bounds_address, lists_address, nodes_address, data_address, near_address, scratch_address,
+        fringe_address,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -273,6 +281,10 @@ impl Design for Build {
             scratch: words(Pool::Scratch)?,
             fringe: words(Pool::Fringe)?,
         })
+    }
+
+    fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
+        well_formed(contents).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

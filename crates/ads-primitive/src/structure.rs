@@ -5,14 +5,15 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Centre, Config, Contents, Header, Pool};
+use crate::{Centre, Config, Contents, Header, Pool, well_formed};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -83,6 +84,11 @@ impl Design for Passes {
     const TITLE: &'static str = "the primitive lists";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "PrimitiveHeader" {
+        status, demand, capacity, near_demand, near_capacity, corrupted, tiles, tile, reach, near_size, rounding,
+        centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
+        pairs_address, pair_capacity, pairs, groups,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -189,6 +195,10 @@ impl Design for Passes {
             entries: words(Pool::Entries)?,
             near: words(Pool::Near)?,
         })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

@@ -8,7 +8,7 @@ use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
     Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Dependencies, Geometry, PoolName, Pools,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
 /// What every configuration says.
@@ -108,6 +108,8 @@ pub trait Design: fmt::Debug + Sized {
     const BUILD_READS_SCENE: bool;
     /// Byte of the header at which list entries that named nothing are counted.
     const CORRUPTED: usize;
+    /// What it shares with its shaders, the header first.
+    const RECORDS: &'static [RecordLayout];
 
     /// What every configuration says.
     fn common(config: &Self::Config) -> Common;
@@ -234,6 +236,9 @@ pub trait Design: fmt::Debug + Sized {
         device: &Device,
         header: Self::Header,
     ) -> Result<Self::Contents, GpuError>;
+
+    /// What is wrong with pools that a build over so many triangles left.
+    fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
     /// Header and other pools to write back, with their bytes.
     fn pools_of(contents: &Self::Contents) -> (Self::Header, PoolBytes<'_, Self::Pool>);

@@ -20,6 +20,7 @@
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
+mod box_cells;
 mod brute_force;
 mod centre;
 mod counters;
@@ -33,6 +34,7 @@ mod pooled;
 mod pools;
 mod pyramid;
 mod queue;
+mod record_layout;
 mod scan;
 mod steps;
 mod structure;
@@ -41,6 +43,7 @@ mod viewpoint;
 mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
+pub use box_cells::BoxCells;
 pub use brute_force::BruteForce;
 pub use centre::centre_within;
 pub use counters::Counters;
@@ -54,6 +57,9 @@ pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
+pub use record_layout::RecordLayout;
+#[doc(hidden)]
+pub use record_layout::size_of_member;
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{

@@ -9,8 +9,8 @@ use crate::design::default_work_budget;
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Dependencies, Design, Domain,
     Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
-    SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
-    TraceMode, Viewpoint,
+    RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
+    TraceKernelsDesc, TraceMode, Viewpoint,
 };
 
 /// A structure of a header, pools and the passes of its design.
@@ -30,6 +30,9 @@ fn modules<D: Design>(config: &D::Config) -> Modules {
 }
 
 impl<D: Design> Pooled<D> {
+    /// What it shares with its shaders, the header first.
+    pub const RECORDS: &'static [RecordLayout] = D::RECORDS;
+
     /// Makes pipelines and a first set of pools. `scene` is needed for alpha masks, surfaces and payloads that keep
     /// something of it.
     ///
@@ -271,6 +274,22 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
         Some(self.parts.pools.inline_trace(D::constants(&self.parts.config)))
+    }
+
+    fn download_pools(&self, device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
+        let words = |pool: &D::Pool| Ok((pool.name(), self.parts.pools.download_words(device, *pool)?));
+        D::Pool::ALL.iter().map(words).collect()
+    }
+
+    fn upload_pools(&self, device: &Device, pools: &[(&'static str, Vec<u32>)]) -> Result<(), GpuError> {
+        let named = |name| D::Pool::ALL.iter().find(|pool| pool.name() == name);
+        pools.iter().filter_map(|(name, words)| Some((named(*name)?, words))).try_for_each(|(pool, words)| {
+            device.upload(self.parts.pools.pool(*pool), 0, bytemuck::cast_slice(words))
+        })
+    }
+
+    fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
+        Ok(D::fault(&self.download(device)?, self.parts.geometry.triangle_count()))
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

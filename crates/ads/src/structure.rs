@@ -361,6 +361,33 @@ pub trait Structure {
         None
     }
 
+    /// Header and pools as words, by name, the header first; empty where a structure has none. Submits and waits: for
+    /// tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    fn download_pools(&self, _device: &Device) -> Result<Vec<(&'static str, Vec<u32>)>, GpuError> {
+        Ok(Vec::new())
+    }
+
+    /// Writes back what [`Structure::download_pools`] returned, or what was made of it. Submits and waits: for tests and
+    /// tools. Traces end within their bounds whatever the other pools say; the header is taken at its word.
+    ///
+    /// # Errors
+    /// A pool is larger than what was allocated, or the device failed.
+    fn upload_pools(&self, _device: &Device, _pools: &[(&'static str, Vec<u32>)]) -> Result<(), GpuError> {
+        Ok(())
+    }
+
+    /// What is wrong with the lists or nodes on the device, where they can be checked. Submits and waits: for tests and
+    /// tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    fn fault(&self, _device: &Device) -> Result<Option<String>, GpuError> {
+        Ok(None)
+    }
+
     /// Options, paths and bytes, of the build whose status was last read.
     ///
     /// # Errors

@@ -1,6 +1,4 @@
-//! What columns of bricks are, how many there are, and where those of views along axes lie.
-
-use rasray_shaders_glsl::constants::bricks as numbers;
+//! What columns of bricks are, and how many there are.
 
 use crate::config::{BRICK_SIDE, SIDE_LIMIT};
 
@@ -41,19 +39,6 @@ const MOST_CELLS: f64 = 16_777_216.0;
 /// Fewest cells along the longest side where their number is left to the rule.
 const FEWEST_ALONG: f64 = 16.0;
 
-/// Eyes nearer than this many times the geometry need no wider margins: a little less than `ORIGIN_LIMIT`.
-const EYE_LIMIT: f32 = 3.5;
-
-/// Margins of a distant eye are no wider than this share of a cell.
-const WIDEST_MARGIN: f64 = 0.125;
-
-/// The bounds (lower, upper) are wider than the geometry by this many margins below and twice as many above:
-/// sides lie well within a cell then, and so does the middle.
-const WIDENING: f64 = 4.0;
-
-/// Half the longest side of what has no size: all that follows from it stays within the range of numbers.
-const SMALLEST_REACH: f32 = 1.0e-30;
-
 /// Columns along a side of a face for that many triangles: as many as make a column about as wide as a triangle is
 /// seen from the middle, a power of two from 32 to 256.
 pub(crate) fn columns_for(triangles: u32) -> u32 {
@@ -87,46 +72,6 @@ pub(crate) fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: 
         side *= 1.02;
     }
     cells_of(side)
-}
-
-/// Where the cells of views along axes are; metres from the centre.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Placement {
-    /// Middle of the bounds, metres relative to the frame origin.
-    pub(crate) centre: [f32; 3],
-    /// Half the longest side of the bounds; more where the eye is far away.
-    pub(crate) reach: f32,
-    /// How far a ray may be from a triangle that it hits.
-    pub(crate) rounding: f32,
-    /// Corner of the first cell.
-    pub(crate) lower: [f32; 3],
-    /// Cells a metre, along each axis.
-    pub(crate) per_metre: [f32; 3],
-}
-
-/// Places so many cells over bounds (lower, upper).
-pub(crate) fn placed(eye: [f32; 3], [lower, upper]: [[f32; 3]; 2], cells: [u32; 3]) -> Placement {
-    let centre: [f32; 3] = std::array::from_fn(|axis| 0.5 * lower[axis] + 0.5 * upper[axis]);
-    let from_centre = |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]);
-    let (lower, upper) = (from_centre(lower), from_centre(upper));
-    let farthest = |of: [f32; 3]| of.iter().fold(0.0_f32, |far, x| far.max(x.abs()));
-    let own = farthest(lower).max(farthest(upper)).max(SMALLEST_REACH);
-    let most = cells.into_iter().fold(BRICK_SIDE, u32::max);
-    let widest = 2.0 * f64::from(own) / f64::from(most) * WIDEST_MARGIN;
-    let limit = (widest / f64::from(numbers::BRICK_ROUNDING)) as f32;
-    let reach = (farthest(from_centre(eye)) / EYE_LIMIT).min(limit).max(own);
-    let rounding = numbers::BRICK_ROUNDING * reach;
-    let wider = WIDENING * f64::from(rounding);
-    Placement {
-        centre,
-        reach,
-        rounding,
-        lower: std::array::from_fn(|axis| (f64::from(lower[axis]) - wider) as f32),
-        per_metre: std::array::from_fn(|axis| {
-            let extent = f64::from(upper[axis]) - f64::from(lower[axis]) + 3.0 * wider;
-            (f64::from(cells[axis]) / extent) as f32
-        }),
-    }
 }
 
 #[cfg(test)]
@@ -182,36 +127,6 @@ mod tests {
             [[f32::NEG_INFINITY; 3], [f32::INFINITY; 3]],
         ] {
             assert_eq!(cells_along(bounds, 9, None), [4; 3], "{bounds:?}");
-        }
-        let point = placed([1.0; 3], [[1.0; 3]; 2], [4; 3]);
-        assert!(point.per_metre.iter().all(|n| n.is_normal()) && point.rounding.is_normal());
-    }
-
-    /// Every corner lies within the first and the last cell by more than the margin of a cell, whatever the eye.
-    #[test]
-    fn cells_hold_the_geometry_with_its_margins() {
-        for bounds in
-            [ROOM, [[0.0; 3], [5.0, 0.0, 3.0]], [[1.0e6; 3], [1.0e6 + 1.0; 3]], [[1.0e-20; 3], [3.0e-20; 3]]]
-        {
-            for distance in [0.0, 10.0, 1.0e3, 1.0e9] {
-                let cells = cells_along(bounds, 1000, None);
-                let at = placed([distance; 3], bounds, cells);
-                for axis in 0..3 {
-                    let in_cells = |x: f32| {
-                        f64::from(x - at.centre[axis] - at.lower[axis]) * f64::from(at.per_metre[axis])
-                    };
-                    let margin = f64::from(at.rounding * at.per_metre[axis]);
-                    let (first, last) = (in_cells(bounds[0][axis]), in_cells(bounds[1][axis]));
-                    assert!(first > 2.0 * margin, "{bounds:?}: {first} {margin}");
-                    assert!(last < f64::from(cells[axis]) - 2.0 * margin, "{bounds:?}: {last} {margin}");
-                }
-                let most = cells.into_iter().max().expect("three axes") as usize;
-                let axis = cells.iter().position(|n| *n as usize == most).expect("the largest");
-                assert!(
-                    at.rounding * at.per_metre[axis] <= 0.126,
-                    "margins are wider than a share of a cell"
-                );
-            }
         }
     }
 }

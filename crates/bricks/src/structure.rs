@@ -4,18 +4,17 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
+    Pooled, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::ads::NEAR_BOX;
-use rasray_shaders_glsl::constants::bricks::BRICK_ROUNDING;
+use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
 
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
-use crate::grid::placed;
 use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Pool, Views};
+use crate::{Config, Contents, Header, Pool, Views, well_formed};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
@@ -38,7 +37,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let Parts { config, geometry, pools, .. } = parts;
     let bounds = geometry.bounds();
     let (cells, fits) = cells(parts);
-    let along_axes = (config.views == Views::Axes).then(|| placed(eye, bounds, cells));
+    let along_axes = (config.views == Views::Axes).then(|| BoxCells::over(bounds, cells, eye));
     let centre = along_axes.map_or_else(|| centre_within(eye, bounds), |at| at.centre);
     let [lower, upper] =
         bounds.map(|corner| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]));
@@ -46,7 +45,7 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let reach = along_axes.map_or(farthest, |at| at.reach);
     // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
     // centre is from the frame origin.
-    let rounding = BRICK_ROUNDING * reach;
+    let rounding = CELL_ROUNDING * reach;
     // What a ray hits outside of the near region is not behind the centre, also where columns are few.
     let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
     Header {
@@ -104,6 +103,12 @@ impl Design for Passes {
     const TITLE: &'static str = "the bricks";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "BrickHeader" {
+        status, demand, capacity, near_demand, near_capacity, corrupted, columns, rows, slices, reach, near_size,
+        rounding, centre, lower, upper, cells_lower, cells_per_metre, bricks_address, lists_address, entries_address,
+        sums_address, near_address, records_address, triangles_address, slice_first, slice_shift, record_demand,
+        record_capacity, cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -225,6 +230,10 @@ impl Design for Passes {
             entries: words(Pool::Entries)?,
             near: words(Pool::Near)?,
         })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
@@ -13,7 +13,7 @@ use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
 use crate::build::Build;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
-use crate::{Builder, Config, Contents, Header, Node, Pool, Record};
+use crate::{Builder, Config, Contents, Header, Node, Pool, Record, well_formed};
 
 /// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray on which
 /// hundreds of thousands of boxes lie needs more.
@@ -138,6 +138,17 @@ impl Design for Tree {
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[
+        record_layout!(Header as "BvhHeader" {
+            status, root, triangle_count, node_capacity, record_capacity, scratch_capacity, order_offset,
+            order_stride, lower, spare_lower, cells_per_metre, corrupted, nodes_address, records_address,
+            scratch_address, spare_address,
+        }),
+        record_layout!(Node as "BvhNode" {
+            lower_0, child_0, upper_0, child_1, lower_1, parent, upper_1, spare,
+        }),
+        record_layout!(Record as "BvhRecord" { a, b, c, primitive }),
+    ];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -281,6 +292,10 @@ impl Design for Tree {
             nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, self.nodes as usize)?,
             records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
         })
+    }
+
+    fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
+        well_formed(contents).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

@@ -142,7 +142,7 @@ fn use_once(
 }
 
 /// Refuses a picture whose rays met list entries that name nothing.
-fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), AppError> {
+fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), ExperimentError> {
     for queue in queues {
         let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
         let entries = header.first().map(RayQueue::counters).unwrap_or_default().corrupted;

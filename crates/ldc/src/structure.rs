@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
@@ -14,7 +14,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, first_plan, formula_bytes, layer_capacity, long_capacity, pair_capacity, plan, scratch_words,
 };
-use crate::{Config, Contents, Header, Pool};
+use crate::{Config, Contents, Header, Pool, well_formed};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
 pub type LayeredDepthCube = Pooled<Build>;
@@ -80,6 +80,13 @@ impl Design for Build {
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "LdcHeader" {
+        status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
+        tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
+        depths_address, payload_address, blocks_address, heads_address, fringe_address, scratch_address,
+        layer_capacity, layer_limit, beyond, pairs, pair_capacity,
+        groups,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -204,6 +211,10 @@ impl Design for Build {
             heads: words(Pool::Heads)?,
             fringe: words(Pool::Fringe)?,
         })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

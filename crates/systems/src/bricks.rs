@@ -10,6 +10,8 @@ pub(crate) const SYSTEM: System = System {
     name: "bricks",
     doc: "Cells with lists of triangles, in bricks that say where nothing is: hits are those of the triangles",
     structure: "bricks",
+    records: Bricks::RECORDS,
+    large_pools: &[("views", "cube"), ("grid", "512"), ("slices", "512")],
     presets: &[Preset::Robust],
     occlusion_payload: None,
     camera_views: None,

@@ -10,6 +10,8 @@ pub(crate) const SYSTEM: System = System {
     name: "brute-force",
     doc: "Every triangle tested against every ray: what hits are checked against, slow on purpose",
     structure: "brute-force",
+    records: &[],
+    large_pools: &[],
     presets: &[Preset::Robust],
     occlusion_payload: None,
     camera_views: None,

@@ -10,6 +10,8 @@ pub(crate) const SYSTEM: System = System {
     name: "bvh",
     doc: "A bounding volume hierarchy with two children per node: the baseline",
     structure: "bvh",
+    records: Bvh::RECORDS,
+    large_pools: &[],
     presets: &[Preset::Robust],
     occlusion_payload: None,
     camera_views: None,

@@ -12,6 +12,8 @@ pub(crate) const SYSTEM: System = System {
     name: "dirt",
     doc: "Lists of triangles per tile of a cube's faces: hits are those of the triangles",
     structure: "ads-primitive",
+    records: PrimitiveLists::RECORDS,
+    large_pools: &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")],
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,

@@ -12,6 +12,8 @@ pub(crate) const SYSTEM: System = System {
     name: "hu",
     doc: "Voxels over A-buffers along the three axes",
     structure: "voxel",
+    records: Voxels::RECORDS,
+    large_pools: &[("resolution", "3500")],
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,

@@ -10,6 +10,8 @@ pub(crate) const SYSTEM: System = System {
     name: "ldc",
     doc: "Layers of fragments along three axes, each triangle along the one it faces most",
     structure: "ldc",
+    records: LayeredDepthCube::RECORDS,
+    large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,

@@ -7,6 +7,7 @@ mod bvh;
 mod dirt;
 mod error;
 mod given;
+mod grid;
 mod hu;
 mod ldc;
 mod mmrt;
@@ -19,4 +20,17 @@ mod voxel;
 pub use error::SystemsError;
 pub use option_row::{Group, Hits, OptionRow, Values, Word};
 pub use options::{OPTIONS, option};
-pub use spec::{Preset, SYSTEMS, Spec, System};
+pub use spec::{Preset, Spec, System};
+
+/// Every system.
+pub static SYSTEMS: &[System] = &[
+    bricks::SYSTEM,
+    mmrt::SYSTEM,
+    dirt::SYSTEM,
+    hu::SYSTEM,
+    selective::SYSTEM,
+    ldc::SYSTEM,
+    bvh::SYSTEM,
+    grid::SYSTEM,
+    brute_force::SYSTEM,
+];

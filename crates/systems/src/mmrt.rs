@@ -10,6 +10,8 @@ pub(crate) const SYSTEM: System = System {
     name: "mmrt",
     doc: "A-buffers on the faces of a cube and on the camera's view",
     structure: "abuffer",
+    records: ABuffer::RECORDS,
+    large_pools: &[("resolution", "2400")],
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: Some("normal"),
     camera_views: Some("cube+camera"),

@@ -59,8 +59,8 @@ pub const OPTIONS: &[OptionRow] = &[
         SameForTriangles,
         Values::Whole(1, 1024),
         &["8", "24"],
-        "Voxels along each side of the scene's cube, balanced with --resolution if not given; of bricks, cells along \
-         the longest side of the scene or columns along each side of a face, by its triangles if not given; 1 to 1024",
+        "Cells along the longest side of the scene or, with --views cube, columns along each side of a face, by its \
+         triangles if not given; voxels along each side of its cube, balanced with --resolution if not given; 1 to 1024",
     ),
     row(
         "tile",

@@ -12,6 +12,8 @@ pub(crate) const SYSTEM: System = System {
     name: "selective",
     doc: "The same with voxels first, and each fragment in one of the A-buffers",
     structure: "voxel",
+    records: Voxels::RECORDS,
+    large_pools: &[("resolution", "3500")],
     presets: &[Preset::Robust, Preset::Published],
     occlusion_payload: None,
     camera_views: None,

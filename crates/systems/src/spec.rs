@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{Counters, Geometry, SceneBinding, Structure, StructureKind};
+use rasray_ads::{Counters, Geometry, RecordLayout, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Requirements};
 
 use crate::option_row::{Group, OptionRow};
 use crate::options::OPTIONS;
-use crate::{SystemsError, bricks, brute_force, bvh, dirt, hu, ldc, mmrt, selective};
+use crate::{SYSTEMS, SystemsError};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -63,6 +63,11 @@ pub struct System {
     pub without_scene: &'static [(&'static str, &'static str)],
     /// The structure that it traces, as crates and shaders name it.
     pub structure: &'static str,
+    /// What that structure shares with its shaders, the header first.
+    pub records: &'static [RecordLayout],
+    /// Options over the robust preset with which a pool is larger than the 128 MiB that a binding of small devices holds,
+    /// whatever the triangles; none where pools grow with these alone.
+    pub large_pools: &'static [(&'static str, &'static str)],
     /// Names of the options it has.
     pub(crate) options: fn() -> Vec<&'static str>,
     /// What a device must and may offer for a spec; also where a spec's values are checked.
@@ -107,18 +112,6 @@ impl System {
 /// Makes the structure of a spec for triangles, and for a scene where surfaces or alpha are wanted.
 pub(crate) type Create =
     fn(&Spec, &Device, &Geometry, Option<&SceneBinding>) -> Result<Box<dyn Structure>, SystemsError>;
-
-/// Every system.
-pub static SYSTEMS: &[System] = &[
-    bricks::SYSTEM,
-    mmrt::SYSTEM,
-    dirt::SYSTEM,
-    hu::SYSTEM,
-    selective::SYSTEM,
-    ldc::SYSTEM,
-    bvh::SYSTEM,
-    brute_force::SYSTEM,
-];
 
 /// A system, a preset and the options given over it.
 #[derive(Clone, Debug)]
@@ -257,6 +250,7 @@ impl Spec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{dirt, hu, ldc, mmrt, selective};
 
     fn spec(system: &str, preset: &str, options: &[(&str, &str)]) -> Result<Spec, SystemsError> {
         Spec::new(
@@ -290,21 +284,14 @@ mod tests {
 
     #[test]
     fn sizes_are_set_by_one_option() {
-        let sizes: Vec<_> = SYSTEMS.iter().map(|system| (system.name, system.size_option())).collect();
-        let resolution = Some("resolution");
-        assert_eq!(
-            sizes,
-            [
-                ("bricks", Some("grid")),
-                ("mmrt", resolution),
-                ("dirt", resolution),
-                ("hu", resolution),
-                ("selective", resolution),
-                ("ldc", resolution),
-                ("bvh", None),
-                ("brute-force", None),
-            ]
-        );
+        for system in SYSTEMS {
+            let size = ["resolution", "grid"].into_iter().find(|option| system.has(option));
+            assert_eq!(system.size_option(), size, "{}", system.name);
+            // What has cells has pools that grow with them.
+            assert_eq!(size.is_some(), !system.large_pools.is_empty(), "{}", system.name);
+        }
+        let size = |name| System::named(name).and_then(System::size_option);
+        assert_eq!(["mmrt", "bricks", "bvh"].map(size), [Some("resolution"), Some("grid"), None]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -14,7 +14,7 @@ use crate::build::Build;
 use crate::layout::{
     Demand, cube, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
 };
-use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage};
+use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
 
 /// Lists as long as the longest that a ray is given the rounds to read.
 const LONG_LISTS_A_RAY: u32 = 64;
@@ -71,6 +71,11 @@ impl Design for Build {
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "VoxelHeader" {
+        status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, longest, samples, cell, voxel,
+        cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
+        fragments_address, scratch_address, pairs, pair_capacity, groups,
+    })];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;
@@ -199,6 +204,10 @@ impl Design for Build {
             lists: words(Pool::Lists)?,
             fragments: words(Pool::Fragments)?,
         })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
     fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {

@@ -7,6 +7,7 @@
 
 mod reduce;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use shaderc::{
@@ -152,14 +153,18 @@ impl Permutation {
         twin
     }
 
-    /// A module for each pair of `words`, where they are the values of a macro `A<B`; in its name A and B stand for them.
-    fn pairs(&self) -> Vec<Self> {
+    /// A module for each pair of words, where they are the values of a macro `A<B`; in its name and among its features A
+    /// and B stand for them. `*` is every one of `structures`.
+    fn pairs(&self, structures: &BTreeSet<String>) -> Vec<Self> {
         let Some((place, first, second)) = self.defines.iter().enumerate().find_map(|(place, (name, _))| {
             name.split_once('<').map(|(first, second)| (place, first.to_owned(), second.to_owned()))
         }) else {
             return vec![self.clone()];
         };
-        let words: Vec<_> = self.defines[place].1.split(',').collect();
+        let words: Vec<&str> = match self.defines[place].1.as_str() {
+            "*" => structures.iter().map(String::as_str).collect(),
+            given => given.split(',').collect(),
+        };
         let pairs = words
             .iter()
             .enumerate()
@@ -167,7 +172,9 @@ impl Permutation {
         pairs
             .map(|(one, other)| {
                 let mut pair = self.clone();
-                pair.name = pair.name.replace(&first, one).replace(&second, other);
+                let named = |text: &str| text.replace(&first, one).replace(&second, other);
+                pair.name = named(&pair.name);
+                pair.features.iter_mut().for_each(|feature| *feature = named(feature));
                 let values = [(first.clone(), (*one).to_owned()), (second.clone(), (*other).to_owned())];
                 pair.defines.splice(place..=place, values);
                 pair
@@ -178,13 +185,15 @@ impl Permutation {
 
 /// Reads the permutation list. `[feature+feature]` heads a section; with `.address` after it each of its modules is there
 /// once more, under its name with that ending and with `ADDRESSING_ADDRESS`. `name = entry MACRO=value ...` is a module;
-/// with `A<B=x,y,z` one for each pair, in whose name A and B stand for the two. `#` starts a comment.
+/// with `A<B=x,y,z` one for each pair, in whose name and features A and B stand for the two. `A<B=*` are the pairs of all
+/// values of `STRUCTURE` in the sections before with `.address`. `#` starts a comment.
 ///
 /// # Errors
 /// Names the line that is none of these.
 pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     let (mut features, mut by_address) = (Vec::new(), false);
     let mut permutations = Vec::new();
+    let mut structures = BTreeSet::new();
     for (number, line) in text.lines().enumerate() {
         let line = line.split('#').next().unwrap_or("").trim();
         if line.is_empty() {
@@ -214,7 +223,11 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
             defines,
             features: features.clone(),
         };
-        for module in line.pairs() {
+        if by_address {
+            let values = line.defines.iter().filter(|(name, _)| name == "STRUCTURE");
+            structures.extend(values.map(|(_, value)| value.clone()));
+        }
+        for module in line.pairs(&structures) {
             let twin = by_address.then(|| module.by_address());
             permutations.extend([Some(module), twin].into_iter().flatten());
         }
@@ -247,6 +260,11 @@ mod tests {
             names("[a]\nt.FIRST.SECOND = t.comp FIRST<SECOND=p,q,r"),
             ["t.p.q FIRST=p SECOND=q", "t.p.r FIRST=p SECOND=r", "t.q.r FIRST=q SECOND=r"]
         );
+        let all = "[q] .address\nx = x.comp STRUCTURE=q\n[p] .address\nx = x.comp STRUCTURE=p\ny = y.comp STRUCTURE=p
+            [r]\nx = x.comp STRUCTURE=r\n[t+A+B]\nt.A.B = t.comp A<B=*\n";
+        assert!(names(all).ends_with(&["t.p.q A=p B=q".to_owned()]));
+        let pair = read_permutations(all).expect("the list is well formed").pop().expect("a pair");
+        assert_eq!(pair.features, ["t", "p", "q"]);
         assert!(read_permutations("[a] .else\n").is_err());
         assert!(read_permutations("[a]\nx x.comp\n").is_err());
     }

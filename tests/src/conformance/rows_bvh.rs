@@ -1,4 +1,4 @@
-//! Rows of the baseline and of brute force.
+//! Rows of the baselines and of brute force.
 
 use super::row::{Cases, Row, Tier};
 
@@ -6,5 +6,6 @@ use super::row::{Cases, Row, Tier};
 pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-sah", "bvh", &[("builder", "sah")], Tier::Quick, Cases::All),
     Row::exact("bvh-lbvh", "bvh", &[("builder", "lbvh")], Tier::Quick, Cases::All),
+    Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),
     Row::exact("brute-force", "brute-force", &[], Tier::Quick, Cases::All),
 ];

@@ -5,7 +5,7 @@ use rasray_ads::{AdsError, BruteForce, Hit, Ray, Structure, StructureKind};
 use rasray_ads_primitive::{Addressing, Config, PrimitiveLists};
 use rasray_bvh::{Builder, Bvh};
 use rasray_gpu::{Feature, GpuError, Timing};
-use rasray_systems::{SYSTEMS, Spec, SystemsError};
+use rasray_systems::{SYSTEMS, Spec, System, SystemsError};
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
@@ -57,16 +57,6 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     assert_eq!(all_bits(&found), all_bits(&bench.build_and_trace(&mut tree, [0.0; 3], &rays)));
 }
 
-/// Options with which a pool of the system is larger than what one binding of a software driver holds.
-const LARGE: [(&str, &[(&str, &str)]); 6] = [
-    ("bricks", &[("views", "cube"), ("grid", "512"), ("slices", "512")]),
-    ("mmrt", &[("resolution", "2400")]),
-    ("dirt", &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")]),
-    ("hu", &[("resolution", "3500")]),
-    ("selective", &[("resolution", "3500")]),
-    ("ldc", &[("resolution", "2400")]),
-];
-
 #[test]
 fn every_system_reaches_large_pools_by_address() {
     let bench = Bench::new();
@@ -82,19 +72,16 @@ fn every_system_reaches_large_pools_by_address() {
     let mut tree = Bvh::new(bench.device(), rasray_bvh::Config::new(Builder::Sah), &geometry, None)
         .expect("the options are valid");
     let truth = bench.build_and_trace(&mut tree, eye, &rays);
-    // Trees grow with triangles alone, and brute force has no pools.
-    for system in
-        SYSTEMS.iter().map(|system| system.name).filter(|name| !["bvh", "brute-force"].contains(name))
-    {
-        assert!(LARGE.iter().any(|(large, _)| *large == system), "{system} has no large pool here");
+    let large = || SYSTEMS.iter().filter(|system| !system.large_pools.is_empty());
+    for system in SYSTEMS.iter().filter(|system| system.size_option().is_some()) {
+        assert!(large().any(|other| other == system), "{} has no large pool in its row", system.name);
     }
-    let quick = LARGE.iter().filter(|(system, _)| *system == "hu").copied();
-    let tried: Vec<_> = if is_full() { LARGE.to_vec() } else { quick.collect() };
-    if tried.len() < LARGE.len() {
+    let tried: Vec<_> = large().filter(|system| is_full() || system.name == "hu").collect();
+    if !is_full() {
         println!("skipped: set RASRAY_FULL to 1 for systems other than hu");
     }
-    for (system, options) in tried {
-        let options = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    for System { name: system, large_pools, .. } in tried {
+        let options = large_pools.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
         let spec = Spec::new(system, "robust", options).expect("the options are valid");
         match spec.create(bench.device(), &geometry, None) {
             Err(SystemsError::Ads(AdsError::Gpu(GpuError::TooLarge { .. }))) => {}

@@ -2,7 +2,8 @@
 
 use rasray_abuffer::{ABuffer, Accept, Config, Payload};
 use rasray_ads::{
-    BruteForce, Counters, Geometry, Hit, PRIMITIVE_UNKNOWN, Ray, StepKind, Structure, TestVerdict, TraceMode,
+    BruteForce, Counters, Geometry, Hit, PRIMITIVE_UNKNOWN, Ray, StepKind, Structure, StructureKind,
+    TestVerdict, TraceMode,
 };
 use rasray_gpu::Timing;
 use rasray_reference::oracle::Verdict;
@@ -49,11 +50,6 @@ const MORE: [Row; 6] = [
     ("selective", "published", &[("march", "exact"), ("payload", "index")]),
 ];
 
-/// Whether rays find what they meet in a few steps.
-fn is_short(structure: &str) -> bool {
-    ["bricks", "bvh", "ads-primitive"].contains(&structure)
-}
-
 /// Every preset of every system, and more of them; budgets are small, so that rays pause.
 fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box<dyn Structure>> {
     let more = MORE.map(|(system, preset, options)| {
@@ -64,8 +60,9 @@ fn structures(bench: &Bench, geometry: &Geometry, counters: Counters) -> Vec<Box
         let size = spec.system().size_option();
         let cells = size.map(|option| (option.to_owned(), RESOLUTION.to_string()));
         let spec = spec.with_options(cells).expect("so many cells are valid").with_counters(counters);
-        // What finds its triangle soon needs less to pause.
-        let spec = spec.clone().with_work_budget(if is_short(spec.structure()) { 5 } else { 60 });
+        // What lists triangles finds one soon, and needs less to pause.
+        let is_short = spec.kind().expect("the options are valid") != StructureKind::Fragment;
+        let spec = spec.clone().with_work_budget(if is_short { 5 } else { 60 });
         let mut structure = spec.create(bench.device(), geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), structure.as_mut(), EYE, Timing::None)
             .expect("the build completes");

@@ -3,19 +3,16 @@
 
 #[macro_use]
 mod reader;
-mod abuffer;
-mod bricks;
-mod bvh;
-mod ldc;
-mod primitive;
-mod voxel;
 
 use std::collections::BTreeMap;
 
-use rasray_ads::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
+use rasray_ads::{
+    Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState, TraceStep,
+};
 use rasray_gpu_scene::layout as scene;
 use rasray_integrators::{AovPixel, FilmFaults, FilmPixel, PathState};
 use rasray_shaders_glsl::{self as shaders, Shader};
+use rasray_systems::SYSTEMS;
 use rasray_tests::visits::Visit;
 
 use crate::reader::{Member, Record, difference, read_by_spirq, read_by_us};
@@ -71,7 +68,7 @@ fn records_of_queues_and_geometry() {
 /// Whatever module a shared record is declared in, it is the same record.
 #[test]
 fn records_are_the_same_in_all_modules() {
-    const SHARED: [&str; 20] = [
+    const SHARED: [&str; 15] = [
         "Ray",
         "Hit",
         "TraceState",
@@ -81,11 +78,6 @@ fn records_are_the_same_in_all_modules() {
         "Draw",
         "GeometryHeader",
         "QueueHeader",
-        "AbufferHeader",
-        "BvhHeader",
-        "BvhNode",
-        "BvhRecord",
-        "VoxelHeader",
         "Frame",
         "Material",
         "TextureRef",
@@ -108,16 +100,40 @@ fn records_are_the_same_in_all_modules() {
     assert!(compared > 100, "only {compared} records were compared");
 }
 
-/// With device addresses the header is reached by a pointer, which only the own reader follows.
+/// Members of a record as readers of modules name them.
+fn members_of(record: &RecordLayout) -> Vec<Member> {
+    record.members.iter().map(|(name, offset, size)| ((*name).to_owned(), *offset, *size)).collect()
+}
+
+/// The records that a structure says it shares, in every module of its folder that has them: all that trace have its
+/// header. With device addresses records are reached by pointers, which only the own reader follows.
 #[test]
-fn records_reached_by_address_are_the_same() {
-    let direct = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES);
-    let by_address = read_by_us(&shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES_ADDRESS);
-    assert_eq!(direct["AbufferHeader"], by_address["AbufferHeader"]);
-    let direct = read_by_us(&shaders::BVH_TRACE_CLOSEST);
-    let by_address = read_by_us(&shaders::BVH_TRACE_CLOSEST_ADDRESS);
-    for name in ["BvhHeader", "BvhNode", "BvhRecord"] {
-        assert_eq!(direct[name], by_address[name], "{name}");
+fn records_of_every_structure() {
+    for system in SYSTEMS {
+        let folder = system.structure.trim_start_matches("ads-");
+        let of_folder = |shader: &&&Shader| shader.name.split('/').next() == Some(folder);
+        for (place, record) in system.records.iter().enumerate() {
+            let members = members_of(record);
+            // Modules with the record as either reader sees them: some declare it and use nothing of it.
+            let mut counts = [0, 0];
+            for shader in shaders::ALL.iter().filter(of_folder) {
+                let by_address = shader.name.ends_with(".address");
+                let mut readers = vec![read_by_us(shader)];
+                if !by_address {
+                    readers.push(read_by_spirq(shader));
+                }
+                for (found, count) in readers.iter().zip(&mut counts) {
+                    let traces = place == 0 && shader.name.contains("/trace_");
+                    if traces || found.contains_key(record.name) {
+                        let difference = difference(found.get(record.name), &members, record.size);
+                        assert_eq!(difference, None, "{} in {}", record.name, shader.name);
+                        *count += 1;
+                    }
+                }
+            }
+            assert!(counts[1] > 1 && counts[0] > counts[1], "{folder}: {counts:?} with {}", record.name);
+        }
+        assert!(!system.records.is_empty() || system.name == "brute-force", "{} shares nothing", system.name);
     }
 }
 

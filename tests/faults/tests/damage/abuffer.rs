@@ -1,13 +1,11 @@
 //! Damaged lists of the A-buffer.
 
-use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage, well_formed};
+use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, damageable, each_fringe_node, survive};
+use crate::survive::{self, Flag, each_fringe_node, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(ABuffer, Contents, |contents, _| well_formed(contents));
 
 /// Applies a change to the head, the tail and the nodes of every list that is not empty.
 fn each_list(contents: &mut Contents, mut change: impl FnMut(&mut [u32], &mut Vec<u32>)) {

@@ -1,13 +1,11 @@
 //! Damaged bricks.
 
-use rasray_bricks::{Addressing, Bricks, Config, Contents, Views, well_formed};
+use rasray_bricks::{Addressing, Bricks, Config, Contents, Views};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, damageable, survive};
+use crate::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(Bricks, Contents, well_formed);
 
 /// Damage to lists.
 const OF_LISTS: [Damage; 4] = [

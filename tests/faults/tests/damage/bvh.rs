@@ -1,13 +1,11 @@
 //! Damaged trees.
 
-use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents, well_formed};
+use rasray_bvh::{Addressing, Builder, Bvh, Config, Contents};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, damageable, survive};
+use crate::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(Bvh, Contents, |contents, _| well_formed(contents));
 
 /// Sets both children and the parent of every node; `change` is given the node's number and their values.
 fn each_node(contents: &mut Contents, mut change: impl FnMut(u32, [u32; 3]) -> [u32; 3]) {

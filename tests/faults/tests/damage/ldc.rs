@@ -1,13 +1,11 @@
 //! Damaged lists of the layered depth cube.
 
 use rasray_faults::{in_child, scrambled};
-use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube, well_formed};
+use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube};
 
-use crate::survive::{self, Flag, damageable, each_fringe_node, survive};
+use crate::survive::{self, Flag, each_fringe_node, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(LayeredDepthCube, Contents, well_formed);
 
 /// Damage to lists of fragments.
 const OF_LISTS: [Damage; 4] = [

@@ -8,5 +8,6 @@ mod bricks;
 mod bvh;
 mod ldc;
 mod primitive;
+mod registry;
 mod survive;
 mod voxel;

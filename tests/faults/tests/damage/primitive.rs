@@ -1,13 +1,11 @@
 //! Damaged primitive lists, linked and contiguous.
 
-use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage, well_formed};
+use rasray_ads_primitive::{Addressing, Config, Contents, PrimitiveLists, Storage};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, damageable, survive};
+use crate::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(PrimitiveLists, Contents, well_formed);
 
 fn stored(contents: &Contents) -> u32 {
     contents.header.demand.min(contents.header.capacity)

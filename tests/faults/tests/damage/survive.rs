@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-use rasray_ads::{Geometry, Hit, SceneBinding, Structure, TraceMode};
+use rasray_ads::{Design, Geometry, Hit, Pooled, SceneBinding, TraceMode};
 use rasray_faults::{device, finish, rays, stage};
-use rasray_gpu::{Device, GpuError, Timing};
+use rasray_gpu::{Device, Timing};
 use rasray_tracer::{BatchTracer, TracerError, build_until_complete};
 
-const RAYS: u32 = 96;
+pub const RAYS: u32 = 96;
 
 /// How traces say that something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,46 +23,6 @@ pub enum Flag {
 /// Damage by its name, and what traces say of it.
 pub type Damage<C> = (&'static str, fn(&mut C), Flag);
 
-/// A structure whose pools can be read, checked and written.
-pub trait Damageable: Structure {
-    /// Its pools.
-    type Contents: Clone;
-
-    fn download(&self, device: &Device) -> Result<Self::Contents, GpuError>;
-
-    fn upload(&self, device: &Device, contents: &Self::Contents) -> Result<(), GpuError>;
-
-    /// What is wrong with them, with a number of triangles.
-    fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
-}
-
-/// Makes a structure [`Damageable`] by its own functions; the last one checks contents with a number of triangles.
-macro_rules! damageable {
-    ($structure:ty, $contents:ty, $check:expr) => {
-        impl crate::survive::Damageable for $structure {
-            type Contents = $contents;
-
-            fn download(&self, device: &rasray_gpu::Device) -> Result<$contents, rasray_gpu::GpuError> {
-                self.download(device)
-            }
-
-            fn upload(
-                &self,
-                device: &rasray_gpu::Device,
-                contents: &$contents,
-            ) -> Result<(), rasray_gpu::GpuError> {
-                self.upload(device, contents)
-            }
-
-            fn fault(contents: &$contents, triangles: u32) -> Option<String> {
-                let check: fn(&$contents, u32) -> Result<_, _> = $check;
-                check(contents, triangles).err().map(|fault| fault.to_string())
-            }
-        }
-    };
-}
-pub(crate) use damageable;
-
 /// Changes the link of every node of a fringe (`ads/fringe.glsl`); `change` is given the node's own link.
 pub fn each_fringe_node(fringe: &mut [u32], count: u32, change: impl Fn(u32) -> u32) {
     for (index, node) in fringe.chunks_exact_mut(3).take(count as usize).enumerate() {
@@ -71,9 +31,9 @@ pub fn each_fringe_node(fringe: &mut [u32], count: u32, change: impl Fn(u32) -> 
 }
 
 /// Builds a structure over the room, and checks every damage to it.
-pub fn survive<S: Damageable>(
-    make: impl FnOnce(&Device, &Geometry, &SceneBinding) -> S,
-    damages: &[Damage<S::Contents>],
+pub fn survive<D: Design<Contents: Clone>>(
+    make: impl FnOnce(&Device, &Geometry, &SceneBinding) -> Pooled<D>,
+    damages: &[Damage<D::Contents>],
 ) {
     let device = device().expect("a device");
     let scene = stage(&device).expect("a scene");
@@ -81,11 +41,12 @@ pub fn survive<S: Damageable>(
     build_until_complete(&device, &mut structure, scene.eye(), Timing::None).expect("a build");
     let tracer = BatchTracer::new(&device, RAYS).expect("a queue");
     let rays = rays(&scene, RAYS);
-    let trace =
-        |structure: &S, mode| tracer.trace(structure, &rays, mode, Timing::None).map(|outcome| outcome.hits);
+    let trace = |structure: &Pooled<D>, mode| {
+        tracer.trace(structure, &rays, mode, Timing::None).map(|outcome| outcome.hits)
+    };
     let triangles = scene.geometry().triangle_count();
     let whole = structure.download(&device).expect("contents");
-    assert_eq!(S::fault(&whole, triangles), None, "an undamaged build");
+    assert_eq!(D::fault(&whole, triangles), None, "an undamaged build");
     let expected = trace(&structure, TraceMode::Closest).expect("hits");
     let found = expected.iter().filter(|hit| hit.is_hit()).count();
     // At this resolution published presets lose many hits.
@@ -93,7 +54,7 @@ pub fn survive<S: Damageable>(
     for &(name, damage, flag) in damages {
         let mut contents = whole.clone();
         damage(&mut contents);
-        assert!(S::fault(&contents, triangles).is_some(), "{name}: the check of the contents finds nothing");
+        assert!(D::fault(&contents, triangles).is_some(), "{name}: the check of the contents finds nothing");
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             // Damage counts once: each trace is judged by itself.
             structure.upload(&device, &contents).expect("damaged contents");
@@ -119,7 +80,8 @@ pub fn survive<S: Damageable>(
     assert_eq!(finish(device), Vec::<String>::new());
 }
 
-fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
+/// What a trace said.
+pub fn words(result: &Result<Vec<Hit>, TracerError>) -> String {
     match result {
         Ok(hits) => format!("{} hits", hits.iter().filter(|hit| hit.is_hit()).count()),
         Err(error) => error.to_string(),

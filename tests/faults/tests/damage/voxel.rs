@@ -1,13 +1,11 @@
 //! Damaged lists of voxels' views.
 
 use rasray_faults::{in_child, scrambled};
-use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels, well_formed};
+use rasray_voxel::{Addressing, Config, Contents, Payload, Storage, Voxels};
 
-use crate::survive::{self, Flag, damageable, survive};
+use crate::survive::{self, Flag, survive};
 
 type Damage = survive::Damage<Contents>;
-
-damageable!(Voxels, Contents, well_formed);
 
 /// Words of a fragment or a page, and that of its link among them.
 fn link_word(config: &Config) -> (usize, usize) {

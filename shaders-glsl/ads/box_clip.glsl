@@ -1,17 +1,17 @@
-// What: between which depths a triangle lies within columns of cells along an axis; views along axes only.
+// What: between which depths a triangle lies within columns of cells along an axis (ads/box_cells.glsl).
 // This function decides for every builder; it may accept more than is exact, never less.
 // Reads, writes: nothing.
 // What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices
 // between its ends are all hit: one view lists exactly the cells that a triangle reaches into, however steep
 // it stands. The ends lie at edges of the triangle within the square, or at corners of the square within the
 // triangle.
-#ifndef BRICKS_CLIP_GLSL
-#define BRICKS_CLIP_GLSL
+#ifndef ADS_BOX_CLIP_GLSL
+#define ADS_BOX_CLIP_GLSL
 
-#include "bricks/axes.glsl"
+#include "ads/box_cells.glsl"
 
 // A triangle, in cells.
-struct BrickClip {
+struct BoxClip {
     vec3 a;
     vec3 b;
     vec3 c;
@@ -24,8 +24,8 @@ struct BrickClip {
 };
 
 // a, b, c in metres from the centre.
-BrickClip brick_clip_begin(BrickAxes axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
-    BrickClip clip;
+BoxClip box_clip_begin(BoxCells axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
+    BoxClip clip;
     precise vec3 pa = (a - axes.lower) * axes.per_metre;
     precise vec3 pb = (b - axes.lower) * axes.per_metre;
     precise vec3 pc = (c - axes.lower) * axes.per_metre;
@@ -49,7 +49,7 @@ BrickClip brick_clip_begin(BrickAxes axes, uvec3 cells, vec3 a, vec3 b, vec3 c) 
 }
 
 // Widens depths by those of the edge pq within the square between two corners.
-void brick_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
+void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec3 span = q - p;
     vec2 range = vec2(0.0, 1.0);
     for (int axis = 0; axis < 2; axis++) {
@@ -70,14 +70,14 @@ void brick_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) 
 }
 
 // Which of four points lie on the inner side of the edge pq, or within rounding of it; `winding` is 1 or -1.
-bvec4 brick_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
+bvec4 box_clip_inside(vec3 p, vec3 q, vec4 x, vec4 y, float winding, float slack) {
     precise vec2 span = q.xy - p.xy;
     precise vec4 value = winding * (span.x * (y - p.y) - span.y * (x - p.x));
     return greaterThanEqual(value, vec4(-slack * (abs(span.x) + abs(span.y))));
 }
 
 // Widens depths by those of the triangle at the corners of the square that lie in it.
-void brick_clip_corners(BrickClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
+void box_clip_corners(BoxClip clip, vec2 lower, vec2 upper, inout vec2 depths) {
     // A triangle so thin that its winding is lost has an edge within the slack of any such corner.
     if (!(abs(clip.normal.z) > clip.normal_error.z)) {
         return;
@@ -85,9 +85,9 @@ void brick_clip_corners(BrickClip clip, vec2 lower, vec2 upper, inout vec2 depth
     vec4 x = vec4(lower.x, upper.x, lower.x, upper.x);
     vec4 y = vec4(lower.y, lower.y, upper.y, upper.y);
     float winding = clip.normal.z < 0.0 ? -1.0 : 1.0;
-    bvec4 ab = brick_clip_inside(clip.a, clip.b, x, y, winding, clip.slack);
-    bvec4 bc = brick_clip_inside(clip.b, clip.c, x, y, winding, clip.slack);
-    bvec4 ca = brick_clip_inside(clip.c, clip.a, x, y, winding, clip.slack);
+    bvec4 ab = box_clip_inside(clip.a, clip.b, x, y, winding, clip.slack);
+    bvec4 bc = box_clip_inside(clip.b, clip.c, x, y, winding, clip.slack);
+    bvec4 ca = box_clip_inside(clip.c, clip.a, x, y, winding, clip.slack);
     precise vec4 along_x = clip.normal.x * (x - clip.a.x);
     precise vec4 along_y = clip.normal.y * (y - clip.a.y);
     precise vec4 fall = (along_x + along_y) / clip.normal.z;
@@ -106,7 +106,7 @@ void brick_clip_corners(BrickClip clip, vec2 lower, vec2 upper, inout vec2 depth
 
 // The depths of the triangle within a square of `side` columns, margins included; false where it does not
 // reach into it.
-bool brick_clip_depths(BrickClip clip, ivec2 column, int side, out vec2 depths) {
+bool box_clip_depths(BoxClip clip, ivec2 column, int side, out vec2 depths) {
     precise vec2 lower = vec2(column) - clip.margin.xy;
     precise vec2 upper = vec2(column + side) + clip.margin.xy;
     depths = vec2(clip.lower.z, clip.upper.z);
@@ -115,10 +115,10 @@ bool brick_clip_depths(BrickClip clip, ivec2 column, int side, out vec2 depths) 
     }
     if (!(all(greaterThanEqual(clip.lower.xy, lower)) && all(lessThanEqual(clip.upper.xy, upper)))) {
         depths = vec2(3.0e38, -3.0e38);
-        brick_clip_edge(clip.a, clip.b, lower, upper, depths);
-        brick_clip_edge(clip.b, clip.c, lower, upper, depths);
-        brick_clip_edge(clip.c, clip.a, lower, upper, depths);
-        brick_clip_corners(clip, lower, upper, depths);
+        box_clip_edge(clip.a, clip.b, lower, upper, depths);
+        box_clip_edge(clip.b, clip.c, lower, upper, depths);
+        box_clip_edge(clip.c, clip.a, lower, upper, depths);
+        box_clip_corners(clip, lower, upper, depths);
     }
     depths += vec2(-clip.margin.z, clip.margin.z);
     return depths.x <= depths.y;

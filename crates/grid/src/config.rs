@@ -1,0 +1,134 @@
+//! Options of a grid.
+
+use rasray_ads::{Addressing, AdsError, Counters, Geometry};
+use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
+
+/// Cells per triangle where their number is left to the rule.
+const DENSITY: f64 = 5.0;
+
+/// Fewest cells along the longest side where their number is left to the rule.
+const FEWEST_ALONG: f64 = 4.0;
+
+/// Everything that may be chosen. Nothing changes a hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Config {
+    /// Cells along the longest side of the geometry's bounds, 1 to 1024. Absent: five cells per triangle.
+    pub cells: Option<u32>,
+    /// How pools are reached.
+    pub addressing: Addressing,
+    /// Entries to make room for before the first build; 8 per triangle where absent.
+    pub entries: Option<u64>,
+    /// How much of their work rays record.
+    pub counters: Counters,
+    /// Work units a ray may spend in one dispatch; the shared default where absent.
+    pub work_budget: Option<u32>,
+}
+
+impl Config {
+    /// Five cells per triangle.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Cells along each axis over a geometry.
+    pub fn cells_over(&self, geometry: &Geometry) -> [u32; 3] {
+        cells_along(geometry.bounds(), geometry.triangle_count(), self.cells)
+    }
+
+    /// Checks ranges.
+    ///
+    /// # Errors
+    /// The first option out of range.
+    pub fn validate(&self) -> Result<(), AdsError> {
+        let check = |option, value: u32, highest, expected| {
+            if (1..=highest).contains(&value) {
+                Ok(())
+            } else {
+                Err(AdsError::Option { option, value: value.to_string(), expected })
+            }
+        };
+        check("grid", self.cells.unwrap_or(1), GRID_SIDE_LIMIT, "1 to 1024 cells along the longest side")?;
+        let expected = "1 unit or more per dispatch, or rays make no progress";
+        check("work budget", self.work_budget.unwrap_or(1), u32::MAX, expected)
+    }
+
+    /// Options as name and value, for reports.
+    pub fn options(&self, cells: [u32; 3]) -> Vec<(&'static str, String)> {
+        vec![("grid", cells.map(|n| n.to_string()).join("x"))]
+    }
+
+    /// Paths as name and value, for reports.
+    pub fn paths(&self) -> Vec<(&'static str, String)> {
+        vec![("addressing", self.addressing.name().to_owned())]
+    }
+}
+
+/// Cells along each axis for bounds (lower, upper) in metres: cubes, but where a side is not a whole number of them,
+/// with `along` on the longest side, or [`DENSITY`] per triangle.
+fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
+    let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));
+    let longest = extent.into_iter().fold(0.0_f64, f64::max);
+    if !(longest > 0.0 && longest.is_finite()) {
+        return [1; 3];
+    }
+    let limit = f64::from(GRID_SIDE_LIMIT);
+    let cells_of = |side: f64| extent.map(|extent| (extent / side).ceil().clamp(1.0, limit) as u32);
+    if let Some(along) = along {
+        return cells_of(longest / f64::from(along));
+    }
+    // By steps, not by the root of a volume: flat bounds have none.
+    let most = DENSITY * f64::from(triangles);
+    let mut side = longest / limit;
+    while side < longest / FEWEST_ALONG && cells_of(side).map(f64::from).iter().product::<f64>() > most {
+        side *= 1.01;
+    }
+    cells_of(side)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROOM: [[f32; 3]; 2] = [[-1.0, 0.0, 2.0], [3.0, 2.0, 3.0]];
+
+    #[test]
+    fn cells_are_as_long_as_wide() {
+        assert_eq!(cells_along(ROOM, 12, Some(64)), [64, 32, 16]);
+        assert_eq!(cells_along(ROOM, 12, Some(1)), [1, 1, 1]);
+        assert_eq!(cells_along(ROOM, 12, Some(1024)), [1024, 512, 256]);
+    }
+
+    #[test]
+    fn the_rule_gives_five_cells_per_triangle() {
+        for (bounds, triangles) in [
+            ([[-2.0; 3], [2.0; 3]], 10_000),
+            (ROOM, 300_000),
+            ([[0.0; 3], [5.0, 0.0, 3.0]], 20_000),
+            ([[1.0e-20; 3], [3.0e-20; 3]], 1_000_000),
+        ] {
+            let cells = cells_along(bounds, triangles, None).map(f64::from);
+            let density = cells.iter().product::<f64>() / f64::from(triangles);
+            assert!((4.0..=5.0).contains(&density), "{bounds:?}: {cells:?} are {density} per triangle");
+        }
+        // A sheet has one layer.
+        assert_eq!(cells_along([[0.0; 3], [5.0, 0.0, 5.0]], 20_000, None)[1], 1);
+    }
+
+    #[test]
+    fn the_rule_stays_within_its_limits() {
+        let cube = [[-2.0; 3], [2.0; 3]];
+        assert_eq!(cells_along(cube, 0, None), [4; 3]);
+        assert_eq!(cells_along(cube, 12, None), [4; 3]);
+        assert_eq!(cells_along(cube, u32::MAX, None), [1024; 3]);
+        let long = cells_along([[0.0; 3], [1.0e6, 1.0, 1.0]], 1_000_000, None);
+        assert_eq!(long, [1024, 1, 1]);
+        for bounds in [
+            [[1.0; 3]; 2],
+            [[f32::NAN; 3]; 2],
+            [[f32::MAX; 3], [f32::MIN; 3]],
+            [[f32::NEG_INFINITY; 3], [f32::INFINITY; 3]],
+        ] {
+            assert_eq!(cells_along(bounds, 9, None), [1; 3], "{bounds:?}");
+        }
+    }
+}

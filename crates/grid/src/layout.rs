@@ -1,0 +1,106 @@
+//! Sizes of the pools: plain arithmetic, no device.
+
+use rasray_ads::{AdsError, Geometry, Scan, Sizes};
+
+use crate::{Config, Header, Pool};
+
+/// What a build asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Demand {
+    /// Entries of all lists: what a build counts.
+    pub entries: u64,
+    /// Triangles of the geometry.
+    pub triangles: u64,
+    /// Cells along each axis, [`Config::cells_over`] of the geometry.
+    pub cells: [u32; 3],
+}
+
+/// Cells of the whole grid.
+pub(crate) fn cell_count(cells: [u32; 3]) -> u64 {
+    cells.into_iter().map(u64::from).product()
+}
+
+/// What a grid of this configuration allocates to hold `demand`.
+///
+/// # Errors
+/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    // A cell at least, so that a build can say what it needs.
+    let cells = cell_count(demand.cells).max(1);
+    let pool = |pool, elements| (pool, elements, 4);
+    let pools = [
+        (Pool::Header, 1, size_of::<Header>() as u64),
+        pool(Pool::Lists, cells),
+        pool(Pool::Entries, demand.entries),
+        pool(Pool::Scratch, Scan::sums(cells) + demand.triangles),
+    ];
+    Sizes::of("grid", pools)
+}
+
+/// The first guess where nothing has been counted: eight cells per triangle.
+pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    let triangles = u64::from(geometry.triangle_count());
+    let entries = config.entries.unwrap_or(8 * triangles);
+    plan(config, &Demand { entries, triangles, cells: config.cells_over(geometry) })
+}
+
+/// Bytes for counted cells and entries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FormulaBytes {
+    /// 4 per cell.
+    pub cells: u64,
+    /// 4 per entry.
+    pub entries: u64,
+    /// Header, 4 per 1024 cells, and 4 per triangle.
+    pub rest: u64,
+}
+
+impl FormulaBytes {
+    /// Sum of all parts.
+    pub fn total(&self) -> u64 {
+        self.cells + self.entries + self.rest
+    }
+}
+
+/// The page's formula. It does not look at [`plan`], so that the two check each other.
+pub fn formula_bytes(demand: &Demand) -> FormulaBytes {
+    let [x, y, z] = demand.cells.map(u64::from);
+    let cells = (x * y * z).max(1);
+    FormulaBytes {
+        cells: 4 * cells,
+        entries: 4 * demand.entries,
+        rest: 140 + cells.div_ceil(1024) * 4 + 4 * demand.triangles,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plan_equals_formula() {
+        let config = Config::new();
+        let bytes = [[0, 0, 0], [3, 5, 8], [64, 12, 128]].map(|cells| {
+            let demand = Demand { entries: 12_345, triangles: 99, cells };
+            let sizes = plan(&config, &demand).expect("options are in range");
+            assert_eq!(sizes.bytes(), formula_bytes(&demand).total(), "{cells:?}");
+            let more = Demand { entries: demand.entries + 1, ..demand };
+            assert_ne!(sizes.bytes(), formula_bytes(&more).total());
+            sizes.bytes()
+        });
+        assert!(bytes[0] < bytes[1] && bytes[1] < bytes[2]);
+    }
+
+    #[test]
+    fn out_of_range_options_are_named() {
+        let message = |config: Config| plan(&config, &Demand::default()).unwrap_err().to_string();
+        let plain = Config::new();
+        assert!(message(Config { cells: Some(1025), ..plain }).contains("grid is 1025"));
+        assert!(message(Config { cells: Some(0), ..plain }).contains("grid is 0"));
+        assert!(message(Config { work_budget: Some(0), ..plain }).contains("work budget is 0"));
+        let demand = Demand { entries: 1 << 32, ..Demand::default() };
+        assert!(plan(&plain, &demand).unwrap_err().to_string().contains("entries"));
+    }
+}

@@ -1,0 +1,202 @@
+//! A grid as a structure.
+
+use std::mem::offset_of;
+
+use bytemuck::cast_slice;
+use rasray_ads::{
+    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
+    Pooled, RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    record_layout,
+};
+use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+
+use crate::build::Build;
+use crate::layout::{Demand, cell_count, first_plan, formula_bytes, plan};
+use crate::{Config, Contents, Header, Pool, well_formed};
+
+/// Lists of triangles in cells of one size; made from a [`Config`].
+pub type Grid = Pooled<Passes>;
+
+/// Pipelines of the build: the design of [`Grid`].
+#[derive(Debug)]
+pub struct Passes(Build);
+
+/// Cells along each axis, one where there is no room for those that the geometry asks for; and whether there is.
+fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
+    let wanted = parts.config.cells_over(&parts.geometry);
+    let fits = cell_count(wanted) <= parts.elements(Pool::Lists);
+    (if fits { wanted } else { [1; 3] }, fits)
+}
+
+/// How often the loops over the cells of a triangle turn at most, in all its invocations: a plane has three times the
+/// cells of the largest side of the grid, with its margins twice as many, and some of its columns have none.
+fn turns(cells: [u32; 3]) -> u64 {
+    let [x, y, z] = cells.map(u64::from);
+    8 * (x * y).max(y * z).max(z * x)
+}
+
+/// The header that the next build starts from.
+fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
+    let Parts { geometry, pools, .. } = parts;
+    let (cells, fits) = cells(parts);
+    let BoxCells { centre, reach, rounding, lower, per_metre } =
+        BoxCells::over(geometry.bounds(), cells, eye);
+    let bounds = |corner: usize, wider: f32| {
+        std::array::from_fn(|axis| geometry.bounds()[corner][axis] - centre[axis] + wider)
+    };
+    Header {
+        capacity: parts.elements(Pool::Entries) as u32,
+        cells,
+        reach,
+        rounding,
+        centre,
+        lower: bounds(0, -rounding),
+        upper: bounds(1, rounding),
+        cells_lower: lower,
+        cells_per_metre: per_metre,
+        lists_address: pools.address_of(Pool::Lists),
+        entries_address: pools.address_of(Pool::Entries),
+        scratch_address: pools.address_of(Pool::Scratch),
+        // None where cells do not fit, so that the build is not complete.
+        triangle_capacity: if fits { queue_capacity(parts) } else { 0 },
+        groups: [0, 0, bin_groups(turns(cells))],
+        ..Header::default()
+    }
+}
+
+/// Triangles that fit into the large-triangle queue, behind the sums of the scan.
+fn queue_capacity(parts: &Parts<Config>) -> u32 {
+    let sums = Scan::sums(cell_count(parts.config.cells_over(&parts.geometry)));
+    parts.elements(Pool::Scratch).saturating_sub(sums) as u32
+}
+
+impl rasray_ads::Demand for Demand {
+    fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
+        Self { entries: with("entries", self.entries, other.entries), ..self }
+    }
+}
+
+impl Design for Passes {
+    type Config = Config;
+    type Header = Header;
+    type Demand = Demand;
+    type Pool = Pool;
+    type Contents = Contents;
+
+    const NAME: &'static str = "grid";
+    const PREFIX: &'static str = "grid";
+    const TITLE: &'static str = "the grid";
+    const BUILD_READS_SCENE: bool = false;
+    const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "GridHeader" {
+        status, demand, capacity, corrupted, cells, reach, rounding, centre, lower, upper, cells_lower,
+        cells_per_metre, lists_address, entries_address, scratch_address, triangle_capacity, pairs, groups,
+    })];
+
+    fn common(config: &Config) -> Common {
+        let Config { addressing, counters, work_budget, .. } = *config;
+        Common { addressing, counters, work_budget }
+    }
+
+    fn kind(_config: &Config) -> StructureKind {
+        StructureKind::Primitive
+    }
+
+    fn depends_on(_config: &Config) -> Dependencies {
+        Dependencies { eye: true, camera: false }
+    }
+
+    fn requirements(_config: &Config) -> Requirements {
+        Requirements::floor()
+    }
+
+    fn constants(_config: &Config) -> Vec<(u32, u32)> {
+        Vec::new()
+    }
+
+    fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+        first_plan(config, geometry)
+    }
+
+    fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
+        plan(config, demand)
+    }
+
+    fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
+        let (triangles, cells) = (geometry.triangle_count().into(), parts.config.cells_over(geometry));
+        let sizes = plan(&parts.config, &Demand { triangles, cells, ..Self::room(parts) })?;
+        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
+    }
+
+    fn make(
+        pipelines: &BuildPipelines<'_>,
+        _config: &Config,
+        _scene: Option<&SceneBinding>,
+    ) -> Result<Self, AdsError> {
+        Build::new(pipelines).map(Self)
+    }
+
+    fn first_header(&mut self, parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        Ok(first_header(parts, viewpoint.eye))
+    }
+
+    fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
+        self.0.record(recorder, cell_count(cells(parts).0), parts.target(scene));
+    }
+
+    fn outcome(header: &Header) -> Outcome {
+        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
+    }
+
+    fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
+        Demand { entries: header.demand.into(), ..Self::room(parts) }
+    }
+
+    fn room(parts: &Parts<Config>) -> Demand {
+        Demand {
+            entries: parts.elements(Pool::Entries),
+            triangles: parts.geometry.triangle_count().into(),
+            cells: parts.config.cells_over(&parts.geometry),
+        }
+    }
+
+    fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
+        // Rays from far outside are tested against every triangle, others against what a few cells list.
+        16 + 2 * parts.rounds(parts.geometry.triangle_count())
+    }
+
+    fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
+        match pool {
+            Pool::Header => None,
+            Pool::Entries => Some(asked.entries),
+            Pool::Lists | Pool::Scratch => {
+                Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool)))
+            }
+        }
+    }
+
+    fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
+        StructureReport {
+            options: parts.config.options(asked.cells),
+            paths: parts.config.paths(),
+            formula_bytes: formula_bytes(asked).total(),
+            stored: Some(asked.entries),
+            ..StructureReport::default()
+        }
+    }
+
+    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
+        let words = |name| parts.pools.download_words(device, name);
+        Ok(Contents { header, lists: words(Pool::Lists)?, entries: words(Pool::Entries)? })
+    }
+
+    fn fault(contents: &Contents, triangles: u32) -> Option<String> {
+        well_formed(contents, triangles).err().map(|fault| fault.to_string())
+    }
+
+    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
+        let pools =
+            vec![(Pool::Lists, cast_slice(&contents.lists)), (Pool::Entries, cast_slice(&contents.entries))];
+        (contents.header, pools)
+    }
+}

@@ -1,0 +1,119 @@
+//! Checks the contents of a built grid.
+
+use crate::Header;
+use crate::layout::cell_count;
+
+/// All pools as downloaded, in words.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// The header.
+    pub header: Header,
+    /// Where the list of each cell ends.
+    pub lists: Vec<u32>,
+    /// Entries of all lists.
+    pub entries: Vec<u32>,
+}
+
+/// What is wrong with a list.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// A list reaches beyond the pool, or ends before it begins.
+    #[error("cell {cell}: {end} is no end of its list")]
+    Dangling {
+        /// Cell, in the order of lists.
+        cell: usize,
+        /// The end of its list.
+        end: u32,
+    },
+    /// An entry is in no list.
+    #[error("{stored} entries were counted and {listed} are in lists")]
+    Count {
+        /// Entries counted.
+        stored: usize,
+        /// Entries found in lists.
+        listed: usize,
+    },
+    /// An entry names no triangle.
+    #[error("cell {cell}: there is no triangle {primitive}")]
+    Primitive {
+        /// Cell.
+        cell: usize,
+        /// What is stored.
+        primitive: u32,
+    },
+    /// A triangle stands twice in a list.
+    #[error("cell {cell}: triangle {primitive} stands there twice")]
+    Twice {
+        /// Cell.
+        cell: usize,
+        /// The triangle.
+        primitive: u32,
+    },
+}
+
+impl Contents {
+    /// Cells of the grid.
+    pub fn cell_count(&self) -> usize {
+        (cell_count(self.header.cells) as usize).min(self.lists.len())
+    }
+
+    /// Entries that were stored.
+    fn stored(&self) -> usize {
+        self.header.demand.min(self.header.capacity) as usize
+    }
+
+    /// The triangles of a cell, in the order they are stored in.
+    ///
+    /// # Errors
+    /// The list leaves the pool.
+    pub fn list(&self, cell: usize) -> Result<&[u32], Fault> {
+        let end = self.lists[cell];
+        let begin = if cell == 0 { 0 } else { self.lists[cell - 1] as usize };
+        if begin > end as usize || end as usize > self.stored() {
+            return Err(Fault::Dangling { cell, end });
+        }
+        Ok(&self.entries[begin..end as usize])
+    }
+}
+
+/// Checks that lists lie one behind the other and hold every counted entry, that entries name one of `triangles`
+/// triangles, and that no list names a triangle twice.
+///
+/// # Errors
+/// The first fault found.
+pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
+    let stored = contents.stored();
+    let mut listed = 0;
+    for cell in 0..contents.cell_count() {
+        let mut entries = contents.list(cell)?.to_vec();
+        listed += entries.len();
+        if let Some(&primitive) = entries.iter().find(|&&primitive| primitive >= triangles) {
+            return Err(Fault::Primitive { cell, primitive });
+        }
+        entries.sort_unstable();
+        if let Some(pair) = entries.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(Fault::Twice { cell, primitive: pair[0] });
+        }
+    }
+    if listed == stored { Ok(()) } else { Err(Fault::Count { stored, listed }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_is_found() {
+        let header = Header { cells: [3, 1, 1], demand: 3, capacity: 8, ..Header::default() };
+        let fault = |lists: [u32; 3], entries: [u32; 3]| {
+            well_formed(&Contents { header, lists: lists.to_vec(), entries: entries.to_vec() }, 2).err()
+        };
+        assert_eq!(fault([1, 1, 3], [0, 0, 1]), None);
+        assert_eq!(fault([2, 1, 3], [0, 1, 1]), Some(Fault::Dangling { cell: 1, end: 1 }));
+        assert_eq!(fault([1, 1, 4], [0, 0, 1]), Some(Fault::Dangling { cell: 2, end: 4 }));
+        assert_eq!(fault([1, 1, 2], [0, 0, 1]), Some(Fault::Count { stored: 3, listed: 2 }));
+        assert_eq!(fault([1, 1, 3], [0, 2, 1]), Some(Fault::Primitive { cell: 2, primitive: 2 }));
+        assert_eq!(fault([1, 1, 3], [0, 1, 1]), Some(Fault::Twice { cell: 2, primitive: 1 }));
+    }
+}

@@ -1,0 +1,39 @@
+//! The uniform grid, the baseline of structures made of cells.
+
+use rasray_grid::{Config, Grid};
+
+use crate::given::{Given, Setter, names};
+use crate::{Preset, Spec, System, SystemsError};
+
+/// The registry's row.
+pub(crate) const SYSTEM: System = System {
+    name: "grid",
+    doc: "A plain uniform grid with a list of triangles per cell, the baseline of what is made of cells",
+    structure: "grid",
+    records: Grid::RECORDS,
+    large_pools: &[("grid", "400")],
+    presets: &[Preset::Robust],
+    occlusion_payload: None,
+    camera_views: None,
+    without_scene: &[],
+    options: || names(OPTIONS),
+    requirements: |spec| Ok(Grid::requirements_of(&config(spec)?)),
+    kind: |spec| Ok(Grid::kind_of(&config(spec)?)),
+    create: |spec, device, geometry, scene| Ok(Box::new(Grid::new(device, config(spec)?, geometry, scene)?)),
+};
+
+/// Options, each with what it sets.
+const OPTIONS: &[Setter<Config>] = &[
+    ("grid", |config, given| given.number().map(|value| config.cells = Some(value))),
+    ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
+    ("capacity", |config, given| given.number().map(|value| config.entries = Some(value.into()))),
+];
+
+/// The configuration that a spec stands for.
+fn config(spec: &Spec) -> Result<Config, SystemsError> {
+    let mut config =
+        Config { counters: spec.counters(), work_budget: spec.work_budget(), ..Config::default() };
+    Given::apply_all(spec, OPTIONS, &mut config)?;
+    config.validate()?;
+    Ok(config)
+}

@@ -1,0 +1,76 @@
+// What: what a binning pass of a grid does with a triangle in a column of cells; BIN_VISIT says which pass it is.
+// Reads: geometry, header. Writes: lists, entries.
+// Source: Kalojanov and Slusallek 2009, who sort pairs of triangle and cell; here lengths are counted, scanned, and the
+// lists filled. ads/box_clip.glsl decides which cells a triangle reaches into.
+#ifndef GRID_BINNED_GLSL
+#define GRID_BINNED_GLSL
+
+#include "ads/bin_triangle.glsl"
+#include "ads/box_clip.glsl"
+#include "grid/accessors.glsl"
+
+layout(push_constant, scalar) uniform GridBuildConstants {
+    GridRef grid_built;
+};
+
+#define PairRef GridRef
+#define PAIR_WORD(s, place) GRID_SCRATCH(s)[grid_scan_words(s) + place]
+#define PAIR_HEADER(s) GRID_HEADER(s)
+#define PAIR_CAPACITY(s) GRID_HEADER(s).triangle_capacity
+#include "ads/bin_pairs.glsl"
+
+#define bin_built grid_built
+
+// A column of cells along z is visited once.
+uint bin_view_count() {
+    return 1u;
+}
+
+// A triangle, and the first and last column that may hold any of it.
+struct Bin {
+    uint primitive;
+    uvec3 cells;          // of the grid
+    BoxClip clip;
+    ivec2 lower;
+    ivec2 upper;
+    bool many;
+};
+
+bool bin_begin(uint primitive, uint view, out Bin bin) {
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    if (!bin_corners(GRID_HEADER(grid_built).centre, primitive, a, b, c)) {
+        return false;
+    }
+    bin.primitive = primitive;
+    bin.cells = grid_cells(grid_built);
+    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, a, b, c);
+    ivec3 last = ivec3(bin.cells) - 1;
+    ivec3 lower = clamp(ivec3(floor(bin.clip.lower - bin.clip.margin)), ivec3(0), last);
+    ivec3 upper = clamp(ivec3(floor(bin.clip.upper + bin.clip.margin)), ivec3(0), last);
+    ivec3 size = upper - lower + 1;
+    bin.lower = lower.xy;
+    bin.upper = upper.xy;
+    bin.many = bin_is_many(bin.lower, bin.upper) || size.x * size.y * size.z > GRID_BIN_CELLS;
+    return true;
+}
+
+void bin_visit(Bin bin, ivec2 column) {
+    vec2 depths;
+    if (!box_clip_depths(bin.clip, column, 1, depths)) {
+        return;
+    }
+    ivec2 slices = clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.cells.z) - 1);
+    uint first = grid_list(ivec3(column, 0), bin.cells);
+    for (int slice = slices.x; slice <= slices.y; slice++) {
+        uint place = atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
+#if BIN_VISIT == BIN_VISIT_STORE
+        if (place < GRID_HEADER(grid_built).capacity) {
+            GRID_ENTRIES(grid_built)[place] = bin.primitive;
+        }
+#endif
+    }
+}
+
+#endif

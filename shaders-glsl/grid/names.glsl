@@ -1,0 +1,5 @@
+// What: what the contract's plain names are called here, for shaders that are compiled for one structure after the other.
+// Reads, writes: nothing.
+// No include guard: a shader with two structures includes the names of each in turn, and undefines them.
+#define StructureRef GridRef
+#define STRUCTURE_NAME(name) grid_##name

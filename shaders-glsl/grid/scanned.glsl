@@ -1,0 +1,34 @@
+// What: the numbers that the scan runs over: lengths of lists become places, and their sum the demand.
+// Reads, writes: lists, scratch, header.demand.
+#ifndef GRID_SCANNED_GLSL
+#define GRID_SCANNED_GLSL
+
+#include "grid/accessors.glsl"
+
+#define ScanRef GridRef
+
+uint scan_count(GridRef s, uint step) {
+    return grid_cell_count(s);
+}
+
+uint scan_number(GridRef s, uint step, uint i) {
+    return GRID_LISTS(s)[i];
+}
+
+void scan_set_number(GridRef s, uint step, uint i, uint number) {
+    GRID_LISTS(s)[i] = number;
+}
+
+uint scan_sum(GridRef s, uint step, uint block) {
+    return GRID_SCRATCH(s)[block];
+}
+
+void scan_set_sum(GridRef s, uint step, uint block, uint sum) {
+    GRID_SCRATCH(s)[block] = sum;
+}
+
+void scan_set_total(GridRef s, uint step, uint total) {
+    GRID_HEADER(s).demand = total;
+}
+
+#endif

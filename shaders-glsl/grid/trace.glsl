@@ -1,0 +1,170 @@
+// What: follows a ray from cell to cell of a grid and tests the triangles that each cell lists.
+// Reads: header, lists, entries, geometry. Writes: header.corrupted.
+// Source: Amanatides and Woo 1987, with t of each plane computed anew instead of accumulated (ads/box_cells.glsl). Indices
+// only go forwards, and a cell is missed by no more than rounding, which what it lists allows for. Their mark that says
+// which ray a triangle was last tested against is the two triangles tested last.
+//
+// cursor: 0 flags
+//         1 t
+//         2 cell
+//         3 next entry, or place among all triangles
+#ifndef GRID_TRACE_GLSL
+#define GRID_TRACE_GLSL
+
+#include "contract/trace_functions.glsl"
+#include "ads/bounds_interval.glsl"
+#include "ads/judge.glsl"
+#include "ads/march_cube.glsl"
+#include "grid/accessors.glsl"
+
+#define ListedRef GridRef
+#include "ads/listed.glsl"
+
+#define GRID_CURSOR_STARTED 1u
+// The list of the cell has not been begun.
+#define GRID_LIST_BEGIN 0xFFFFFFFFu
+
+// Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
+uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
+    uint list = grid_list(cell, cells);
+    uvec2 entries = uvec2(list == 0u ? 0u : GRID_LISTS(s)[list - 1u], GRID_LISTS(s)[list]);
+    if (entries.x <= entries.y && entries.y <= stored) {
+        return entries;
+    }
+    atomicAdd(GRID_HEADER(s).corrupted, 1u);
+    return uvec2(0u);
+}
+
+// Tests a triangle of a list. An entry that names none is counted.
+void grid_test(GridRef s, uint primitive, Ray ray, inout TraceState state) {
+    if (primitive >= geometry_triangle_count()) {
+        atomicAdd(GRID_HEADER(s).corrupted, 1u);
+        return;
+    }
+    test_anywhere(ray, primitive, state);
+}
+
+// Follows the ray from `t` to `t_last`, or goes on where the cursor says. True if the budget ended first.
+bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, float slack, bool any_hit, inout TraceState state) {
+    uvec3 cells = grid_cells(s);
+    uint stored = grid_stored(s);
+    BoxLine line = box_line(grid_box_cells(s), origin, ray.direction);
+    bvec3 up = greaterThanEqual(line.direction, vec3(0.0));
+    // A finite end, also where the geometry ends beyond what numbers hold.
+    t_last = min(t_last, 3.0e38);
+    ivec3 cell;
+    uint entry = GRID_LIST_BEGIN;
+    uint work = 0u;
+    bool paused = false;
+    if ((state.cursor[0] & GRID_CURSOR_STARTED) != 0u) {
+        t = uintBitsToFloat(state.cursor[1]);
+        cell = ivec3(state.cursor[2] & 1023u, state.cursor[2] >> 10 & 1023u, state.cursor[2] >> 20);
+        entry = state.cursor[3];
+    } else {
+        trace_log(STEP_VIEW, 0u, 0u, 0u, t, t_last);
+        cell = clamp(box_line_cell_at(line, t, ivec3(cells)), ivec3(0), ivec3(cells) - 1);
+    }
+    uvec2 tested = uvec2(PRIMITIVE_NONE);
+    // Each turn crosses a cell, and stays below the budget.
+    while (t <= t_last && !(t > state.best.t + slack)) {
+        // A list that was being read when the ray paused goes on without a unit for its cell.
+        bool enters = entry == GRID_LIST_BEGIN;
+        if (enters) {
+            if (work >= work_budget) {
+                paused = true;
+                break;
+            }
+            work++;
+        }
+        vec3 exits = box_line_exits(line, mix(cell, cell + 1, up));
+        float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
+        uvec2 entries = grid_entries(s, cell, cells, stored);
+        if (enters) {
+            state.cells++;
+            entry = entries.x;
+            trace_log(STEP_CELL, 0u, uint(cell.x), uint(cell.y), t, t_out);
+            if (entries.x == entries.y) {
+                trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, t, t_out);
+            } else {
+                trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
+            }
+        }
+        for (; entry < entries.y; entry++) {
+            if (work >= work_budget) {
+                paused = true;
+                break;
+            }
+            work++;
+            state.entries++;
+            uint primitive = GRID_ENTRIES(s)[entry];
+            trace_log(STEP_ENTRY, entry, 0u, 0u, 0.0, 0.0);
+            if (primitive == PRIMITIVE_NONE || (primitive != tested.x && primitive != tested.y)) {
+                grid_test(s, primitive, ray, state);
+                tested = uvec2(primitive, tested.x);
+            }
+        }
+        if (paused || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+            break;
+        }
+        entry = GRID_LIST_BEGIN;
+        t = t_out;
+        if (exits.x <= exits.y && exits.x <= exits.z) {
+            cell.x += up.x ? 1 : -1;
+        } else if (exits.y <= exits.z) {
+            cell.y += up.y ? 1 : -1;
+        } else {
+            cell.z += up.z ? 1 : -1;
+        }
+        if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(cells)))) {
+            break;
+        }
+    }
+    if (paused) {
+        state.cursor[0] = GRID_CURSOR_STARTED;
+        state.cursor[1] = floatBitsToUint(t);
+        state.cursor[2] = uint(cell.x) | uint(cell.y) << 10 | uint(cell.z) << 20;
+        state.cursor[3] = entry;
+    }
+    return paused;
+}
+
+// The whole ray.
+uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
+    vec3 origin = ray.origin - GRID_HEADER(s).centre;
+    float reach = GRID_HEADER(s).reach;
+    float slack = hit_slack(origin, ray.direction, reach);
+    vec2 clip = bounds_interval(GRID_HEADER(s).lower, GRID_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,
+        ray.t_max + slack);
+    if (!(clip.x < clip.y)) {
+        trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
+        return TRACE_MISS;
+    }
+    // From so far outside rounding exceeds what cells allow for.
+    if (largest_coordinate(origin) > ORIGIN_LIMIT * reach) {
+        uint work = 0u;
+        uint place = state.cursor[3];
+        if (state.cursor[0] == 0u) {
+            trace_log(STEP_VIEW, SEGMENT_ALL, 0u, 0u, clip.x, clip.y);
+        }
+        if (listed_test(s, ray, true, any_hit, place, state, work)) {
+            state.cursor[0] = GRID_CURSOR_STARTED;
+            state.cursor[3] = place;
+            return TRACE_PAUSED;
+        }
+    } else if (grid_trace_cells(s, ray, origin, clip.x, clip.y, slack, any_hit, state)) {
+        return TRACE_PAUSED;
+    }
+    return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
+}
+
+uint grid_status(GridRef s) {
+    return GRID_HEADER(s).status;
+}
+
+Hit grid_hit(GridRef s, Hit best) {
+    return best;
+}
+
+TRACE_FUNCTIONS(GridRef, grid)
+
+#endif
