@@ -29,13 +29,7 @@ pub(super) fn compare(
     let mut stage =
         Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
     stage.sample_as(&frame)?;
-    let geometry = stage.scene.geometry().desc();
-    let positions = device
-        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
-        .map_err(device_error)?;
-    let indices = device
-        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
-        .map_err(device_error)?;
+    let (positions, indices) = stage.triangles(device)?;
     let origin = stage.scene.frame_origin();
     let posed = PosedScene::with_positions(job.scene, origin, positions.clone())
         .map_err(|error| ExperimentError::usage(error.to_string(), ""))?;
@@ -55,11 +49,12 @@ pub(super) fn compare(
             Sampler::Pcg => rasray_reference::shading::Sampler::Pcg,
         },
     };
-    let center = views_center(&stage, geometry.bounds);
+    let bounds = stage.scene.geometry().bounds();
+    let center = views_center(&stage, bounds);
     let source = RaySource {
         view: &view,
         frame_origin: origin,
-        bounds: geometry.bounds,
+        bounds,
         center,
         oracle: &oracle,
         positions: &positions,

@@ -84,13 +84,7 @@ fn check_positions(
     case: &HardCase,
     placed: &Placed,
 ) -> Result<(), ExperimentError> {
-    let geometry = stage.scene.geometry().desc();
-    let positions = device
-        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
-        .map_err(device_error)?;
-    let indices = device
-        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
-        .map_err(device_error)?;
+    let (positions, indices) = stage.triangles(device)?;
     let bits = |triangle: &Triangle| triangle.map(|corner| corner.map(f32::to_bits));
     let expected = placed.triangles(&case.triangles);
     if triangles(&positions, &indices).iter().map(bits).eq(expected.iter().map(bits)) {

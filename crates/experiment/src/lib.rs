@@ -56,7 +56,7 @@ pub use jobs::{
 pub use judge::device_hits;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
-pub use rays::{incoherent_rays, oracle_ray};
+pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use renderer::open;
 pub use scene_source::{LoadedScene, load};
 pub use stage::{Built, Stage};

@@ -9,21 +9,26 @@ use rasray_reference::shading::{self, View, camera_ray, cosine_hemisphere, spawn
 use crate::jobs::RaySet;
 
 /// What rays are made from.
-pub(super) struct RaySource<'a> {
-    pub(super) view: &'a View,
-    pub(super) frame_origin: DVec3,
+pub struct RaySource<'a> {
+    /// The camera, the size of its image in pixels, and the seed.
+    pub view: &'a View,
+    /// World, metres; rays are relative to it.
+    pub frame_origin: DVec3,
     /// Bounds of the geometry relative to the frame origin, metres.
-    pub(super) bounds: [[f32; 3]; 2],
+    pub bounds: [[f32; 3]; 2],
     /// The views' centre relative to the frame origin, metres.
-    pub(super) center: [f32; 3],
-    pub(super) oracle: &'a Oracle<'a>,
-    pub(super) positions: &'a [[f32; 3]],
-    pub(super) indices: &'a [u32],
+    pub center: [f32; 3],
+    /// Of these triangles.
+    pub oracle: &'a Oracle<'a>,
+    /// Vertices relative to the frame origin, metres.
+    pub positions: &'a [[f32; 3]],
+    /// Three vertices a triangle.
+    pub indices: &'a [u32],
 }
 
 impl RaySource<'_> {
     /// `count` rays of a set; fewer only where the camera sees too little to bounce off.
-    pub(super) fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
+    pub fn rays(&self, set: RaySet, count: u32) -> Vec<Ray> {
         match set {
             RaySet::Incoherent => incoherent_rays(self.bounds, self.view.seed, count),
             RaySet::Eye => (0..count).map(|i| Ray::new(self.center, direction(self.stream(i)))).collect(),

@@ -87,13 +87,7 @@ pub(super) fn replay_case(
     index: u32,
 ) -> Result<Comparison, ExperimentError> {
     let (name, center) = case;
-    let geometry = stage.scene.geometry().desc();
-    let positions = device
-        .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
-        .map_err(device_error)?;
-    let indices = device
-        .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
-        .map_err(device_error)?;
+    let (positions, indices) = stage.triangles(device)?;
     let oracle = Oracle::new(&positions, &indices, None).map_err(device_error)?;
     let setting = ReplaySetting { device, stage, oracle: &oracle, center };
     replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)

@@ -1,0 +1,121 @@
+//! Experiments as a program of one's own runs them: without a command line.
+
+use std::ffi::OsStr;
+use std::ops::ControlFlow;
+
+use rasray_ads::PRIMITIVE_NONE;
+use rasray_experiment::{
+    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, RaySet, Sampler,
+    StructureOptions, SystemConfig, default_view, load, open,
+};
+use rasray_hard_cases::Scale;
+use rasray_ray_files::HitsFile;
+use rasray_scene::needs::Needs;
+use rasray_systems::{Preset, System};
+
+const RAYS: u32 = 500;
+
+const SEED: u32 = 7;
+
+fn systems(names: &[&str]) -> Vec<SystemConfig> {
+    let config = |name: &&str| SystemConfig {
+        system: System::named(name).expect("a system of the registry"),
+        preset: Preset::Robust,
+        options: StructureOptions::default(),
+        variant: None,
+    };
+    names.iter().map(config).collect()
+}
+
+fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> CompareJob<'a> {
+    let frame = Frame {
+        integrator: Integrator::Raycast,
+        width: 32,
+        height: 32,
+        spp: 1,
+        seed: SEED,
+        sampler: Sampler::Sobol,
+    };
+    CompareJob {
+        scene: &loaded.scene,
+        camera: default_view(&loaded.scene).camera,
+        systems: systems(names),
+        ray_sets: ray_sets.to_vec(),
+        rays: RAYS,
+        frame,
+        image: false,
+        figures: false,
+        repetitions: 1,
+        rays_file: None,
+        hits_files: Vec::new(),
+        keep: true,
+        replay: None,
+        needs: Needs::of(&loaded.scene, frame.workload()),
+    }
+}
+
+#[test]
+fn systems_are_compared_on_the_same_rays_and_a_wrong_hit_is_counted() {
+    let mut loaded = load(OsStr::new("cornell")).expect("a built-in scene");
+    loaded.light(None);
+    let mut backend = open(&DeviceChoice::default()).expect("a device");
+    let names = ["bricks", "brute-force"];
+    let sets = [RaySet::Incoherent, RaySet::Surface];
+    let Comparison { runs, mut kept, .. } = backend
+        .compare(&job(&loaded, &names, &sets), &mut |_| ControlFlow::Continue(()))
+        .expect("the device works");
+    let shape: Vec<_> = runs.iter().map(|run| (run.system.as_str(), run.ray_set.as_deref())).collect();
+    let expected = sets.map(|set| names.map(|name| (name, Some(set.name())))).concat();
+    assert_eq!(shape, expected);
+    for run in &runs {
+        let accuracy = run.accuracy.as_ref().expect("hits were compared");
+        assert_eq!(
+            (accuracy.missed, accuracy.false_hits, accuracy.wrong_primitive),
+            (0, 0, Some(0)),
+            "{run:?}"
+        );
+    }
+
+    // The same hits again, but for one that is lost.
+    let set = kept.sets.swap_remove(0);
+    let mut hits = set.answers[0].hits.clone();
+    let sure = |ray: usize| !set.truth[ray].ambiguous && set.truth[ray].primitive != PRIMITIVE_NONE;
+    let lost = (0..hits.len()).find(|&ray| sure(ray)).expect("a ray hits something");
+    hits[lost].primitive = PRIMITIVE_NONE;
+    let mut again = job(&loaded, &names[..1], &sets[..1]);
+    again.hits_files = vec![HitsFile { name: "given".to_owned(), hits }];
+    let runs = backend.compare(&again, &mut |_| ControlFlow::Continue(())).expect("the device works").runs;
+    let missed: Vec<_> =
+        runs.iter().map(|run| run.accuracy.as_ref().map(|accuracy| accuracy.missed)).collect();
+    assert_eq!(missed, [Some(0), Some(1)]);
+}
+
+#[test]
+fn a_hard_case_has_a_verdict_and_a_wrong_answer_breaks_it() {
+    let scale = Scale { rays: RAYS as usize, seed: SEED.into(), full: false };
+    let case = rasray_hard_cases::case("E5", scale).expect("a case of the catalogue");
+    let systems = systems(&["bricks"]);
+    let mut hard = HardJob {
+        case: &case,
+        systems: &systems,
+        repetitions: 1,
+        seed: SEED,
+        figures: false,
+        hits_files: &[],
+        keep: true,
+        replay: None,
+    };
+    let mut backend = open(&DeviceChoice::default()).expect("a device");
+    let whole = backend.hard(&hard, &mut |_| ControlFlow::Continue(())).expect("the device works");
+    let met = |comparison: &Comparison| -> Vec<_> {
+        comparison.runs.iter().map(|run| run.hard.as_ref().and_then(|hard| hard.met)).collect()
+    };
+    assert_eq!(met(&whole), [Some(true)]);
+    let mut hits = whole.kept.sets[0].answers[0].hits.clone();
+    let found = hits.iter().position(|hit| hit.is_hit()).expect("a ray hits something");
+    hits[found].t *= 2.0;
+    let given = [HitsFile { name: "given".to_owned(), hits }];
+    hard.hits_files = &given;
+    let with_given = backend.hard(&hard, &mut |_| ControlFlow::Continue(())).expect("the device works");
+    assert_eq!(met(&with_given), [Some(true), Some(false)]);
+}
