@@ -22,19 +22,18 @@ pub(crate) fn modules(root: &Path, out: &Path) -> Result<Vec<Built>, String> {
     let list = read(&root.join("permutations.txt"))?;
     let mut permutations = read_permutations(&list).map_err(|e| format!("permutations.txt: {e}"))?;
     permutations.retain(|permutation| permutation.features.iter().all(|feature| feature_is_on(feature)));
-    let hashes = compile_all(root, out, &permutations)?;
-    let built = permutations.into_iter().zip(hashes).map(|(permutation, hash)| Built {
-        name: permutation.name,
-        entry: permutation.entry,
-        features: permutation.features,
-        hash,
+    compile_all(root, out, &permutations)?;
+    let built = permutations.into_iter().map(|Permutation { name, entry, features, .. }| Built {
+        name,
+        entry,
+        features,
     });
     Ok(built.collect())
 }
 
-/// Compiles modules on as many threads as cargo grants, and answers the hash of each. Says what is wrong with the first
+/// Compiles modules on as many threads as cargo grants. Says what is wrong with the first
 /// of the list that fails.
-fn compile_all(root: &Path, out: &Path, permutations: &[Permutation]) -> Result<Vec<u64>, String> {
+fn compile_all(root: &Path, out: &Path, permutations: &[Permutation]) -> Result<(), String> {
     let threads = std::env::var("NUM_JOBS").ok().and_then(|jobs| jobs.parse().ok()).unwrap_or(1);
     let next = AtomicUsize::new(0);
     let results = Mutex::new(BTreeMap::new());
@@ -58,8 +57,8 @@ fn take<'a>(permutations: &'a [Permutation], next: &AtomicUsize) -> Option<(usiz
     permutations.get(place).map(|permutation| (place, permutation))
 }
 
-/// Writes a module's SPIR-V, compiled unless the cache has it, and answers its hash.
-fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<u64, String> {
+/// Writes a module's SPIR-V, compiled unless the cache has it.
+fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(), String> {
     let module = Module { entry: &permutation.entry, defines: &permutation.defines };
     let text = preprocess(&[root], &module).map_err(|e| e.to_string())?;
     let cache = std::env::var_os("RASRAY_SHADER_CACHE").map_or_else(|| out.join("cache"), PathBuf::from);
@@ -73,9 +72,7 @@ fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<u64
         }
     };
     let words = if feature_is_on("debug-shaders") { words } else { without_debug_text(&words) };
-    let bytes = bytes(&words);
-    write_changed(&out.join(crate::modules::file_of(&permutation.name)), &bytes)?;
-    Ok(hash(&bytes))
+    write_changed(&out.join(crate::modules::file_of(&permutation.name)), &bytes(&words))
 }
 
 /// The words that are kept for a text, includes and macros expanded; none where another text is, or nothing.

@@ -1,13 +1,13 @@
-//! Folders of modules: what lies in them, and what they were made of.
+//! Compiled modules in a folder: `prebuilt`, as packages have it.
 //!
 //! `modules.txt` beside the modules says of which GLSL and with which features they were made, and names each with a
-//! hash of its bytes. Build folders have it, and so does `prebuilt`, which is one of them in a package.
+//! hash of its bytes.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::{feature_is_on, read, write_changed};
+use crate::{feature_is_on, packed, read, write_changed};
 
 /// A module that was compiled.
 pub(crate) struct Built {
@@ -17,13 +17,16 @@ pub(crate) struct Built {
     pub(crate) entry: String,
     /// Features that it is there with.
     pub(crate) features: Vec<String>,
-    /// Of its bytes.
-    pub(crate) hash: u64,
 }
 
 /// The file that holds a module's SPIR-V.
 pub(crate) fn file_of(name: &str) -> String {
     format!("{}.spv", name.replace('/', "."))
+}
+
+/// The file that holds it in a folder of modules.
+fn packed_file_of(name: &str) -> String {
+    format!("{}.packed", name.replace('/', "."))
 }
 
 /// FNV-1a: tells files that differ by mistake apart, not by intent.
@@ -41,22 +44,33 @@ fn features() -> BTreeSet<String> {
     on.filter(|feature| !["default", "compile", "debug-shaders"].contains(&feature.as_str())).collect()
 }
 
-/// Says in `out` what its modules were made of.
-pub(crate) fn write_index(out: &Path, sources: u64, modules: &[Built]) -> Result<(), String> {
+/// Makes a folder of the modules in `out`.
+pub(crate) fn write_prebuilt(
+    folder: &Path,
+    out: &Path,
+    sources: u64,
+    modules: &[Built],
+) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let features = Vec::from_iter(features()).join(" ");
     let mut text = format!("sources {sources:016x}\nfeatures {features}\n");
-    for module in modules {
-        let Built { name, entry, features, hash } = module;
-        let _ = writeln!(text, "module {name} {entry} {} {hash:016x}", features.join("+"));
+    for Built { name, entry, features } in modules {
+        let path = out.join(file_of(name));
+        let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let words: Vec<_> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let packed = packed::pack(&words).ok_or_else(|| format!("{name} is no SPIR-V"))?;
+        write_changed(&folder.join(packed_file_of(name)), &packed)?;
+        let _ = writeln!(text, "module {name} {entry} {} {:016x}", features.join("+"), hash(&packed));
     }
-    write_changed(&out.join("modules.txt"), text.as_bytes())
+    write_changed(&folder.join("modules.txt"), text.as_bytes())
 }
 
 /// What a folder of modules says of itself.
 pub(crate) struct Index {
     sources: u64,
     features: BTreeSet<String>,
-    modules: Vec<Built>,
+    /// With the hashes of their files.
+    modules: Vec<(Built, u64)>,
 }
 
 impl Index {
@@ -73,12 +87,11 @@ impl Index {
                 ["features", ref features @ ..] => {
                     index.features = features.iter().map(|&f| f.to_owned()).collect()
                 }
-                ["module", name, entry, features, hash] => index.modules.push(Built {
-                    name: name.to_owned(),
-                    entry: entry.to_owned(),
-                    features: features.split('+').map(str::to_owned).collect(),
-                    hash: number(hash)?,
-                }),
+                ["module", name, entry, features, hash] => {
+                    let features = features.split('+').map(str::to_owned).collect();
+                    let built = Built { name: name.to_owned(), entry: entry.to_owned(), features };
+                    index.modules.push((built, number(hash)?));
+                }
                 _ => return Err(format!("{}: cannot read `{line}`", path.display())),
             }
         }
@@ -90,7 +103,7 @@ impl Index {
         features().difference(&self.features).cloned().collect()
     }
 
-    /// Copies those modules to `out` whose features are on.
+    /// Unpacks those modules to `out` whose features are on.
     ///
     /// # Errors
     /// They were made of other sources than those, or one is not what it was.
@@ -99,15 +112,17 @@ impl Index {
             return Err("they were made of other GLSL than what lies beside them".to_owned());
         }
         let is_on = |module: &Built| module.features.iter().all(|feature| feature_is_on(feature));
-        let modules: Vec<_> = self.modules.into_iter().filter(is_on).collect();
-        for module in &modules {
-            let file = file_of(&module.name);
-            let bytes = std::fs::read(folder.join(&file)).map_err(|e| format!("{file}: {e}"))?;
-            if hash(&bytes) != module.hash {
-                return Err(format!("{file} is not what was compiled"));
-            }
-            write_changed(&out.join(&file), &bytes)?;
-        }
-        Ok(modules)
+        let modules = self.modules.into_iter().filter(|(module, _)| is_on(module));
+        let unpacked = modules.map(|(module, expected)| {
+            let file = packed_file_of(&module.name);
+            let packed = std::fs::read(folder.join(&file)).map_err(|e| format!("{file}: {e}"))?;
+            let words = Some(packed).filter(|packed| hash(packed) == expected);
+            let words = words.and_then(|packed| packed::unpack(&packed));
+            let words = words.ok_or_else(|| format!("{file} is not what was compiled"))?;
+            let bytes: Vec<_> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            write_changed(&out.join(file_of(&module.name)), &bytes)?;
+            Ok(module)
+        });
+        unpacked.collect()
     }
 }

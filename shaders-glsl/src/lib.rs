@@ -79,8 +79,30 @@ pub fn spirv(name: &str) -> &'static [u32] {
 }
 
 #[cfg(test)]
+#[path = "../build/packed.rs"]
+mod packed;
+
+#[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn packed_modules_are_the_same_once_unpacked() {
+        for shader in ALL {
+            let packed = packed::pack(shader.words()).expect("it is SPIR-V");
+            assert_eq!(packed::unpack(&packed).as_deref(), Some(shader.words()), "{}", shader.name);
+            assert!(packed.len() < size_of_val(shader.words()) * 2 / 3, "{}", shader.name);
+            assert_eq!(packed::unpack(&packed[..packed.len() - 1]), None, "{}", shader.name);
+        }
+        assert!(!ALL.is_empty() && packed::pack(&[1, 2, 3, 4, 5, 0]).is_none());
+        // Numbers of every size, and an instruction whose end is missing.
+        let words = [1, 2, 3, 4, 5, 4 << 16 | 400, u32::MAX, 0, 70_000];
+        assert_eq!(
+            packed::pack(&words).and_then(|packed| packed::unpack(&packed)).as_deref(),
+            Some(&words[..])
+        );
+        assert!(packed::pack(&words[..8]).is_none());
+    }
 
     #[test]
     fn files_are_those_of_the_root() {

@@ -72,3 +72,8 @@ pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRI
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
 /// A draw that does not move.
 pub const DRAW_STATIC: u32 = rasray_shaders_glsl::constants::contract::DRAW_STATIC;
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -54,3 +54,8 @@ pub use integrator::{Integrator, IntegratorDesc};
 pub use path::{BOUNCE_LIMIT, Path, PathState};
 pub use raycast::Raycast;
 pub use wave::{WAVE_CAPACITY, Wave, waves};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

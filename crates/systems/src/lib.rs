@@ -20,3 +20,8 @@ pub use error::SystemsError;
 pub use option_row::{Group, Hits, OptionRow, Values, Word};
 pub use options::{OPTIONS, option};
 pub use spec::{Preset, SYSTEMS, Spec, System};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -272,6 +272,11 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     Ok(permutations)
 }
 
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 #[cfg(test)]
 mod tests {
     use super::*;
