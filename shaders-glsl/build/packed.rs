@@ -11,7 +11,6 @@ const AHEAD: u32 = 16;
 const NEAR: u32 = 64;
 
 /// A module in few bytes; none where it is no SPIR-V.
-#[cfg_attr(not(feature = "compile"), allow(dead_code))]
 pub(crate) fn pack(words: &[u32]) -> Option<Vec<u8>> {
     let (header, mut rest) = words.split_at_checked(HEADER)?;
     let (mut heads, mut operands, mut ids) = (Vec::new(), Vec::new(), Ids::default());
@@ -77,7 +76,6 @@ impl Ids {
 }
 
 /// Seven bits a byte, the lowest first; the highest bit says that more follow.
-#[cfg_attr(not(feature = "compile"), allow(dead_code))]
 fn put(bytes: &mut Vec<u8>, mut number: u64) {
     while number > 0x7f {
         bytes.push(number as u8 | 0x80);
