@@ -1,9 +1,13 @@
-//! All GLSL of rasray as SPIR-V, compiled when this crate is built, and the numbers that shaders and
-//! Rust share.
+//! All GLSL of rasray, the same as SPIR-V, and the numbers that shaders and Rust share.
 //!
-//! A module is compiled iff it is listed in `permutations.txt` and the features of its section are
-//! on, so an embedder of one structure builds the modules of that structure alone. No compiler is
-//! needed at run time. [`layout`] reads names, offsets and sizes of buffer members back out of a
+//! A module is there iff it is listed in `permutations.txt` and the features of its section are
+//! on, so an embedder of one structure has the modules of that structure alone. Packages hold the modules ready made;
+//! with the feature `compile`, and in the repository, they are compiled when this crate is built. No compiler is needed
+//! at run time.
+//!
+//! A shader of one's own includes files of this crate (`bricks/trace.glsl`): its compiler is told [`ROOT`], which the
+//! build script of a crate that names this one as a dependency finds in `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate
+//! `rasray-shader-compiler` has an example. [`layout`] reads names, offsets and sizes of buffer members back out of a
 //! module; tests hold the Rust structs against them.
 
 pub mod layout;
@@ -14,6 +18,25 @@ pub mod constants {
 }
 
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+include!(concat!(env!("OUT_DIR"), "/files.rs"));
+
+/// The folder that all includes are relative to, on the machine where this crate was built; elsewhere, and later, there
+/// is [`files`].
+pub const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A file with GLSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct GlslFile {
+    /// Relative to [`ROOT`], with `/` between folders: what an include names.
+    pub name: &'static str,
+    /// All of its text.
+    pub text: &'static str,
+}
+
+/// All GLSL, in the order of names, whatever features are on.
+pub fn files() -> &'static [GlslFile] {
+    FILES
+}
 
 /// SPIR-V is read word by word, so its bytes are kept on word boundaries.
 #[repr(C, align(4))]
@@ -53,4 +76,46 @@ pub fn shader(name: &str) -> Option<&'static Shader> {
 /// If no module of that name was compiled: the name is misspelt or its feature is off.
 pub fn spirv(name: &str) -> &'static [u32] {
     shader(name).unwrap_or_else(|| panic!("no shader module `{name}` was compiled")).words()
+}
+
+#[cfg(test)]
+#[path = "../build/packed.rs"]
+mod packed;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn packed_modules_are_the_same_once_unpacked() {
+        for shader in ALL {
+            let packed = packed::pack(shader.words()).expect("it is SPIR-V");
+            assert_eq!(packed::unpack(&packed).as_deref(), Some(shader.words()), "{}", shader.name);
+            assert!(packed.len() < size_of_val(shader.words()) * 2 / 3, "{}", shader.name);
+            assert_eq!(packed::unpack(&packed[..packed.len() - 1]), None, "{}", shader.name);
+        }
+        assert!(!ALL.is_empty() && packed::pack(&[1, 2, 3, 4, 5, 0]).is_none());
+        // Numbers of every size, and an instruction whose end is missing.
+        let words = [1, 2, 3, 4, 5, 4 << 16 | 400, u32::MAX, 0, 70_000];
+        assert_eq!(
+            packed::pack(&words).and_then(|packed| packed::unpack(&packed)).as_deref(),
+            Some(&words[..])
+        );
+        assert!(packed::pack(&words[..8]).is_none());
+    }
+
+    #[test]
+    fn files_are_those_of_the_root() {
+        let names: Vec<_> = files().iter().map(|file| file.name).collect();
+        assert!(
+            names.is_sorted() && names.contains(&"contract/select.glsl") && names.len() > 200,
+            "{names:?}"
+        );
+        for file in files() {
+            let path = std::path::Path::new(ROOT).join(file.name);
+            assert_eq!(std::fs::read_to_string(path).expect("it is there"), file.text, "{}", file.name);
+        }
+        let entries = ALL.iter().all(|shader| names.contains(&shader.entry));
+        assert!(entries, "a module's entry is among the files");
+    }
 }

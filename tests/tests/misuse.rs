@@ -45,6 +45,14 @@ fn dirty_memory(bench: &Bench) {
     buffers.iter().for_each(fill);
 }
 
+/// The same with more elements in the last pool.
+fn larger(mut sizes: Sizes) -> Sizes {
+    if let Some(pool) = sizes.pools.last_mut() {
+        pool.elements += 256;
+    }
+    sizes
+}
+
 #[test]
 fn structures_that_were_never_built_say_so() {
     let bench = Bench::new();
@@ -73,10 +81,16 @@ fn structures_that_were_never_built_say_so() {
                 .expect("the build completes");
             let hits = bench.trace(structure.as_ref(), &rays).hits;
             assert!(hits.iter().all(Hit::is_hit), "{}: {hits:?}", subject.name());
-            // Resized, it is a new one.
-            dirty_memory(&bench);
+            // What it asked for last is what it has: nothing is lost.
             let sizes = structure.sizes().clone();
             structure.resize(device, &sizes).expect("it fits");
+            assert!(structure.status(0).expect("the header is readable").complete, "{}", subject.name());
+            // Larger, it is a new one.
+            dirty_memory(&bench);
+            structure.resize(device, &larger(sizes)).expect("it fits");
+            let status = structure.status(0).expect("the header is readable");
+            let wanted = structure.check(&status, 50).expect("there are sizes");
+            assert_eq!(wanted, Check::Grow(structure.sizes().clone()), "{}", subject.name());
             assert!(!structure.status(0).expect("the header is readable").complete, "{}", subject.name());
             let outcome = tracer.trace(structure.as_ref(), &rays, TraceMode::Closest, Timing::None);
             assert!(matches!(outcome, Err(TracerError::NotReady { rays: 5 })), "{}", subject.name());
@@ -316,7 +330,7 @@ fn a_structure_may_be_dropped_or_resized_while_the_device_has_yet_to_use_it() {
             );
             let recorded = recorder.finish().expect("no mistake");
             raw.end_command_buffer(commands[0]).expect("ended");
-            let sizes = structure.sizes().clone();
+            let sizes = larger(structure.sizes().clone());
             structure.resize(device, &sizes).expect("it fits");
             drop((structure, rays_of));
             dirty_memory(&bench);

@@ -29,3 +29,8 @@ pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::ABuffer;
 pub use validate::{Contents, Fragment, well_formed};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -25,3 +25,8 @@ pub use rasray_ads::{Addressing, Builder};
 pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::{Passes, PrimitiveLists};
 pub use validate::{Contents, Fault, well_formed};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -76,3 +76,8 @@ pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMIT
 pub const PRIMITIVE_UNKNOWN: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_UNKNOWN;
 /// A draw whose triangles are alpha-masked.
 pub const DRAW_ALPHA_MASKED: u32 = rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

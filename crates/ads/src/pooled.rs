@@ -161,6 +161,9 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
+        if sizes == self.sizes() {
+            return Ok(());
+        }
         D::accepts(&self.parts.config, sizes)?;
         self.parts.pools.resize(device, sizes)?;
         self.forget();

@@ -260,8 +260,9 @@ pub trait Structure {
     /// What is allocated now.
     fn sizes(&self) -> &Sizes;
 
-    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]. What was built is
-    /// lost.
+    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]. What was built is lost, with the
+    /// status of builds that the device has yet to finish: they count as incomplete, and what they use lives as long as
+    /// the [`rasray_gpu::Recorded`] of their recording. Nothing happens where these are the sizes already.
     ///
     /// # Errors
     /// Out of memory, or a pool exceeds what one binding can hold.

@@ -24,3 +24,8 @@ pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::{Bricks, Passes};
 pub use validate::{Contents, Fault, well_formed};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -24,3 +24,8 @@ pub use pool::Pool;
 pub use rasray_ads::Addressing;
 pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

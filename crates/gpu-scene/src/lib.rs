@@ -45,3 +45,8 @@ pub use tables::SceneTables;
 pub use texel_runs::{TEXEL_BYTES, TexelRuns};
 pub use upload::{GpuScene, ShadingFeatures};
 pub use view::{Sampler, Sampling, View};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

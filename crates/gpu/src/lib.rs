@@ -99,3 +99,8 @@ pub use recorder::{Recorded, Recorder, RenderArea};
 pub use set_layout::SetLayout;
 pub use spirv::storage_buffers_used;
 pub use timers::{PassTiming, TimerKind, Timers, Timing};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -56,3 +56,8 @@ pub use path::{BOUNCE_LIMIT, Path, PathState};
 pub use raycast::Raycast;
 pub use traced::Traced;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

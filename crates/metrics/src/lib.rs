@@ -27,3 +27,8 @@ pub use rate::{Rate, confidence_of_each};
 pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
 pub use tone::{display_values, tone_map};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -55,5 +55,10 @@ fn read_file(path: &Path) -> Result<Vec<u8>, FileError> {
     std::fs::read(path).map_err(|error| FileError::new(path, error::Why::Unreadable(error.to_string())))
 }
 
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 #[cfg(test)]
 mod tests;

@@ -68,3 +68,8 @@ pub struct HtmlError(String);
 fn misfit(what: impl Into<String>) -> HtmlError {
     HtmlError(what.into())
 }
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

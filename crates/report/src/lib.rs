@@ -100,3 +100,8 @@ fn widen_intervals(runs: &mut [Run]) -> Option<Statistics> {
         confidence_of_each: each,
     })
 }
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -27,3 +27,8 @@ pub use error::SceneError;
 pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;
 pub use model::*;
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -34,3 +34,8 @@ pub static SYSTEMS: &[System] = &[
     grid::SYSTEM,
     brute_force::SYSTEM,
 ];
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

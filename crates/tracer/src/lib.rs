@@ -12,3 +12,8 @@ pub use batch::{BatchTracer, TraceOutcome};
 pub use build::{BuildOutcome, build_until_complete};
 pub use error::TracerError;
 pub use replay::Replay;
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

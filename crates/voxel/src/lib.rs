@@ -25,3 +25,8 @@ pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};
+
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

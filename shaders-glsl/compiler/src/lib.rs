@@ -2,8 +2,32 @@
 //!
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
 //! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
-//! `#include` resolved from one root folder, by way of folders that macros name. Drivers optimise a module once more whatever it comes as: optimised here
-//! it takes seven times as long to compile, and drivers as long to make a pipeline of it.
+//! `#include` resolved from root folders, by way of folders that macros name. Drivers optimise a module once more
+//! whatever it comes as: optimised here it takes seven times as long to compile, and drivers as long to make a pipeline
+//! of it.
+//!
+//! # A shader of one's own
+//!
+//! The `build.rs` of a crate that traces from a shader of its own, `shaders/shadow.comp`, which includes
+//! `bricks/trace.glsl`. `rasray-shaders-glsl` is among its dependencies and tells it where the GLSL is; this crate is
+//! among its build dependencies.
+//!
+//! ```no_run
+//! use std::path::{Path, PathBuf};
+//!
+//! use rasray_shader_compiler::{Module, bytes, compile, without_debug_text};
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     println!("cargo::rerun-if-changed=shaders");
+//!     // Set by the build script of rasray-shaders-glsl for the crates that name it as a dependency.
+//!     let rasray = PathBuf::from(std::env::var("DEP_RASRAY_SHADERS_GLSL_ROOT")?);
+//!     let module = Module { entry: "shadow.comp", defines: &[] };
+//!     let words = compile(&[Path::new("shaders"), &rasray], &module)?;
+//!     let out = PathBuf::from(std::env::var("OUT_DIR")?);
+//!     std::fs::write(out.join("shadow.spv"), bytes(&without_debug_text(&words)))?;
+//!     Ok(())
+//! }
+//! ```
 
 mod reduce;
 
@@ -50,21 +74,23 @@ const OPTIONS: &str = "// Vulkan 1.2, not optimised, what the entry point reache
 /// One module to compile.
 #[derive(Clone, Debug)]
 pub struct Module<'a> {
-    /// Entry file relative to the root, such as `ads/surfaces.comp`.
+    /// Entry file relative to a root, such as `ads/surfaces.comp`.
     pub entry: &'a str,
     /// Macros: name and value (empty for none).
     pub defines: &'a [(String, String)],
 }
 
-/// Compiles a module whose includes are relative to `root`. Returns SPIR-V words: what its entry point reaches.
+/// Compiles a module. Returns SPIR-V words: what its entry point reaches. The entry and what it includes are relative to
+/// the roots; the first root that has a file is the one it is read from.
 ///
 /// # Errors
-/// The entry cannot be read, its name has no stage, or the GLSL is wrong; the message then names
+/// No root has the entry, its name has no stage, or the GLSL is wrong; the message then names
 /// file and line.
-pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileError> {
-    let (source, kind) = entry(root, module)?;
+pub fn compile(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<Vec<u32>, CompileError> {
+    let roots = owned(roots);
+    let (source, kind) = entry(&roots, module)?;
     let artifact = compiler()?
-        .compile_into_spirv(&source, kind, module.entry, "main", Some(&options(root, module)?))
+        .compile_into_spirv(&source, kind, module.entry, "main", Some(&options(roots, module)?))
         .map_err(|error| CompileError::Glsl(error.to_string()))?;
     Ok(reduce::only_reached(artifact.as_binary()))
 }
@@ -74,23 +100,45 @@ pub fn compile(root: &Path, module: &Module<'_>) -> Result<Vec<u32>, CompileErro
 ///
 /// # Errors
 /// As [`compile`], as far as directives go.
-pub fn preprocess(root: &Path, module: &Module<'_>) -> Result<String, CompileError> {
-    let (source, _) = entry(root, module)?;
+pub fn preprocess(roots: &[impl AsRef<Path>], module: &Module<'_>) -> Result<String, CompileError> {
+    let roots = owned(roots);
+    let (source, _) = entry(&roots, module)?;
     let artifact = compiler()?
-        .preprocess(&source, module.entry, "main", Some(&options(root, module)?))
+        .preprocess(&source, module.entry, "main", Some(&options(roots, module)?))
         .map_err(|error| CompileError::Glsl(error.to_string()))?;
     Ok(OPTIONS.to_owned() + &artifact.as_text())
 }
 
-fn entry(root: &Path, module: &Module<'_>) -> Result<(String, ShaderKind), CompileError> {
-    let path = root.join(module.entry);
+/// SPIR-V words as the bytes of a file.
+pub fn bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
+}
+
+fn owned(roots: &[impl AsRef<Path>]) -> Vec<PathBuf> {
+    roots.iter().map(|root| root.as_ref().to_owned()).collect()
+}
+
+/// The text of a file of the first root that has it; else what the system says of the last one.
+fn read(roots: &[PathBuf], name: &str) -> std::io::Result<String> {
+    let mut missing = std::io::Error::other("there is no root folder");
+    for root in roots {
+        match std::fs::read_to_string(root.join(name)) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => missing = error,
+            found => return found,
+        }
+    }
+    Err(missing)
+}
+
+fn entry(roots: &[PathBuf], module: &Module<'_>) -> Result<(String, ShaderKind), CompileError> {
+    let path = PathBuf::from(module.entry);
     let kind = match path.extension().and_then(|e| e.to_str()) {
         Some("comp") => ShaderKind::Compute,
         Some("vert") => ShaderKind::Vertex,
         Some("frag") => ShaderKind::Fragment,
         _ => return Err(CompileError::Stage { path }),
     };
-    let source = std::fs::read_to_string(&path).map_err(|source| CompileError::Read { path, source })?;
+    let source = read(roots, module.entry).map_err(|source| CompileError::Read { path, source })?;
     Ok((source, kind))
 }
 
@@ -98,7 +146,7 @@ fn compiler() -> Result<Compiler, CompileError> {
     Compiler::new().map_err(|e| CompileError::Shaderc(e.to_string()))
 }
 
-fn options(root: &Path, module: &Module<'_>) -> Result<CompileOptions<'static>, CompileError> {
+fn options(roots: Vec<PathBuf>, module: &Module<'_>) -> Result<CompileOptions<'static>, CompileError> {
     let mut options = CompileOptions::new().map_err(|e| CompileError::Shaderc(e.to_string()))?;
     options.set_source_language(SourceLanguage::GLSL);
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_2 as u32);
@@ -107,14 +155,16 @@ fn options(root: &Path, module: &Module<'_>) -> Result<CompileOptions<'static>, 
     for (name, value) in module.defines {
         options.add_macro_definition(name, (!value.is_empty()).then_some(value.as_str()));
     }
-    let include_root = root.to_owned();
     let defines = module.defines.to_owned();
     options.set_include_callback(move |requested, kind, from, _depth| {
-        if kind == IncludeType::Standard {
-            return Err(format!("{from}: write #include \"{requested}\" with quotes"));
-        }
         let resolved_name = resolved(requested, &defines);
-        let content = std::fs::read_to_string(include_root.join(&resolved_name))
+        // Asked for with quotes and not found, a file is asked for once more as if it stood in angle brackets.
+        if kind == IncludeType::Standard {
+            return Err(format!(
+                "{from}: cannot include {resolved_name}: no root folder has it, or it is not in quotes"
+            ));
+        }
+        let content = read(&roots, &resolved_name)
             .map_err(|error| format!("{from}: cannot include {resolved_name}: {error}"))?;
         Ok(ResolvedInclude { resolved_name, content })
     });
@@ -235,6 +285,11 @@ pub fn read_permutations(text: &str) -> Result<Vec<Permutation>, String> {
     Ok(permutations)
 }
 
+/// What the readme shows compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -267,6 +322,32 @@ mod tests {
         assert_eq!(pair.features, ["t", "p", "q"]);
         assert!(read_permutations("[a] .else\n").is_err());
         assert!(read_permutations("[a]\nx x.comp\n").is_err());
+    }
+
+    #[test]
+    fn a_file_is_read_from_the_first_root_that_has_it() {
+        let folder = std::env::temp_dir().join(format!("rasray-roots-{}", std::process::id()));
+        let (own, other) = (folder.join("own"), folder.join("other"));
+        for (root, name, text) in [
+            (
+                &own,
+                "main.comp",
+                "#version 460\n#include \"both.glsl\"\n#include \"shared.glsl\"\nvoid main() {}\n",
+            ),
+            (&own, "both.glsl", "const int OWN = 1;\n"),
+            (&other, "both.glsl", "const int OTHER = 1;\n"),
+            (&other, "shared.glsl", "const int SHARED = 1;\n"),
+        ] {
+            std::fs::create_dir_all(root).expect("a folder");
+            std::fs::write(root.join(name), text).expect("a file");
+        }
+        let module = Module { entry: "main.comp", defines: &[] };
+        let text = preprocess(&[&own, &other], &module).expect("both roots are searched");
+        assert!(text.contains("OWN") && text.contains("SHARED") && !text.contains("OTHER"), "{text}");
+        let error = preprocess(&[&own], &module).expect_err("one root lacks a file").to_string();
+        assert!(error.contains("cannot include shared.glsl"), "{error}");
+        assert!(matches!(preprocess(&[&other], &module), Err(CompileError::Read { .. })));
+        std::fs::remove_dir_all(&folder).expect("the folder goes");
     }
 
     #[test]

@@ -1,0 +1,380 @@
+//! The host of the examples: a small renderer with a Vulkan instance, device, queue, command buffers and buffers of its
+//! own, and some triangles. Only [`Host::raw_device`] and [`Host::geometry`] know of rasray: they say what it is handed.
+
+#![allow(dead_code)] // Each example uses some of it.
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rasray_ads::{Draw, Geometry, GeometryDesc, Hit, Ray};
+use rasray_gpu::{Buffer, BufferUsage, Device, Feature, RawBuffer, RawDevice, ash, vk};
+use vk::DebugUtilsMessageSeverityFlagsEXT as Severity;
+
+pub type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+const VALIDATION: &std::ffi::CStr = c"VK_LAYER_KHRONOS_validation";
+/// Frames that the host has in flight at most.
+pub const FRAMES: usize = 2;
+static COMPLAINTS: AtomicU32 = AtomicU32::new(0);
+
+/// Counts and prints what the validation layer says.
+unsafe extern "system" fn complain(
+    _severity: Severity,
+    _kind: vk::DebugUtilsMessageTypeFlagsEXT,
+    message: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
+    _user: *mut std::ffi::c_void,
+) -> vk::Bool32 {
+    COMPLAINTS.fetch_add(1, Ordering::Relaxed);
+    // SAFETY: the layer hands in a message with a text that ends with zero.
+    eprintln!("{:?}", unsafe { (*message).message_as_c_str() });
+    vk::FALSE
+}
+
+/// What the renderer has. Everything made from it goes before it.
+pub struct Host {
+    _entry: ash::Entry,
+    instance: ash::Instance,
+    watcher: ash::ext::debug_utils::Instance,
+    messenger: vk::DebugUtilsMessengerEXT,
+    physical: vk::PhysicalDevice,
+    pub device: ash::Device,
+    queue: vk::Queue,
+    family: u32,
+    pool: vk::CommandPool,
+    frames: Vec<(vk::CommandBuffer, vk::Fence)>,
+    made: RefCell<Vec<Made>>,
+}
+
+/// What is destroyed with the host.
+enum Made {
+    Buffer(vk::Buffer, vk::DeviceMemory),
+    SetLayout(vk::DescriptorSetLayout),
+    Pool(vk::DescriptorPool),
+    Pipeline(vk::ShaderModule, vk::PipelineLayout, vk::Pipeline),
+}
+
+/// A buffer of the host in memory that it sees.
+#[derive(Clone, Copy)]
+pub struct HostBuffer {
+    pub raw: vk::Buffer,
+    pub size: u64,
+    mapped: *mut u8,
+}
+
+impl Host {
+    /// Makes a device with those features and a queue that computes, and draws where a feature is about drawing.
+    pub fn new(features: &[Feature]) -> Result<Self> {
+        let draws = features.contains(&Feature::DynamicRendering);
+        // SAFETY: every handle is used with the instance or device that it was made from, by this thread alone, and what
+        // the calls point to outlives them.
+        unsafe {
+            let entry = ash::Entry::load()?;
+            let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_3);
+            let messenger = vk::DebugUtilsMessengerCreateInfoEXT::default()
+                .message_severity(Severity::WARNING | Severity::ERROR)
+                .message_type(vk::DebugUtilsMessageTypeFlagsEXT::VALIDATION)
+                .pfn_user_callback(Some(complain));
+            let info = vk::InstanceCreateInfo::default().application_info(&application);
+            let (layers, extensions) = ([VALIDATION.as_ptr()], [ash::ext::debug_utils::NAME.as_ptr()]);
+            let info = info.enabled_layer_names(&layers).enabled_extension_names(&extensions);
+            let instance = entry.create_instance(&info, None)?;
+            let watcher = ash::ext::debug_utils::Instance::new(&entry, &instance);
+            let messenger = watcher.create_debug_utils_messenger(&messenger, None)?;
+            let physical = *instance.enumerate_physical_devices()?.first().ok_or("no Vulkan device")?;
+            let mut wanted = vk::QueueFlags::COMPUTE;
+            if draws {
+                wanted |= vk::QueueFlags::GRAPHICS;
+            }
+            let families = instance.get_physical_device_queue_family_properties(physical);
+            let family = families.iter().position(|family| family.queue_flags.contains(wanted));
+            let family = family.ok_or("no queue does that")? as u32;
+            let queues = vk::DeviceQueueCreateInfo::default().queue_family_index(family);
+            let queues = [queues.queue_priorities(&[1.0])];
+            let has = |feature| features.contains(&feature);
+            let core = vk::PhysicalDeviceFeatures::default()
+                .fragment_stores_and_atomics(has(Feature::FragmentStoresAndAtomics));
+            let mut features_12 = vk::PhysicalDeviceVulkan12Features::default()
+                .scalar_block_layout(has(Feature::ScalarBlockLayout));
+            let mut features_13 = vk::PhysicalDeviceVulkan13Features::default()
+                .synchronization2(has(Feature::Synchronization2))
+                .dynamic_rendering(draws);
+            let info = vk::DeviceCreateInfo::default()
+                .queue_create_infos(&queues)
+                .enabled_features(&core)
+                .push_next(&mut features_12)
+                .push_next(&mut features_13);
+            let device = instance.create_device(physical, &info, None)?;
+            let queue = device.get_device_queue(family, 0);
+            let info = vk::CommandPoolCreateInfo::default()
+                .queue_family_index(family)
+                .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER);
+            let pool = device.create_command_pool(&info, None)?;
+            let info = vk::CommandBufferAllocateInfo::default().command_pool(pool);
+            let commands = device.allocate_command_buffers(&info.command_buffer_count(FRAMES as u32))?;
+            let signaled = vk::FenceCreateInfo::default().flags(vk::FenceCreateFlags::SIGNALED);
+            let mut frames = Vec::new();
+            for commands in commands {
+                frames.push((commands, device.create_fence(&signaled, None)?));
+            }
+            let made = RefCell::default();
+            Ok(Self {
+                _entry: entry,
+                instance,
+                watcher,
+                messenger,
+                physical,
+                device,
+                queue,
+                family,
+                pool,
+                frames,
+                made,
+            })
+        }
+    }
+
+    /// What rasray has to know of the device. `enabled` are the features that it was made with.
+    pub fn raw_device(&self, enabled: &[Feature]) -> RawDevice {
+        RawDevice {
+            instance: self.instance.clone(),
+            physical: self.physical,
+            device: self.device.clone(),
+            queue: self.queue,
+            queue_family: self.family,
+            api_version: vk::API_VERSION_1_3,
+            enabled: enabled.to_vec(),
+            debug_utils: true,
+            pipeline_cache: vk::PipelineCache::null(),
+            memory: None,
+            memory_limit: None,
+        }
+    }
+
+    /// Waits until the device is done with a frame.
+    pub fn wait(&self, frame: usize) -> Result<()> {
+        // SAFETY: the fence is of this device and waited for by this thread alone.
+        Ok(unsafe { self.device.wait_for_fences(&[self.frames[frame].1], true, u64::MAX) }?)
+    }
+
+    /// Waits until the device is done with everything.
+    pub fn wait_for_all(&self) -> Result<()> {
+        // SAFETY: nothing else submits to the device.
+        Ok(unsafe { self.device.device_wait_idle() }?)
+    }
+
+    /// Records a frame that was waited for, and submits it.
+    pub fn submit<R>(&self, frame: usize, record: impl FnOnce(vk::CommandBuffer) -> Result<R>) -> Result<R> {
+        let (commands, fence) = self.frames[frame];
+        // SAFETY: the device is done with command buffer and fence, which this thread alone uses.
+        unsafe {
+            self.device.begin_command_buffer(commands, &vk::CommandBufferBeginInfo::default())?;
+            let recorded = record(commands)?;
+            self.device.end_command_buffer(commands)?;
+            self.device.reset_fences(&[fence])?;
+            let commands = [commands];
+            self.device.queue_submit(
+                self.queue,
+                &[vk::SubmitInfo::default().command_buffers(&commands)],
+                fence,
+            )?;
+            Ok(recorded)
+        }
+    }
+
+    /// A storage buffer with that in it.
+    pub fn buffer<T: bytemuck::NoUninit>(&self, values: &[T]) -> Result<HostBuffer> {
+        let bytes: &[u8] = bytemuck::cast_slice(values);
+        let usage = vk::BufferUsageFlags::STORAGE_BUFFER
+            | vk::BufferUsageFlags::TRANSFER_DST
+            | vk::BufferUsageFlags::TRANSFER_SRC;
+        let info = vk::BufferCreateInfo::default().size(bytes.len() as u64).usage(usage);
+        let seen = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+        // SAFETY: the memory is of a type that suits the buffer, and stays mapped as long as it is there.
+        let buffer = unsafe {
+            let raw = self.device.create_buffer(&info, None)?;
+            let needs = self.device.get_buffer_memory_requirements(raw);
+            let memories = self.instance.get_physical_device_memory_properties(self.physical);
+            let mut types = memories.memory_types_as_slice().iter().enumerate();
+            let kind = types.position(|(k, memory)| {
+                needs.memory_type_bits >> k & 1 != 0 && memory.property_flags.contains(seen)
+            });
+            let kind = kind.ok_or("no memory that the host sees")? as u32;
+            let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
+            let memory = self.device.allocate_memory(&info, None)?;
+            self.device.bind_buffer_memory(raw, memory, 0)?;
+            self.made.borrow_mut().push(Made::Buffer(raw, memory));
+            let mapped = self.device.map_memory(memory, 0, vk::WHOLE_SIZE, vk::MemoryMapFlags::empty())?;
+            HostBuffer { raw, size: bytes.len() as u64, mapped: mapped.cast() }
+        };
+        buffer.write(values);
+        Ok(buffer)
+    }
+
+    /// A compute pipeline, its layout, and a set at number 0 with one buffer; `sets` are the layouts of sets 1 and up.
+    pub fn pipeline(
+        &self,
+        spirv: &[u32],
+        sets: &[vk::DescriptorSetLayout],
+        constants: &[(u32, u32)],
+        buffer: HostBuffer,
+    ) -> Result<(vk::Pipeline, vk::PipelineLayout, vk::DescriptorSet)> {
+        let device = &self.device;
+        let binding = vk::DescriptorSetLayoutBinding::default()
+            .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+            .descriptor_count(1)
+            .stage_flags(vk::ShaderStageFlags::COMPUTE);
+        let entries: Vec<_> = (0..constants.len())
+            .map(|k| vk::SpecializationMapEntry {
+                constant_id: constants[k].0,
+                offset: 4 * k as u32,
+                size: 4,
+            })
+            .collect();
+        let values: Vec<u8> = constants.iter().flat_map(|(_, bits)| bits.to_ne_bytes()).collect();
+        let constants = vk::SpecializationInfo::default().map_entries(&entries).data(&values);
+        // SAFETY: all is of this device, and what the calls point to outlives them.
+        unsafe {
+            let bindings = [binding];
+            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            let own = device.create_descriptor_set_layout(&info, None)?;
+            self.made.borrow_mut().push(Made::SetLayout(own));
+            let layouts: Vec<_> = std::iter::once(own).chain(sets.iter().copied()).collect();
+            let info = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts);
+            let layout = device.create_pipeline_layout(&info, None)?;
+            let module =
+                device.create_shader_module(&vk::ShaderModuleCreateInfo::default().code(spirv), None)?;
+            let stage = vk::PipelineShaderStageCreateInfo::default()
+                .stage(vk::ShaderStageFlags::COMPUTE)
+                .module(module)
+                .name(c"main")
+                .specialization_info(&constants);
+            let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
+            let pipelines = device
+                .create_compute_pipelines(vk::PipelineCache::null(), &[info], None)
+                .map_err(|(_, error)| error)?;
+            self.made.borrow_mut().push(Made::Pipeline(module, layout, pipelines[0]));
+            let sizes =
+                [vk::DescriptorPoolSize { ty: vk::DescriptorType::STORAGE_BUFFER, descriptor_count: 1 }];
+            let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+            let pool = device.create_descriptor_pool(&info, None)?;
+            self.made.borrow_mut().push(Made::Pool(pool));
+            let owns = [own];
+            let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&owns);
+            let set = device.allocate_descriptor_sets(&info)?[0];
+            let info = [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: 0, range: vk::WHOLE_SIZE }];
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(set)
+                .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                .buffer_info(&info);
+            device.update_descriptor_sets(&[write], &[]);
+            Ok((pipelines[0], layout, set))
+        }
+    }
+
+    /// An error where the validation layer complained, or hits are not the expected ones: all of them, or where
+    /// distances may differ by a `tolerance` 95 in 100.
+    pub fn compare(&self, found: &[Hit], expected: &[Hit], tolerance: f32) -> Result<()> {
+        let near = |a: &Hit, b: &Hit| a.is_hit() == b.is_hit() && (a.t - b.t).abs() < tolerance;
+        let same = found.iter().zip(expected).filter(|(a, b)| a == b || near(a, b)).count();
+        let hit = expected.iter().filter(|hit| hit.is_hit()).count();
+        println!("{hit} of {} rays hit, {same} answers are those of brute force", expected.len());
+        let enough = if tolerance > 0.0 { expected.len() * 95 / 100 } else { expected.len() };
+        let sound = same >= enough && hit > 100 && COMPLAINTS.load(Ordering::Relaxed) == 0;
+        sound.then_some(()).ok_or("hits differ, or the validation layer complained".into())
+    }
+
+    /// Triangles of the host as rasray takes them, in buffers of the host's.
+    pub fn geometry(&self, device: &Device, mesh: &Mesh, positions: HostBuffer) -> Result<Geometry> {
+        let triangle_count = mesh.indices.len() as u32 / 3;
+        let draws = [Draw { first_triangle: 0, triangle_count, instance: 0, flags: 0 }];
+        let desc = GeometryDesc {
+            positions: self.adopted(device, "positions", positions),
+            indices: self.adopted(device, "indices", self.buffer(&mesh.indices)?),
+            draws: self.adopted(device, "draws", self.buffer(&draws)?),
+            vertex_count: mesh.positions.len() as u32,
+            triangle_count,
+            draw_count: 1,
+            bounds: mesh.bounds,
+            frame_origin: [0.0; 3],
+        };
+        Ok(Geometry::new(device, desc)?)
+    }
+
+    /// A buffer of the host as rasray binds it.
+    pub fn adopted(&self, device: &Device, name: &str, buffer: HostBuffer) -> Buffer {
+        let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_DST | BufferUsage::TRANSFER_SRC;
+        // SAFETY: it was made so by `buffer`, and goes with the host, after all that was made from `device`.
+        unsafe { device.buffer_from_raw(&RawBuffer { name, raw: buffer.raw, size: buffer.size, usage }) }
+    }
+}
+
+impl HostBuffer {
+    /// Overwrites it from its start; the device must not be using it.
+    pub fn write<T: bytemuck::NoUninit>(&self, values: &[T]) {
+        let bytes: &[u8] = bytemuck::cast_slice(values);
+        assert!(bytes.len() as u64 <= self.size);
+        // SAFETY: the mapping is as long as the buffer, and `values` cannot overlap it.
+        unsafe { std::ptr::copy_nonoverlapping(bytes.as_ptr(), self.mapped, bytes.len()) };
+    }
+
+    /// All of it; the device must be done with it.
+    pub fn read<T: bytemuck::AnyBitPattern>(&self) -> Vec<T> {
+        // SAFETY: the mapping is as long as the buffer, and bytes are bytes.
+        let bytes = unsafe { std::slice::from_raw_parts(self.mapped, self.size as usize) };
+        bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
+    }
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        // SAFETY: the device is idle, all that was made from it elsewhere is gone, and each handle goes once.
+        unsafe {
+            let _ = self.device.device_wait_idle();
+            for made in self.made.take() {
+                match made {
+                    Made::Buffer(buffer, memory) => {
+                        self.device.destroy_buffer(buffer, None);
+                        self.device.free_memory(memory, None);
+                    }
+                    Made::SetLayout(layout) => self.device.destroy_descriptor_set_layout(layout, None),
+                    Made::Pool(pool) => self.device.destroy_descriptor_pool(pool, None),
+                    Made::Pipeline(module, layout, pipeline) => {
+                        self.device.destroy_pipeline(pipeline, None);
+                        self.device.destroy_pipeline_layout(layout, None);
+                        self.device.destroy_shader_module(module, None);
+                    }
+                }
+            }
+            for (_, fence) in &self.frames {
+                self.device.destroy_fence(*fence, None);
+            }
+            self.device.destroy_command_pool(self.pool, None);
+            self.device.destroy_device(None);
+            self.watcher.destroy_debug_utils_messenger(self.messenger, None);
+            self.instance.destroy_instance(None);
+        }
+    }
+}
+
+/// Triangles of the host.
+pub struct Mesh {
+    pub positions: Vec<[f32; 3]>,
+    pub indices: Vec<u32>,
+    pub bounds: [[f32; 3]; 2],
+}
+
+/// Upright steps of two triangles each, of which each is behind the one below.
+pub fn staircase(steps: u32) -> Mesh {
+    let (y, up) = (|k: u32| k as f32 / steps as f32, 1.0 / steps as f32);
+    let step = |k| [[0.0, y(k), y(k)], [1.0, y(k), y(k)], [0.0, y(k) + up, y(k)], [1.0, y(k) + up, y(k)]];
+    let positions = (0..steps).flat_map(step).collect();
+    let indices = (0..6 * steps).map(|k| 4 * (k / 6) + [0, 1, 2, 2, 1, 3][k as usize % 6]).collect();
+    Mesh { positions, indices, bounds: [[0.0; 3], [1.0, 1.001, 1.0]] }
+}
+
+/// Rays of which many meet stairs.
+pub fn rays() -> Vec<Ray> {
+    let origin = |k: u32| [0.1 + 0.0007 * k as f32, 0.0003 + 0.00099 * k as f32, -1.0];
+    (0..1000).map(|k| Ray::new(origin(k), [0.05, 0.01, 1.0])).collect()
+}

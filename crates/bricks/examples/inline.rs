@@ -1,0 +1,142 @@
+//! Bricks in the frames of a host: its own buffers, two frames in flight, triangles that move, and a compute shader of its
+//! own that traces on the spot. Every frame is compared with brute force.
+
+use std::path::Path;
+
+use rasray_ads::{BruteForce, Check, Domain, Geometry, Hit, Ray, RayQueue, Structure, TraceMode};
+use rasray_bricks::{Bricks, Config, Views};
+use rasray_gpu::{Access, Device, Recorded, Recorder, vk};
+use rasray_shader_compiler::{Module, compile};
+
+#[path = "../../ads/examples/host/mod.rs"]
+mod host;
+
+use host::{FRAMES, Host, HostBuffer, Mesh, Result, staircase};
+
+/// Pixels along a side, as in `inline.comp`.
+const SIDE: u32 = 32;
+
+/// Frames of the program.
+const COUNT: usize = 12;
+
+/// What one frame in flight has to itself.
+struct Slot {
+    positions: HostBuffer,
+    geometry: Geometry,
+    bricks: Bricks,
+    /// What the shader of the host finds.
+    found: HostBuffer,
+    pipeline: (vk::Pipeline, vk::PipelineLayout, vk::DescriptorSet),
+    judge: BruteForce,
+    rays: RayQueue,
+    /// What brute force finds.
+    expected: HostBuffer,
+    /// What the device may still be using.
+    recorded: Option<Recorded>,
+}
+
+/// Runs the program; an error where hits differ, too few frames are complete or the validation layer complains.
+pub fn main() -> Result<()> {
+    let config = Config::new(Views::Axes);
+    let enabled = Bricks::requirements_of(&config).required;
+    let host = Host::new(&enabled)?;
+    // SAFETY: the device was made with these features, by the host, which goes last.
+    let device = unsafe { Device::from_raw(host.raw_device(&enabled)) }?;
+    let mut mesh = staircase(200);
+    // Of all frames.
+    mesh.bounds[1][0] += 1.0;
+    let shader = Module { entry: "inline.comp", defines: &[] };
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let spirv = compile(&[&own, Path::new(rasray_shaders_glsl::ROOT)], &shader)?;
+    let mut slots = Vec::new();
+    for _ in 0..FRAMES {
+        slots.push(Slot::new(&host, &device, &mesh, &spirv)?);
+    }
+    let complete = frames(&host, &device, &mesh, &mut slots);
+    // Also after an error: slots may go only when the device is done with them.
+    host.wait_for_all()?;
+    let complete = complete?;
+    println!("{complete} of {COUNT} frames were complete");
+    // The first of each slot may find pools too small.
+    if complete >= COUNT - 4 { Ok(()) } else { Err("too few frames were complete".into()) }
+}
+
+/// The loop of the host: how many frames were complete.
+fn frames(host: &Host, device: &Device, mesh: &Mesh, slots: &mut [Slot]) -> Result<usize> {
+    let mut complete = 0;
+    for frame in 0..COUNT + FRAMES {
+        let (number, slot) = (frame % FRAMES, &mut slots[frame % FRAMES]);
+        host.wait(number)?;
+        complete += usize::from(slot.finish(host, device)?);
+        if frame < COUNT {
+            let moved = mesh.positions.iter().map(|[x, y, z]| [x + frame as f32 / 16.0, *y, *z]);
+            slot.positions.write(&moved.collect::<Vec<_>>());
+            slot.recorded = Some(host.submit(number, |commands| slot.record(host, device, commands))?);
+        }
+    }
+    Ok(complete)
+}
+
+impl Slot {
+    fn new(host: &Host, device: &Device, mesh: &Mesh, spirv: &[u32]) -> Result<Self> {
+        let positions = host.buffer(&mesh.positions)?;
+        let geometry = host.geometry(device, mesh, positions)?;
+        let bricks = Bricks::new(device, Config::new(Views::Axes), &geometry, None)?;
+        let inline = bricks.inline_trace().ok_or("bricks can be traced on the spot")?;
+        let unanswered = vec![[0_u32; 4]; (SIDE * SIDE) as usize];
+        let found = host.buffer(&unanswered)?;
+        let sets = [geometry.layout().raw(), inline.layout.raw()];
+        let pipeline = host.pipeline(spirv, &sets, &inline.constants, found)?;
+        let judge = BruteForce::new(device, &geometry, None, false)?;
+        let rays = RayQueue::new(device, "rays", SIDE * SIDE, false)?;
+        let origin = |k: u32| [(k % SIDE) as f32 / SIDE as f32, (k / SIDE) as f32 / SIDE as f32, -1.0];
+        let ray = |k| Ray { t_max: 4.0, ..Ray::new(origin(k), [0.0625, 0.03125, 1.0]) };
+        device.upload_slice(rays.rays(), 0, &(0..SIDE * SIDE).map(ray).collect::<Vec<_>>())?;
+        let expected = host.buffer(&unanswered)?;
+        Ok(Self { positions, geometry, bricks, found, pipeline, judge, rays, expected, recorded: None })
+    }
+
+    /// Records a build, the shader of the host, and brute force.
+    fn record(&mut self, host: &Host, device: &Device, commands: vk::CommandBuffer) -> Result<Recorded> {
+        // SAFETY: the command buffer is being recorded by nobody else, and what this returns is kept until the host has
+        // waited for the frame.
+        let mut recorder = unsafe { Recorder::from_raw(device, commands) };
+        self.bricks.record_build(&mut recorder, 0, [0.5; 3].into())?;
+        let (pipeline, layout, own) = self.pipeline;
+        let inline = self.bricks.inline_trace().ok_or("bricks can be traced on the spot")?;
+        let set = inline.set.ok_or("bricks are reached through a set")?;
+        let (sets, point) = ([own, self.geometry.set().raw(), set.raw()], vk::PipelineBindPoint::COMPUTE);
+        // SAFETY: the layout is that of these sets, and a build ends with a barrier towards compute shaders.
+        unsafe {
+            host.device.cmd_bind_pipeline(commands, point, pipeline);
+            host.device.cmd_bind_descriptor_sets(commands, point, layout, 0, &sets, &[]);
+            host.device.cmd_dispatch(commands, SIDE / 8, SIDE / 8, 1);
+        }
+        self.rays.record_reset(&mut recorder);
+        self.judge.record_build(&mut recorder, 0, [0.5; 3].into())?;
+        let (count, rounds) = (self.rays.capacity(), self.judge.rounds());
+        self.judge.record_trace(&mut recorder, &self.rays, Domain::First(count), TraceMode::Closest, rounds);
+        let expected = host.adopted(device, "expected", self.expected);
+        recorder.copy(self.rays.hits(), 0, &expected, 0, expected.size());
+        recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::HOST_READ);
+        Ok(recorder.finish()?)
+    }
+
+    /// What a frame that was waited for left behind: whether it was complete; then hits are those of brute force.
+    fn finish(&mut self, host: &Host, device: &Device) -> Result<bool> {
+        if self.recorded.take().is_none() {
+            return Ok(false);
+        }
+        // With headroom, as the next frames may ask for a little more.
+        match self.bricks.check(&self.bricks.status(0)?, 50)? {
+            Check::Complete => {
+                host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>(), 0.0)?;
+                Ok(true)
+            }
+            Check::Grow(sizes) => {
+                self.bricks.resize(device, &sizes)?;
+                Ok(false)
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! Compiled modules in a folder: `prebuilt`, as packages have it.
+//!
+//! `modules.txt` beside the modules says of which GLSL and with which features they were made, and names each with a
+//! hash of its bytes.
+
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use crate::{feature_is_on, packed, read, write_changed};
+
+/// A module that was compiled.
+pub(crate) struct Built {
+    /// Its name in the permutation list.
+    pub(crate) name: String,
+    /// Entry file relative to the root.
+    pub(crate) entry: String,
+    /// Features that it is there with.
+    pub(crate) features: Vec<String>,
+}
+
+/// The file that holds a module's SPIR-V.
+pub(crate) fn file_of(name: &str) -> String {
+    format!("{}.spv", name.replace('/', "."))
+}
+
+/// The file that holds it in a folder of modules.
+fn packed_file_of(name: &str) -> String {
+    format!("{}.packed", name.replace('/', "."))
+}
+
+/// FNV-1a: tells files that differ by mistake apart, not by intent.
+pub(crate) fn hash(bytes: &[u8]) -> u64 {
+    bytes
+        .iter()
+        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// Features that are on and decide which modules there are.
+fn features() -> BTreeSet<String> {
+    let on = std::env::vars_os().filter_map(|(name, _)| name.into_string().ok());
+    let on =
+        on.filter_map(|name| Some(name.strip_prefix("CARGO_FEATURE_")?.to_lowercase().replace('_', "-")));
+    on.filter(|feature| !["default", "compile", "debug-shaders"].contains(&feature.as_str())).collect()
+}
+
+/// Makes a folder of the modules in `out`.
+pub(crate) fn write_prebuilt(
+    folder: &Path,
+    out: &Path,
+    sources: u64,
+    modules: &[Built],
+) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let features = Vec::from_iter(features()).join(" ");
+    let mut text = format!("sources {sources:016x}\nfeatures {features}\n");
+    for Built { name, entry, features } in modules {
+        let path = out.join(file_of(name));
+        let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let words: Vec<_> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let packed = packed::pack(&words).ok_or_else(|| format!("{name} is no SPIR-V"))?;
+        write_changed(&folder.join(packed_file_of(name)), &packed)?;
+        let _ = writeln!(text, "module {name} {entry} {} {:016x}", features.join("+"), hash(&packed));
+    }
+    write_changed(&folder.join("modules.txt"), text.as_bytes())
+}
+
+/// What a folder of modules says of itself.
+pub(crate) struct Index {
+    sources: u64,
+    features: BTreeSet<String>,
+    /// With the hashes of their files.
+    modules: Vec<(Built, u64)>,
+}
+
+impl Index {
+    pub(crate) fn read(folder: &Path) -> Result<Self, String> {
+        let path = folder.join("modules.txt");
+        let mut index = Self { sources: 0, features: BTreeSet::new(), modules: Vec::new() };
+        for line in read(&path)?.lines() {
+            let words: Vec<_> = line.split_whitespace().collect();
+            let number = |word: &str| {
+                u64::from_str_radix(word, 16).map_err(|e| format!("{}: {line}: {e}", path.display()))
+            };
+            match words[..] {
+                ["sources", sources] => index.sources = number(sources)?,
+                ["features", ref features @ ..] => {
+                    index.features = features.iter().map(|&f| f.to_owned()).collect()
+                }
+                ["module", name, entry, features, hash] => {
+                    let features = features.split('+').map(str::to_owned).collect();
+                    let built = Built { name: name.to_owned(), entry: entry.to_owned(), features };
+                    index.modules.push((built, number(hash)?));
+                }
+                _ => return Err(format!("{}: cannot read `{line}`", path.display())),
+            }
+        }
+        Ok(index)
+    }
+
+    /// Features that are on and that no module was made with.
+    pub(crate) fn lacks(&self) -> Vec<String> {
+        features().difference(&self.features).cloned().collect()
+    }
+
+    /// Unpacks those modules to `out` whose features are on.
+    ///
+    /// # Errors
+    /// They were made of other sources than those, or one is not what it was.
+    pub(crate) fn take(self, folder: &Path, out: &Path, sources: u64) -> Result<Vec<Built>, String> {
+        if self.sources != sources {
+            return Err("they were made of other GLSL than what lies beside them".to_owned());
+        }
+        let is_on = |module: &Built| module.features.iter().all(|feature| feature_is_on(feature));
+        let modules = self.modules.into_iter().filter(|(module, _)| is_on(module));
+        let unpacked = modules.map(|(module, expected)| {
+            let file = packed_file_of(&module.name);
+            let packed = std::fs::read(folder.join(&file)).map_err(|e| format!("{file}: {e}"))?;
+            let words = Some(packed).filter(|packed| hash(packed) == expected);
+            let words = words.and_then(|packed| packed::unpack(&packed));
+            let words = words.ok_or_else(|| format!("{file} is not what was compiled"))?;
+            let bytes: Vec<_> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            write_changed(&out.join(file_of(&module.name)), &bytes)?;
+            Ok(module)
+        });
+        unpacked.collect()
+    }
+}
