@@ -2,11 +2,10 @@
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
-use crate::design::default_work_budget;
 use crate::{
     Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
     SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
-    TraceMode, Viewpoint,
+    TraceMode, Viewpoint, default_work_budget,
 };
 
 /// Tests every triangle: O(rays x triangles), no memory of its own.

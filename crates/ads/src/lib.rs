@@ -47,7 +47,7 @@ pub use box_cells::BoxCells;
 pub use brute_force::BruteForce;
 pub use centre::centre_within;
 pub use counters::Counters;
-pub use design::{Common, Demand, Design, Outcome, Parts, PoolBytes};
+pub use design::{Common, Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
 pub use geometry::{Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};

@@ -5,12 +5,11 @@ use std::sync::{Mutex, PoisonError};
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
-use crate::design::default_work_budget;
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Dependencies, Design, Domain,
     Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
     RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
-    TraceKernelsDesc, TraceMode, Viewpoint,
+    TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
 
 /// A structure of a header, pools and the passes of its design.
