@@ -78,10 +78,23 @@ impl<C> Parts<C> {
         units.div_ceil(self.work_budget)
     }
 
+    /// Dispatches that nearly every ray is finished in which reads no list longer than most: 16 with the budget of
+    /// software drivers, 2 with that of others.
+    pub fn usual_rounds(&self) -> u32 {
+        usual_rounds(self.work_budget)
+    }
+
     /// What passes work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, scene }
     }
+}
+
+/// 16 dispatches of the smaller budget; with a larger one those in which as much is done, and one for the rays that pause
+/// at the end of the last.
+fn usual_rounds(work_budget: u32) -> u32 {
+    const SMALL: u32 = 16;
+    ((SMALL * TRACE_WORK_BUDGET).div_ceil(work_budget) + 1).min(SMALL)
 }
 
 /// What one structure says of itself; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
@@ -242,4 +255,16 @@ pub trait Design: fmt::Debug + Sized {
 
     /// Header and other pools to write back, with their bytes.
     fn pools_of(contents: &Self::Contents) -> (Self::Header, PoolBytes<'_, Self::Pool>);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_follow_the_budget() {
+        assert_eq!([1, 64, TRACE_WORK_BUDGET].map(usual_rounds), [16; 3]);
+        assert_eq!(usual_rounds(HARDWARE_WORK_BUDGET), 2);
+        assert_eq!(usual_rounds(u32::MAX), 2);
+    }
 }

@@ -173,7 +173,7 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell's conservative list may hold everything: a small object in a large world.
-        16 + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
+        parts.usual_rounds() + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
