@@ -20,7 +20,8 @@ pub struct Pooled<D: Design> {
     kernels: TraceKernels,
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
-    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build.
+    /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build, also where
+    /// triangles or pools are others by now: frames that follow each other ask for much the same.
     known: Mutex<D::Header>,
 }
 
@@ -108,11 +109,6 @@ impl<D: Design> Pooled<D> {
         *self.known.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn forget(&mut self) {
-        self.known = Mutex::new(bytemuck::Zeroable::zeroed());
-        self.design.forget();
-    }
-
     /// Downloads what rays read, for checks. Submits and waits: for tests and tools.
     ///
     /// # Errors
@@ -165,7 +161,7 @@ impl<D: Design> Structure for Pooled<D> {
         }
         D::accepts(&self.parts.config, sizes)?;
         self.parts.pools.resize(device, sizes)?;
-        self.forget();
+        self.design.forget();
         Ok(())
     }
 
@@ -174,7 +170,7 @@ impl<D: Design> Structure for Pooled<D> {
             self.resize(device, &sizes)?;
         }
         self.parts.geometry = geometry.clone();
-        self.forget();
+        self.design.forget();
         Ok(())
     }
 
