@@ -2,6 +2,7 @@
 
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
+use rasray_gpu::PassCommands;
 use rasray_report::Device;
 use std::ops::ControlFlow;
 
@@ -111,6 +112,10 @@ pub trait Backend {
         job: &HardJob<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<Comparison, ExperimentError>;
+
+    /// What the structure of a job records for a build that is complete, for traces of both kinds and for surfaces,
+    /// pass by pass.
+    fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError>;
 
     /// Describes the device.
     fn info(&mut self) -> Result<DeviceDescription, ExperimentError>;

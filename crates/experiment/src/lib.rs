@@ -27,6 +27,7 @@ mod images;
 mod jobs;
 mod judge;
 mod measured;
+mod pass_list;
 mod passes;
 mod placed;
 mod rays;
@@ -56,6 +57,7 @@ pub use jobs::{
 pub use judge::device_hits;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
+pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use renderer::open;
 pub use scene_source::{LoadedScene, load};

@@ -87,6 +87,12 @@ impl Backend for Renderer {
         Ok(comparison)
     }
 
+    fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<rasray_gpu::PassCommands>, ExperimentError> {
+        let passes = crate::pass_list::pass_list(&self.device, job)?;
+        self.check_validation()?;
+        Ok(passes)
+    }
+
     fn info(&mut self) -> Result<DeviceDescription, ExperimentError> {
         crate::describe::describe(&self.device)
     }

@@ -95,7 +95,7 @@ pub use pipeline::{ComputePipeline, RasterPipeline};
 pub use pipeline_desc::{ComputePipelineDesc, RasterOptions, RasterPipelineDesc};
 pub use queue::{SubmitOptions, Submitted};
 pub use raw::RawDevice;
-pub use recorder::{Recorded, Recorder, RenderArea};
+pub use recorder::{PassCommands, Recorded, Recorder, RenderArea};
 pub use set_layout::SetLayout;
 pub use spirv::storage_buffers_used;
 pub use timers::{PassTiming, TimerKind, Timers, Timing};

@@ -1,6 +1,7 @@
 //! Recording into a command buffer.
 
 mod bind;
+mod commands_of_pass;
 mod compute;
 mod raster;
 mod transfer;
@@ -19,6 +20,7 @@ use crate::queue::OneTime;
 use crate::timers::{PassTiming, TimerKind, Timers};
 
 use self::bind::State;
+pub use self::commands_of_pass::PassCommands;
 pub use self::raster::RenderArea;
 
 /// Records commands into a command buffer. It never submits, waits or allocates device memory.
@@ -34,6 +36,8 @@ pub struct Recorder<'a> {
     error: Option<GpuError>,
     /// The pass being recorded, with its timer.
     pass: Option<(String, Option<u32>)>,
+    /// What was recorded in each pass so far.
+    passes: Vec<PassCommands>,
     rendering: Option<RenderArea>,
     state: State,
     timers: Option<Timers>,
@@ -79,6 +83,7 @@ impl<'a> Recorder<'a> {
             command,
             error: None,
             pass: None,
+            passes: Vec::new(),
             rendering: None,
             state: State::default(),
             timers: None,
@@ -100,6 +105,7 @@ impl<'a> Recorder<'a> {
             command: work.command(),
             error: None,
             pass: None,
+            passes: Vec::new(),
             rendering: None,
             state: State::default(),
             timers,
@@ -169,6 +175,7 @@ impl<'a> Recorder<'a> {
         if let Some(timers) = &self.timers {
             self.keep(timers.kept());
         }
+        self.passes.push(PassCommands::of(label));
         self.pass = Some((label.to_owned(), timer));
     }
 

@@ -1,7 +1,12 @@
 //! Options of `rasray info`.
 
 use super::shared::{DeviceArguments, IntegratorName};
+use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::systems;
+use crate::error::AppError;
 use clap::Args;
+use rasray_experiment::SystemConfig;
+use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 
 const AFTER_HELP: &str = "\
@@ -9,9 +14,11 @@ Examples:
   rasray info
   rasray info scene.glb --integrator ao
   rasray info scene.glb --json
+  rasray info scene.glb --passes --system mmrt --storage dll
 
 Without a scene: the devices, what the one in use offers, and which way each structure takes on it.
-With a scene: what is in it, its cameras and the view where none is named, and what of it an image can show.";
+With a scene: what is in it, its cameras and the view where none is named, and what of it an image can show.
+With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.";
 
 /// Options of `rasray info`.
 #[derive(Debug, Args)]
@@ -23,10 +30,42 @@ pub struct InfoArguments {
     /// With a scene: the integrator whose needs are shown
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,
+    /// With a scene: the passes of a structure and how many dispatches and draws each records
+    #[arg(long, requires = "scene")]
+    pub passes: bool,
+    /// With --passes: the structure
+    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name, requires = "passes")]
+    pub system: &'static System,
+    /// With --passes: how closely it follows its paper
+    #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name(), requires = "passes")]
+    pub preset: Preset,
     /// The same as JSON
     #[arg(long)]
     pub json: bool,
+    /// With --passes: options of the structure.
+    #[command(flatten)]
+    pub structure: StructureArguments,
     /// Where the work is done.
     #[command(flatten)]
     pub device: DeviceArguments,
+}
+
+impl InfoArguments {
+    /// The system whose passes are wanted.
+    ///
+    /// # Errors
+    /// A preset or an option that the system does not have, a value that it does not take, or options where no passes are
+    /// wanted.
+    pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
+        if self.passes {
+            return systems::single(self.system, self.preset, &self.structure.0).map(Some);
+        }
+        match self.structure.0.given().keys().next() {
+            Some(option) => Err(AppError::usage(
+                format!("--{option} is an option of a structure, and no structure is asked for"),
+                "add --passes, or leave it out",
+            )),
+            None => Ok(None),
+        }
+    }
 }

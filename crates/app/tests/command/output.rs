@@ -192,6 +192,21 @@ fn info_is_data_too() {
     assert_eq!(info["limits"]["storage buffer"], "128 MiB");
     assert_eq!(info["features"][0]["required"], true);
     assert_eq!(info["paths"][0]["chosen"], "descriptor");
+    let passes = json("info cornell --passes --system mmrt --storage dll --json");
+    assert_eq!(passes["passes"][0]["label"], "mmrt/build_0_header");
+    assert_eq!((&passes["passes"][0]["workgroups"], &passes["passes"][0]["draws"]), (&7.into(), &0.into()));
+    let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell --passes"))).expect("text");
+    assert!(text.trim_start().starts_with("pass ") && text.contains("bricks/build_0_header"), "{text}");
+    for (line, words) in [
+        ("info cornell --storage dll", "--storage is an option of a structure"),
+        ("info cornell --passes --storage dll", "system bricks has no option --storage"),
+        ("info cornell --system mmrt", "--passes"),
+        ("info --passes", "SCENE"),
+    ] {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}");
+        assert!(stderr(&output).contains(words), "{line}: {}", stderr(&output));
+    }
     let text = String::from_utf8(stdout(&rasray(folder.path(), "info cornell"))).expect("text");
     for words in ["default view", "cameras\n  0  ", "perspective", "--eye "] {
         assert!(text.contains(words), "{words}: {text}");

@@ -20,6 +20,10 @@ impl Recorder<'_> {
         // SAFETY: recording, outside of rendering, with a compute pipeline and within the limits; the caller has
         // bound what the shader reads (validation checks it).
         unsafe { self.raw_device().cmd_dispatch(self.command, groups[0], groups[1], groups[2]) };
+        self.count(|pass| {
+            pass.dispatches += 1;
+            pass.workgroups += groups.into_iter().map(u64::from).product::<u64>();
+        });
     }
 
     /// Runs the bound compute pipeline on a number of workgroups read from three u32 in a buffer, at an offset
@@ -34,5 +38,6 @@ impl Recorder<'_> {
         }
         // SAFETY: as for `dispatch`; the arguments lie within a buffer made for them.
         unsafe { self.raw_device().cmd_dispatch_indirect(self.command, buffer.raw(), offset) };
+        self.count(|pass| pass.indirect += 1);
     }
 }

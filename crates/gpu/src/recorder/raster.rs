@@ -82,6 +82,10 @@ impl Recorder<'_> {
         // SAFETY: recording, within rendering, with a raster pipeline of the same views; the caller has bound
         // what the shaders read (validation checks it).
         unsafe { self.raw_device().cmd_draw(self.command, vertices, instances, 0, first_instance) };
+        self.count(|pass| {
+            pass.draws += 1;
+            pass.vertices += u64::from(vertices) * u64::from(instances);
+        });
     }
 
     /// Draws with four u32 read from a buffer (vertices, instances, 0, 0), at an offset that is a multiple of 4.
@@ -91,6 +95,7 @@ impl Recorder<'_> {
         }
         // SAFETY: as for `draw`; the arguments lie within a buffer made for them.
         unsafe { self.raw_device().cmd_draw_indirect(self.command, buffer.raw(), offset, 1, 16) };
+        self.count(|pass| pass.indirect += 1);
     }
 
     /// Ends drawing.

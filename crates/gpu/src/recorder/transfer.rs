@@ -24,6 +24,7 @@ impl Recorder<'_> {
         self.keep(buffer.inner.clone());
         // SAFETY: recording, outside of rendering; range, alignment and usage were checked.
         unsafe { self.raw_device().cmd_fill_buffer(self.command, buffer.raw(), offset, size, value) };
+        self.count(|pass| pass.transfers += 1);
     }
 
     /// Writes bytes to a buffer. They travel within the command buffer, so that each recording has its own; offset and
@@ -47,6 +48,7 @@ impl Recorder<'_> {
         self.keep(buffer.inner.clone());
         // SAFETY: recording, outside of rendering; range, alignment, length and usage were checked.
         unsafe { self.raw_device().cmd_update_buffer(self.command, buffer.raw(), offset, bytes) };
+        self.count(|pass| pass.transfers += 1);
     }
 
     /// Copies bytes between buffers, or within one if the ranges do not overlap.
@@ -79,5 +81,6 @@ impl Recorder<'_> {
         let region = vk::BufferCopy::default().src_offset(source_offset).dst_offset(target_offset).size(size);
         // SAFETY: recording, outside of rendering; ranges, usages and overlap were checked.
         unsafe { self.raw_device().cmd_copy_buffer(self.command, source.raw(), target.raw(), &[region]) };
+        self.count(|pass| pass.transfers += 1);
     }
 }

@@ -46,6 +46,38 @@ fn a_dispatch_gives_the_same_values_under_every_timing() {
     finish(device);
 }
 
+#[test]
+fn a_recorder_says_what_each_pass_is_made_of() {
+    let device = device();
+    let scale = Scale::new(&device, 256);
+    let arguments = storage(&device, "arguments", 16);
+    device.upload_slice(&arguments, 0, &[2_u32, 1, 1, 0]).expect("upload");
+    let submitted = device
+        .submit(|recorder| {
+            recorder.fill(&arguments, 12, 4, 7);
+            scale.bind(recorder, 1);
+            recorder.begin_pass("one");
+            recorder.dispatch([2, 1, 1]);
+            recorder.dispatch([1, 1, 1]);
+            recorder.end_pass();
+            recorder.dispatch([1, 1, 1]);
+            recorder.begin_pass("two");
+            recorder.fill(&arguments, 12, 4, 7);
+            recorder.dispatch_indirect(&arguments, 0);
+            recorder.end_pass();
+            recorder.passes().to_vec()
+        })
+        .expect("submission");
+    let pass = |label: &str| PassCommands { label: label.to_owned(), ..PassCommands::default() };
+    let expected = [
+        PassCommands { dispatches: 2, workgroups: 3, ..pass("one") },
+        PassCommands { indirect: 1, transfers: 1, ..pass("two") },
+    ];
+    assert_eq!(submitted.value, expected);
+    drop((scale, arguments));
+    finish(device);
+}
+
 /// A set has what a pipeline uses, whichever was made first, and beside it what others use.
 #[test]
 fn a_pipeline_has_the_bindings_that_its_shader_uses() {

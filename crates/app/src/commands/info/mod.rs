@@ -1,6 +1,7 @@
 //! `rasray info`.
 
 mod device;
+mod passes;
 mod rows;
 mod scene;
 mod texels;
@@ -9,22 +10,28 @@ use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{Frame, OpenBackend, Sampler, default_view, load};
+use rasray_experiment::{AovSelection, Frame, OpenBackend, RenderJob, Sampler, default_view, load};
 use rasray_report::json_shown;
+use rasray_scene::needs::Needs;
 use serde_json::Value;
 
-use super::steps::open_device;
+use super::steps::{fit_images, open_device};
 use device::{device_json, device_text};
+use passes::{passes_json, passes_text};
 use scene::SceneInfo;
 
 /// What the JSON is; fields are only ever added to version 1.
 const SCHEMA: &str = "rasray-info/1";
 
-/// Shows a scene, or without one the device.
+/// Images of the views that passes are listed for: where a structure draws the camera's view, as many cells.
+const SIDE: u32 = 512;
+
+/// Shows a scene, the passes of a structure on it, or without a scene the device.
 ///
 /// # Errors
-/// A scene that cannot be read, or no suitable device.
+/// A scene that cannot be read, no suitable device, or options that no structure asks for.
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
+    let system = given.system()?;
     if let Some(name) = &given.scene {
         let mut loaded = during("scene", "reading", || load(name))?;
         let frame = Frame {
@@ -36,6 +43,25 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             sampler: Sampler::Sobol,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
+        if let Some(system) = system {
+            loaded.light(None);
+            let frame = Frame { width: SIDE, height: SIDE, ..frame };
+            let system = system.serving(frame.workload()).seen_by(&view.camera, SIDE, SIDE);
+            let mut backend = open_device(open, &given.device)?;
+            let needs = Needs::of(&loaded.scene, frame.workload());
+            fit_images(&mut loaded, &needs, backend.as_ref())?;
+            let job = RenderJob {
+                scene: &loaded.scene,
+                camera: view.camera,
+                system,
+                frame,
+                aovs: AovSelection::default(),
+                needs,
+                repetitions: 0,
+            };
+            let passes = during("passes", "building", || backend.passes(&job))?;
+            return show(given.json, || passes_json(&passes), || passes_text(&passes));
+        }
         let room = || open_device(open, &given.device).map(|backend| backend.texel_room());
         let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
         show(given.json, || info.json(), || info.text())?;

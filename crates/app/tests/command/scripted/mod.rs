@@ -5,7 +5,7 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    HardJob, OnProgress, Progress, RenderJob, RenderOutput, TexelRoom,
+    HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelRoom,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -74,6 +74,17 @@ impl Backend for Scripted {
             }),
             ..Default::default()
         })
+    }
+
+    fn passes(&mut self, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
+        let label = format!("{}/build_0_header", job.system.system.name);
+        Ok(vec![PassCommands {
+            label,
+            dispatches: 2,
+            workgroups: 7,
+            transfers: 1,
+            ..PassCommands::default()
+        }])
     }
 
     fn compare(

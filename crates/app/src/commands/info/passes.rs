@@ -1,0 +1,38 @@
+//! What a structure records for a scene, pass by pass.
+
+use rasray_experiment::PassCommands;
+use rasray_report::{columns, grouped};
+use serde_json::{Value, json};
+
+pub(super) fn passes_json(passes: &[PassCommands]) -> Value {
+    let rows = passes.iter().map(|pass| {
+        json!({
+            "label": pass.label,
+            "dispatches": pass.dispatches,
+            "workgroups": pass.workgroups,
+            "indirect": pass.indirect,
+            "draws": pass.draws,
+            "vertices": pass.vertices,
+            "transfers": pass.transfers,
+        })
+    });
+    json!({ "passes": rows.collect::<Vec<_>>() })
+}
+
+pub(super) fn passes_text(passes: &[PassCommands]) -> String {
+    let head = ["pass", "dispatches", "workgroups", "indirect", "draws", "vertices", "transfers"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(passes.iter().map(|pass| {
+        let counts = [
+            pass.dispatches.into(),
+            pass.workgroups,
+            pass.indirect.into(),
+            pass.draws.into(),
+            pass.vertices,
+            pass.transfers.into(),
+        ];
+        let shown = counts.iter().map(|count| if *count == 0 { String::new() } else { grouped(*count) });
+        std::iter::once(pass.label.clone()).chain(shown).collect()
+    }));
+    columns(&rows, 1)
+}

@@ -1,0 +1,38 @@
+//! The passes of a structure on a scene: what a build, a trace and a surface lookup record.
+
+use rasray_ads::{Domain, RayQueue, TraceMode};
+use rasray_gpu::{Device, PassCommands};
+
+use crate::error::ExperimentError;
+use crate::jobs::RenderJob;
+use crate::stage::{Built, Stage, device_error};
+
+/// Rays of the traces that are listed: as few as there can be, since their number is no matter of the structure.
+const RAYS: u32 = 1;
+
+/// Builds until complete, so that sizes are those of the scene, and says what one more build records, then traces of both
+/// kinds and the lookup of surfaces.
+pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
+    let frame = job.frame;
+    let spec = job.system.spec()?;
+    let size = [frame.width, frame.height];
+    let stage = Stage::new(device, job.scene, &job.camera, size, frame.seed, &job.needs)?;
+    let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
+    let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
+    let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());
+    let structure = built.structure.as_mut();
+    structure.prepare_build(device).map_err(device_error)?;
+    let rounds = structure.rounds();
+    let submitted = device
+        .submit(|recorder| {
+            queue.record_reset(recorder);
+            structure.record_build(recorder, 0, viewpoint)?;
+            let all = Domain::First(RAYS);
+            structure.record_trace(recorder, &queue, all, TraceMode::Closest, rounds);
+            structure.record_trace(recorder, &queue, all, TraceMode::Occluded, rounds);
+            structure.record_surfaces(recorder, &queue, all)?;
+            Ok::<_, rasray_ads::AdsError>(recorder.passes().to_vec())
+        })
+        .map_err(device_error)?;
+    submitted.value.map_err(device_error)
+}
