@@ -88,12 +88,16 @@ mod tests {
 
     #[test]
     fn packed_modules_are_the_same_once_unpacked() {
+        let (mut bytes, mut packed_bytes) = (0, 0);
         for shader in ALL {
             let packed = packed::pack(shader.words()).expect("it is SPIR-V");
+            bytes += size_of_val(shader.words());
+            packed_bytes += packed.len();
             assert_eq!(packed::unpack(&packed).as_deref(), Some(shader.words()), "{}", shader.name);
-            assert!(packed.len() < size_of_val(shader.words()) * 2 / 3, "{}", shader.name);
             assert_eq!(packed::unpack(&packed[..packed.len() - 1]), None, "{}", shader.name);
         }
+        // Packages hold modules without names and source text, whose bytes are no numbers.
+        assert!(cfg!(feature = "debug-shaders") || packed_bytes < bytes * 2 / 3, "{packed_bytes} of {bytes}");
         assert!(!ALL.is_empty() && packed::pack(&[1, 2, 3, 4, 5, 0]).is_none());
         // Numbers of every size, and an instruction whose end is missing.
         let words = [1, 2, 3, 4, 5, 4 << 16 | 400, u32::MAX, 0, 70_000];
