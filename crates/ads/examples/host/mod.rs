@@ -1,7 +1,10 @@
 //! The host of the examples: a small renderer with a Vulkan instance, device, queue, command buffers and buffers of its
-//! own, and some triangles. Only [`Host::raw_device`] and [`Host::geometry`] know of rasray: they say what it is handed.
+//! own, and some triangles. [`Host::raw_device`] and [`Host::geometry`] say what rasray is handed; `hits.rs` is the loop that
+//! builds and traces.
 
 #![allow(dead_code)] // Each example uses some of it.
+
+pub mod hits;
 
 use std::cell::RefCell;
 use std::error::Error;

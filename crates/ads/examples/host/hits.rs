@@ -1,0 +1,37 @@
+//! A structure in the command buffers of the host, the same for every one: built, traced, and grown where a build asks for
+//! more room.
+
+use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, TraceMode};
+use rasray_gpu::{Device, Recorder};
+
+use super::{Host, Result, rays};
+
+/// Builds and traces in one command buffer of the host; once more where a build asks for more room.
+pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Result<Vec<Hit>> {
+    let rays = rays();
+    let queue = RayQueue::new(device, "rays", rays.len() as u32, false)?;
+    device.upload_slice(queue.rays(), 0, &rays)?;
+    loop {
+        structure.prepare_build(device)?;
+        let recorded = host.submit(0, |commands| {
+            // SAFETY: the command buffer is being recorded by nobody else, and `recorded` outlives the wait below.
+            let mut recorder = unsafe { Recorder::from_raw(device, commands) };
+            queue.record_reset(&mut recorder);
+            structure.record_build(&mut recorder, 0, [0.5, 0.5, -0.5].into())?;
+            structure.record_trace(
+                &mut recorder,
+                &queue,
+                Domain::First(1000),
+                TraceMode::Closest,
+                structure.rounds(),
+            );
+            Ok(recorder.finish()?)
+        })?;
+        host.wait(0)?;
+        drop(recorded);
+        match structure.check(&structure.status(0)?, 0)? {
+            Check::Complete => return Ok(device.download_as(queue.hits(), 0, rays.len())?),
+            Check::Grow(sizes) => structure.resize(device, &sizes)?,
+        }
+    }
+}
