@@ -150,8 +150,7 @@ impl Bench {
         let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
         let surfaces =
             device.download_as::<Surface>(queue.surfaces(), 0, rays.len()).expect("the device works");
-        let header = device.download_as(queue.header(), 0, 1).expect("the device works");
-        let counters = RayQueue::counters(&header[0]);
+        let counters = queue.download_counters(device).expect("the device works");
         assert_eq!((counters.unfinished, counters.not_ready, counters.corrupted), (0, 0, 0));
         hits.into_iter().zip(surfaces).collect()
     }

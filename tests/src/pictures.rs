@@ -1,6 +1,6 @@
 //! Small pictures of built-in scenes, through whatever structure.
 
-use rasray_ads::{Ray, RayQueue, Structure};
+use rasray_ads::{Ray, Structure};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, View};
 use rasray_integrators::{Film, Integrator, waves};
 use rasray_scene::builtin::builtin;
@@ -53,8 +53,7 @@ pub fn rendered(
         submitted.value.expect("the wave fits");
     }
     for queue in integrator.queues() {
-        let header = device.download_as(queue.header(), 0, 1).expect("the device works");
-        let counters = RayQueue::counters(&header[0]);
+        let counters = queue.download_counters(device).expect("the device works");
         assert_eq!((counters.unfinished, counters.not_ready, counters.corrupted), (0, 0, 0));
     }
     film.read(device).expect("the film is readable")

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    MemoryLocation, Recorder, SetLayout,
+    GpuError, MemoryLocation, Recorder, SetLayout,
 };
 use rasray_shaders_glsl::constants::contract::{DOMAIN_SELECTED, QUEUE_GROUP_SIZE};
 
@@ -281,6 +281,15 @@ impl RayQueue {
         .iter()
         .map(|buffer| buffer.size())
         .sum()
+    }
+
+    /// What all traces since the reset came to. Submits and waits: for after a trace, tests and tools.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn download_counters(&self, device: &Device) -> Result<QueueCounters, GpuError> {
+        let header = device.download_as::<QueueHeader>(&self.header, 0, 1)?;
+        Ok(header.first().map(Self::counters).unwrap_or_default())
     }
 
     /// What a downloaded header says.

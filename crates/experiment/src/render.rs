@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_ads::{QueueHeader, RayQueue};
+use rasray_ads::RayQueue;
 use rasray_gpu::Device;
 use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves};
 use rasray_scene::needs::Needs;
@@ -144,8 +144,7 @@ fn use_once(
 /// Refuses a picture whose rays met list entries that name nothing.
 fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), ExperimentError> {
     for queue in queues {
-        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
-        let entries = header.first().map(RayQueue::counters).unwrap_or_default().corrupted;
+        let entries = queue.download_counters(device).map_err(device_error)?.corrupted;
         if entries > 0 {
             let structure = built.structure.name();
             return Err(tracer_error(&TracerError::Corrupted { structure, entries: entries.into() }));
@@ -158,8 +157,7 @@ fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Res
 fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
     let mut unfinished = 0;
     for queue in queues {
-        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).map_err(device_error)?;
-        let counters = header.first().map(RayQueue::counters).unwrap_or_default();
+        let counters = queue.download_counters(device).map_err(device_error)?;
         unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
     }
     Ok(unfinished)

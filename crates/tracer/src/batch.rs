@@ -3,8 +3,7 @@
 use std::time::Instant;
 
 use rasray_ads::{
-    Counters, Domain, Hit, QueueCounters, QueueHeader, QueueParts, Ray, RayQueue, RayWork, Structure,
-    TraceMode,
+    Counters, Domain, Hit, QueueCounters, QueueParts, Ray, RayQueue, RayWork, Structure, TraceMode,
 };
 use rasray_gpu::{Device, PassTiming, Timing};
 
@@ -105,8 +104,7 @@ impl BatchTracer {
                 outcome.work.extend(self.device.download_as::<RayWork>(self.queue.work(), 0, chunk.len())?);
             }
         }
-        let header = self.device.download_as::<QueueHeader>(self.queue.header(), 0, 1)?;
-        outcome.counters = header.first().map(RayQueue::counters).unwrap_or_default();
+        outcome.counters = self.queue.download_counters(&self.device)?;
         if outcome.counters.not_ready > 0 {
             return Err(TracerError::NotReady { rays: outcome.counters.not_ready });
         }

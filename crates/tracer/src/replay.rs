@@ -3,8 +3,7 @@
 use std::fmt;
 
 use rasray_ads::{
-    Counters, Domain, Hit, QueueHeader, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode,
-    TraceStep,
+    Counters, Domain, Hit, QueueParts, Ray, RayQueue, RayWork, StepKind, Structure, TraceMode, TraceStep,
 };
 use rasray_gpu::Device;
 
@@ -75,8 +74,7 @@ impl Replay {
         device.submit(|recorder| {
             structure.record_trace(recorder, &queue, Domain::First(1), mode, structure.rounds())
         })?;
-        let header = device.download_as::<QueueHeader>(queue.header(), 0, 1)?;
-        let counters = header.first().map(RayQueue::counters).unwrap_or_default();
+        let counters = queue.download_counters(device)?;
         let answered = counters.unfinished == 0 && counters.not_ready == 0;
         let (steps, taken) = queue.download_steps(device)?;
         let work = device.download_as::<RayWork>(queue.work(), 0, 1)?.first().copied().unwrap_or_default();

@@ -1,4 +1,4 @@
-use rasray_ads::{Domain, Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{Domain, Hit, QueueCounters, Ray, RayQueue, Structure, TraceMode};
 
 use crate::harness::Bench;
 
@@ -23,6 +23,5 @@ pub fn trace_in_rounds(
         .submit(|recorder| structure.record_trace(recorder, &queue, Domain::First(count), mode, rounds))
         .expect("the device works");
     let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
-    let header = device.download_as::<QueueHeader>(queue.header(), 0, 1).expect("the device works");
-    (hits, RayQueue::counters(&header[0]))
+    (hits, queue.download_counters(device).expect("the device works"))
 }

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use rasray_ads::RayQueue;
 use rasray_experiment::{Built, Stage};
 use rasray_gpu_scene::{GpuScene, Sampler, Sampling, View};
 use rasray_integrators::{AmbientOcclusion, Film, Integrator, IntegratorDesc, Path, Wave};
@@ -158,8 +157,7 @@ impl<'a> Studio<'a> {
             submitted.value.expect("the wave fits");
         }
         for queue in integrator.queues() {
-            let header = device.download_as(queue.header(), 0, 1).expect("the device works");
-            let counters = RayQueue::counters(&header[0]);
+            let counters = queue.download_counters(device).expect("the device works");
             let faults = (counters.unfinished, counters.not_ready, counters.corrupted);
             assert_eq!(faults, (0, 0, 0), "rays are left over");
         }

@@ -5,7 +5,7 @@ pub mod difference;
 pub mod scenes;
 
 use glam::{DAffine3, DMat3, DVec3};
-use rasray_ads::{BruteForce, RayQueue};
+use rasray_ads::BruteForce;
 use rasray_gpu::{Device, DeviceDesc};
 use rasray_gpu_scene::{GpuScene, Parts, SceneTables, ShadingFeatures, View};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, waves};
@@ -128,8 +128,7 @@ impl Stage {
             submitted.value.expect("the wave can be recorded");
         }
         for queue in integrator.queues() {
-            let header = self.device.download_as(queue.header(), 0, 1).expect("the header can be read");
-            let counters = RayQueue::counters(&header[0]);
+            let counters = queue.download_counters(&self.device).expect("the header can be read");
             assert_eq!((counters.unfinished, counters.not_ready), (0, 0));
         }
         self.film.read(&self.device).expect("the film can be read")
