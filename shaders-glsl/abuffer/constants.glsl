@@ -67,4 +67,11 @@
 // Threads in a workgroup of the build's compute passes.
 #define ABUFFER_GROUP_SIZE 64u
 
+// Half side of the near region over cells a side times the distance of the geometry: closer to the eye a point's cell is lost
+// in rounding. NEAR_BOX where no triangle may be lost.
+#define ABUFFER_NEAR_BOX 4.8e-7
+
+// Margin for the rounding of what is subtracted from the eye, over the distance of the geometry and the eye's own.
+#define ABUFFER_ROUNDING 4.0e-7
+
 #endif

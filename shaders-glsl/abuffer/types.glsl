@@ -54,7 +54,7 @@ const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
 const bool ABUFFER_HAS_CUBE = (ABUFFER_VIEWS & ABUFFER_VIEWS_CUBE) != 0u;
 const bool ABUFFER_HAS_CAMERA = (ABUFFER_VIEWS & ABUFFER_VIEWS_CAMERA) != 0u;
 
-// State and sizes of one A-buffer. 232 bytes.
+// State and sizes of one A-buffer. 248 bytes.
 struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
@@ -66,6 +66,10 @@ struct AbufferHeader {
     uint resolution;      // cells along a side of a face, border not counted
     uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
     float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
+    float thickness_per_reach; // what is added to it, zero where it is given
+    float near_per_reach; // near_size; these four are what the header pass needs of the options
+    float rounding_per_reach;
+    float widest;         // side of a cell at a depth of 1, of the widest view
     float near_size;      // metres: half side of the near region
     uint long_demand;     // lists too long for the first reorder pass
     vec3 eye;             // metres relative to the frame origin: common centre of the faces

@@ -56,6 +56,26 @@
 // the distance of the geometry.
 #define CELL_ROUNDING 2.0e-5
 
+// Header passes (ads/placement.glsl). Eyes nearer than this many times the geometry need no wider margins, and views need
+// not come nearer to them: a little less than ORIGIN_LIMIT.
+#define PLACEMENT_EYE_LIMIT 3.5
+// Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no fraction at which a
+// scene is likely to have a wall.
+#define PLACEMENT_MARGIN 0.2718
+// Flatter bounds than this, shortest over longest side, have no inside: a centre among their triangles would see them all
+// edge-on and across many tiles.
+#define PLACEMENT_FLATTEST 0.25
+// Margins of cells along axes for a distant eye are no wider than this share of a cell.
+#define PLACEMENT_WIDEST_MARGIN 0.125
+// Cells along axes reach this many margins below the bounds, and twice as many above.
+#define PLACEMENT_WIDENING 4.0
+// Side of a cube over the longest side of the geometry in it.
+#define PLACEMENT_WIDENED 1.00390625
+// Sizes of what has none, metres: all that follows from them stays within the range of numbers.
+#define PLACEMENT_SMALLEST 1.0e-30
+// The largest number.
+#define PLACEMENT_LONGEST 3.402823466e+38
+
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu
 

@@ -1,5 +1,5 @@
 // What: posed triangles, the one input all structures are built from.
-// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, unless GEOMETRY_CHECKED is defined.
+// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, unless GEOMETRY_WRITTEN is defined.
 // Positions are metres relative to the frame origin.
 #ifndef ADS_GEOMETRY_GLSL
 #define ADS_GEOMETRY_GLSL
@@ -17,9 +17,11 @@ struct GeometryHeader {
     uint outside;        // triangles that the last check found outside of the bounds or with a vertex that there is not
     vec3 lower;          // of all positions
     vec3 upper;
+    uint lower_keys[3];  // the same while they are measured: numbers in the order of the floats they stand for
+    uint upper_keys[3];
 };
 
-#ifdef GEOMETRY_CHECKED
+#ifdef GEOMETRY_WRITTEN
 #define GEOMETRY_HEADER_ACCESS
 #else
 #define GEOMETRY_HEADER_ACCESS readonly

@@ -6,7 +6,7 @@
 
 layout(local_size_x = 64) in;
 
-#define GEOMETRY_CHECKED
+#define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
 // Corners that are not numbers are outside of nothing: no ray hits their triangles.

@@ -12,7 +12,7 @@ layout(constant_id = 40) const uint BRICK_VIEWS = BRICK_VIEWS_AXES;
 layout(constant_id = 41) const uint BRICK_SKIP = 1u;
 layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 
-// State and sizes of one value. 336 bytes.
+// State and sizes of one value. 348 bytes.
 struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -26,6 +26,7 @@ struct BrickHeader {
     float reach;          // metres: farthest that the geometry is from the centre along an axis; of views along axes, or more
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
+    vec3 eye;             // metres relative to the frame origin
     vec3 centre;          // metres relative to the frame origin: of the faces, or of the geometry's bounds
     vec3 lower;           // bounds of the geometry relative to the centre, metres
     vec3 upper;

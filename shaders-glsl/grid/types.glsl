@@ -7,7 +7,7 @@
 #include "contract/types.glsl"
 #include "grid/constants.glsl"
 
-// State and sizes of one value. 140 bytes.
+// State and sizes of one value. 152 bytes.
 struct GridHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -16,6 +16,7 @@ struct GridHeader {
     uint cells[3];        // along each axis
     float reach;          // metres: half the longest side of the bounds, or more
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
+    vec3 eye;             // metres relative to the frame origin
     vec3 centre;          // of the bounds, metres relative to the frame origin
     vec3 lower;           // bounds of the geometry relative to the centre, metres
     vec3 upper;

@@ -41,6 +41,9 @@
 // How far a ray has to be from its origin, in widths of a cell, to hit a plane that it started close to.
 #define LDC_LEAVING 2.0
 
+// Margin for the rounding of what is subtracted from corner and ray, over the largest coordinate of the geometry.
+#define LDC_ROUNDING 4.8e-7
+
 // Threads in a workgroup of the build's compute passes.
 #define LDC_GROUP_SIZE 64u
 

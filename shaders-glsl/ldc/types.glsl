@@ -21,7 +21,7 @@ layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 59) const uint LDC_IDS = 0u;
 
-// State and sizes of one value. 184 bytes.
+// State and sizes of one value. 188 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
@@ -33,6 +33,7 @@ struct LdcHeader {
     uint resolution;      // cells along a side of a view
     float cell;           // metres: side of a cell
     float size;           // metres: side of the cube
+    float tolerance_per_side;
     float tolerance;      // metres, LDC_ACCEPT_TOLERANCE only
     uint long_demand;     // lists too long for one dispatch of the sort
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube

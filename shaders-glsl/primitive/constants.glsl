@@ -26,6 +26,10 @@
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
+// Where the faces touch: at the eye, or within the geometry.
+#define PRIMITIVE_CENTRE_EYE 0u
+#define PRIMITIVE_CENTRE_SCENE 1u
+
 // What a compute pass of the binning builder does with a triangle in a cell.
 #define PRIMITIVE_VISIT_BOUNDS 1
 #define PRIMITIVE_VISIT_COUNT 2

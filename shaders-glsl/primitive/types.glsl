@@ -19,8 +19,9 @@ layout(constant_id = 35) const uint PRIMITIVE_ACCEPT = PRIMITIVE_ACCEPT_T;
 layout(constant_id = 36) const uint PRIMITIVE_STOP = PRIMITIVE_STOP_BEST;
 layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
 layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
+layout(constant_id = 39) const uint PRIMITIVE_CENTRE = PRIMITIVE_CENTRE_SCENE;
 
-// State and sizes of one value. 148 bytes.
+// State and sizes of one value. 160 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -33,6 +34,7 @@ struct PrimitiveHeader {
     float reach;          // metres: farthest that the geometry is from the centre along an axis
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
+    vec3 eye;             // metres relative to the frame origin
     vec3 centre;          // of the faces, metres relative to the frame origin
     vec3 lower;           // bounds of the geometry relative to the centre, metres
     vec3 upper;

@@ -72,7 +72,7 @@ impl Bench {
             bounds = [[0.0; 3]; 2];
         }
         let buffer = |name, bytes: &[u8]| {
-            self.device.create_buffer_with(name, BufferUsage::STORAGE, bytes).expect("geometry fits")
+            self.device.create_buffer_with(name, BufferUsage::ALL, bytes).expect("geometry fits")
         };
         let desc = GeometryDesc {
             positions: buffer("positions", bytemuck::cast_slice(&positions)),

@@ -109,7 +109,7 @@ impl Build {
             &[Pool::Bounds, Pool::Lists]
         };
         let readers = shaders | Access::VERTEX_READ;
-        target.record_header(recorder, "abuffer/build_0_clear", cleared, readers);
+        target.record_header(recorder, "abuffer/build_0_header", cleared, readers);
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
         if let Some(pairs) = &self.pairs {

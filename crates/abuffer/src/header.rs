@@ -26,6 +26,14 @@ pub struct Header {
     pub samples: u32,
     /// Metres.
     pub thickness: f32,
+    /// What is added to it, over the reach; zero where it is given.
+    pub thickness_per_reach: f32,
+    /// `near_size` over the reach.
+    pub near_per_reach: f32,
+    /// `rounding` over the reach.
+    pub rounding_per_reach: f32,
+    /// Side of a cell of the widest view at a depth of 1.
+    pub widest: f32,
     /// Half side of the near region, metres.
     pub near_size: f32,
     /// Lists too long for the first reorder pass.

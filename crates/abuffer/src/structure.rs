@@ -8,6 +8,7 @@ use rasray_ads::{
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
@@ -25,7 +26,7 @@ pub type ABuffer = Pooled<Build>;
 /// # Errors
 /// A camera's view is asked for and there is no camera.
 fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
-    let Parts { config, geometry, pools, .. } = parts;
+    let Parts { config, pools, .. } = parts;
     let eye = viewpoint.eye;
     let camera = viewpoint.camera.filter(|camera| config.views.has_camera() && camera.is_valid());
     if config.views.has_camera() && camera.is_none() {
@@ -35,12 +36,6 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
             expected: "the build was given no perspective camera; without one use `cube`",
         });
     }
-    let [lower, upper] = geometry.bounds();
-    let relative = |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - eye[axis]);
-    let (lower, upper) = (relative(lower), relative(upper));
-    let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
-    // The subtraction above rounds, and so does the one in the shaders.
-    let rounding = 4.0e-7 * (farthest + eye.iter().fold(0.0_f32, |far, x| far.max(x.abs())));
     let faces = if config.views.has_cube() { config.resolution } else { 0 };
     let (camera_rows, camera_stretch, camera_cells, camera_width) =
         camera.map_or_else(Default::default, |camera| {
@@ -59,24 +54,12 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         });
     let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
     let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
-    let triangle_rounding = if config.has_fringe() { stretch * TRIANGLE_ROUNDING * farthest } else { 0.0 };
-    // Planes and depths stand for all that is in their cell, so rays hit them up to a cell beyond the geometry. A
-    // ray that ended at the bounds would not come behind what lies on them.
-    let margin = if config.tests_triangles() { triangle_rounding } else { rounding + widest * farthest };
     // Half as deep as a ray moves sideways from one look at lists to the next, where steps are widest.
     let step = match config.march {
         March::Samples => widest.max(2.0 / config.samples as f32),
         March::Dda | March::Exact | March::Pyramid => widest,
     };
-    let thickness = config.thickness.unwrap_or(0.5 * step * farthest);
     let cells = (faces as f32).max(camera_cells);
-    // Closer to the eye than this a point's cell is lost in rounding (docs/core.md). Where nothing may be
-    // lost the march needs more, and what a ray hits outside of the near region is not behind the eye.
-    let near_size = if config.has_fringe() {
-        (NEAR_BOX * cells * farthest).max(2.0 * triangle_rounding).max(1.0e-30)
-    } else {
-        4.8e-7 * cells * farthest
-    };
     let [camera_x, camera_y, camera_z] = camera_rows;
     let [columns, rows] = config.camera_cells();
     Ok(Header {
@@ -85,18 +68,17 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         resolution: config.resolution,
         samples: config.samples,
-        thickness,
-        near_size,
+        thickness: config.thickness.unwrap_or(0.0),
+        thickness_per_reach: if config.thickness.is_some() { 0.0 } else { 0.5 * step },
+        near_per_reach: cells * if config.has_fringe() { NEAR_BOX } else { ABUFFER_NEAR_BOX },
+        rounding_per_reach: if config.has_fringe() { stretch * TRIANGLE_ROUNDING } else { 0.0 },
+        widest,
         eye,
-        lower: lower.map(|x| x - margin),
-        upper: upper.map(|x| x + margin),
         camera_cells: if camera.is_some() { columns | rows << 16 } else { 0 },
         camera_x,
         camera_y,
         camera_z,
         triangles: (32 * mark_words(parts)).min(u32::MAX.into()) as u32,
-        reach: farthest,
-        rounding: triangle_rounding,
         bounds_address: pools.address_of(Pool::Bounds),
         lists_address: pools.address_of(Pool::Lists),
         nodes_address: pools.address_of(Pool::Nodes),
@@ -143,7 +125,7 @@ impl Design for Build {
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "AbufferHeader" {
         status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
-        thickness, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_cells,
+        thickness, thickness_per_reach, near_per_reach, rounding_per_reach, widest, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_cells,
         camera_x, camera_y, camera_z, lost, triangles, fringe_demand, fringe_capacity, reach, rounding,
         pairs, pair_capacity, groups,
         bounds_address, lists_address, nodes_address, data_address, near_address, scratch_address,

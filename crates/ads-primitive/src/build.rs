@@ -54,7 +54,7 @@ impl Build {
         let views = [faces(config)];
 
         let readers = shaders | Access::VERTEX_READ;
-        target.record_header(recorder, "primitive/build_0_clear", &[Pool::Bounds, Pool::Lists], readers);
+        target.record_header(recorder, "primitive/build_0_header", &[Pool::Bounds, Pool::Lists], readers);
         let groups = u64::from(target.geometry.triangle_count()).div_ceil(group);
         target.compute_pass(recorder, "primitive/build_1_near", &self.near, groups, 0, shaders);
         self.bounds.record(recorder, target, &views);

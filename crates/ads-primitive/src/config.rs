@@ -180,8 +180,12 @@ impl Config {
             March::Exact => numbers::PRIMITIVE_MARCH_EXACT,
             March::Jump => numbers::PRIMITIVE_MARCH_JUMP,
         };
+        let centre = match self.centre {
+            Centre::Eye => numbers::PRIMITIVE_CENTRE_EYE,
+            Centre::Scene => numbers::PRIMITIVE_CENTRE_SCENE,
+        };
         let (skip, pyramid) = (u32::from(self.skip), u32::from(self.has_pyramid()));
-        [self.buckets, storage, coverage, skip, pyramid, accept, stop, depths, march]
+        [self.buckets, storage, coverage, skip, pyramid, accept, stop, depths, march, centre]
             .into_iter()
             .zip(30..)
             .map(|(value, id)| (id, value))

@@ -5,15 +5,13 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
-    record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
-use crate::{Centre, Config, Contents, Header, Pool, well_formed};
+use crate::{Config, Contents, Header, Pool, well_formed};
 
 /// Lists of triangles per tile and depth bucket; made from a [`Config`].
 pub type PrimitiveLists = Pooled<Passes>;
@@ -24,32 +22,13 @@ pub struct Passes(Build);
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { config, geometry, pools, .. } = parts;
-    let [lower, upper] = geometry.bounds();
-    let centre = match config.centre {
-        Centre::Eye => eye,
-        Centre::Scene => centre_within(eye, [lower, upper]),
-    };
-    let relative = |corner: [f32; 3]| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]);
-    let (lower, upper) = (relative(lower), relative(upper));
-    let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
-    // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
-    // centre is from the frame origin.
-    let rounding = TRIANGLE_ROUNDING * farthest;
-    // What a ray hits outside of the near region is not behind the centre, also where tiles are few.
-    let near_size = (NEAR_BOX * config.tiles() as f32 * farthest).max(2.0 * rounding);
+    let Parts { config, pools, .. } = parts;
     Header {
         capacity: parts.elements(Pool::Entries) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,
         tiles: config.tiles(),
         tile: config.tile,
-        reach: farthest,
-        // Depths are positive, also where all geometry is at the eye.
-        near_size: near_size.max(1.0e-30),
-        rounding,
-        centre,
-        lower: lower.map(|x| x - rounding),
-        upper: upper.map(|x| x + rounding),
+        eye,
         bounds_address: pools.address_of(Pool::Bounds),
         lists_address: pools.address_of(Pool::Lists),
         entries_address: pools.address_of(Pool::Entries),
@@ -86,7 +65,7 @@ impl Design for Passes {
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "PrimitiveHeader" {
         status, demand, capacity, near_demand, near_capacity, corrupted, tiles, tile, reach, near_size, rounding,
-        centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
+        eye, centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
         pairs_address, pair_capacity, pairs, groups,
     })];
 

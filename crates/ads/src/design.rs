@@ -3,7 +3,7 @@
 use std::fmt;
 
 use bytemuck::Pod;
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, ComputePipeline, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
@@ -65,6 +65,8 @@ pub struct Parts<C> {
     pub pools: Pools,
     /// Work units that a ray may spend in a dispatch.
     pub work_budget: u32,
+    /// The pass that works out what of the header follows from bounds and eye.
+    pub header_pass: ComputePipeline,
 }
 
 impl<C> Parts<C> {
@@ -86,7 +88,7 @@ impl<C> Parts<C> {
 
     /// What passes work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
-        BuildTarget { geometry: &self.geometry, pools: &self.pools, scene }
+        BuildTarget { geometry: &self.geometry, pools: &self.pools, header_pass: &self.header_pass, scene }
     }
 }
 
@@ -193,7 +195,8 @@ pub trait Design: fmt::Debug + Sized {
     /// Drops what the host keeps of the last build: pools or triangles are others now.
     fn forget(&mut self) {}
 
-    /// The header that the next build starts from.
+    /// The header that the next build starts from: options, capacities, addresses, eye. What follows from the bounds of the
+    /// geometry, which only the device knows, is worked out there: by the structure's `from_bounds.glsl`.
     ///
     /// # Errors
     /// The viewpoint lacks what the configuration needs, or the build was not prepared.

@@ -5,14 +5,22 @@ use std::mem::offset_of;
 use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    MemoryLocation, Recorder, SetLayout,
+    GpuError, MemoryLocation, Recorder, SetLayout,
 };
+
+use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_CHECK, Shader};
 
 use crate::passes::folded;
 use crate::{AdsError, Draw, GeometryHeader};
 
-/// Triangles that a workgroup of `ads/geometry_check` looks at.
-const CHECKED_PER_GROUP: u64 = 64;
+/// Triangles that a workgroup of `ads/geometry_check` and `ads/geometry_bounds` looks at.
+const TRIANGLES_PER_GROUP: u64 = 64;
+
+/// Buffers of the geometry set.
+const BINDINGS: u32 = 4;
+
+/// Bytes of the keys of a corner of the bounds.
+const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 
 /// Buffers and counts to make a [`Geometry`] from. An embedder fills it from buffers of its own.
 #[derive(Clone, Debug)]
@@ -29,8 +37,10 @@ pub struct GeometryDesc {
     pub triangle_count: u32,
     /// Records in `draws`.
     pub draw_count: u32,
-    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. A build that meets
-    /// a corner outside of them is not complete, and says how many triangles do.
+    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are written to
+    /// the geometry's header on the device, where a pass of the host or [`BoundsPass`] may write others
+    /// before a build; structures are planned by these, and built by those on the device. A build that meets a corner
+    /// outside of these is not complete, and says how many triangles do.
     pub bounds: [[f32; 3]; 2],
     /// What positions are relative to, metres, world.
     pub frame_origin: [f64; 3],
@@ -47,7 +57,7 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Makes the header buffer (40 bytes, written by the host) and the binding set.
+    /// Makes the header buffer ([`GeometryHeader`], 64 bytes) and the binding set.
     ///
     /// # Errors
     /// Counts beyond what the buffers hold, bounds that are not finite or the wrong way round; out of memory, or a
@@ -69,23 +79,29 @@ impl Geometry {
                 outside: 0,
                 lower: desc.bounds[0],
                 upper: desc.bounds[1],
+                lower_keys: [0; 3],
+                upper_keys: [0; 3],
             }),
         )?;
-        let layout = device.create_set_layout("geometry", 4)?;
+        let layout = device.create_set_layout("geometry", BINDINGS)?;
         let set = device.create_binding_set(
             &layout,
             "geometry",
             &[&header, &desc.positions, &desc.indices, &desc.draws],
         )?;
-        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_CHECK;
-        let check = device.create_compute_pipeline(&ComputePipelineDesc {
-            name: shader.name,
-            spirv: shader.words(),
-            sets: &[&layout],
-            push_constant_bytes: 0,
-            constants: &[],
-        })?;
+        let check = pass(device, &layout, &ADS_GEOMETRY_CHECK)?;
         Ok(Self { desc, header, check, layout, set })
+    }
+
+    /// The header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices writes `lower` and
+    /// `upper` there, in order with the builds that follow; [`Geometry::bounds`] stays what was stated.
+    pub fn header(&self) -> &Buffer {
+        &self.header
+    }
+
+    /// Workgroups of one thread per triangle; none without triangles.
+    fn groups(&self) -> Option<[u32; 3]> {
+        folded(u64::from(self.desc.triangle_count).div_ceil(TRIANGLES_PER_GROUP))
     }
 
     /// Records the count of triangles that the bounds and the vertices do not allow for, visible to compute shaders,
@@ -95,7 +111,7 @@ impl Geometry {
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, count, 4, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        if let Some(groups) = folded(u64::from(self.desc.triangle_count).div_ceil(CHECKED_PER_GROUP)) {
+        if let Some(groups) = self.groups() {
             recorder.bind_compute(&self.check);
             recorder.bind_sets(0, &[&self.set]);
             recorder.dispatch(groups);
@@ -114,7 +130,7 @@ impl Geometry {
         self.desc.triangle_count
     }
 
-    /// Lower and upper corner, metres relative to the frame origin.
+    /// Lower and upper corner as they were stated, metres relative to the frame origin.
     pub fn bounds(&self) -> [[f32; 3]; 2] {
         self.desc.bounds
     }
@@ -127,6 +143,60 @@ impl Geometry {
     /// The geometry set.
     pub fn set(&self) -> &BindingSet {
         &self.set
+    }
+}
+
+/// A pass over the triangles of a geometry.
+fn pass(device: &Device, layout: &SetLayout, shader: &Shader) -> Result<ComputePipeline, GpuError> {
+    device.create_compute_pipeline(&ComputePipelineDesc {
+        name: shader.name,
+        spirv: shader.words(),
+        sets: &[layout],
+        push_constant_bytes: 0,
+        constants: &[],
+    })
+}
+
+/// Measures the bounds of geometries on the device, for positions that the device moved.
+#[derive(Debug)]
+pub struct BoundsPass {
+    measure: ComputePipeline,
+    end: ComputePipeline,
+}
+
+impl BoundsPass {
+    /// Makes the pipelines, for every geometry of the device.
+    ///
+    /// # Errors
+    /// The device refuses one.
+    pub fn new(device: &Device) -> Result<Self, AdsError> {
+        let layout = device.create_set_layout("geometry", BINDINGS)?;
+        let pass = |shader| pass(device, &layout, shader);
+        Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
+    }
+
+    /// Records the measuring of the bounds of all triangles, in two dispatches that read every triangle once, into the
+    /// header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all that
+    /// follows. Corners that are not finite are left out: the check of a build finds those that are infinite.
+    pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
+        let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
+            .map(|at| at as u64);
+        recorder.begin_pass("ads/geometry_bounds");
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(&geometry.header, lower, KEY_BYTES, u32::MAX);
+        recorder.fill(&geometry.header, upper, KEY_BYTES, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        if let Some(groups) = geometry.groups() {
+            recorder.bind_compute(&self.measure);
+            recorder.bind_sets(0, &[&geometry.set]);
+            recorder.dispatch(groups);
+            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
+        }
+        recorder.bind_compute(&self.end);
+        recorder.bind_sets(0, &[&geometry.set]);
+        recorder.dispatch([1; 3]);
+        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
+        recorder.end_pass();
     }
 }
 

@@ -20,9 +20,7 @@
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
-mod box_cells;
 mod brute_force;
-mod centre;
 mod counters;
 mod design;
 mod error;
@@ -43,13 +41,11 @@ mod viewpoint;
 mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
-pub use box_cells::BoxCells;
 pub use brute_force::BruteForce;
-pub use centre::centre_within;
 pub use counters::Counters;
 pub use design::{Common, Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
-pub use geometry::{Geometry, GeometryDesc};
+pub use geometry::{BoundsPass, Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
 pub use pool_name::PoolName;

@@ -107,6 +107,8 @@ pub struct BuildTarget<'a> {
     pub geometry: &'a Geometry,
     /// The pools; the host has written the header.
     pub pools: &'a Pools,
+    /// The pass that works out what of the header follows from bounds and eye.
+    pub header_pass: &'a ComputePipeline,
     /// The scene's set, where the pipelines were made with one.
     pub scene: Option<&'a BindingSet>,
 }
@@ -125,8 +127,9 @@ impl BuildTarget<'_> {
         recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
     }
 
-    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, both
-    /// visible to `readers`, and the check of the triangles, whose result the pass of the status looks at.
+    /// Records the first pass of a build: the header as the host wrote it, zeros in the pools of `cleared`, what of the
+    /// header follows from bounds and eye, all visible to `readers`, and the check of the triangles, whose result the
+    /// pass of the status looks at.
     pub fn record_header(
         &self,
         recorder: &mut Recorder<'_>,
@@ -135,7 +138,9 @@ impl BuildTarget<'_> {
         readers: Access,
     ) {
         recorder.begin_pass(label);
-        self.pools.record_header(recorder, self.geometry, cleared, readers);
+        self.pools.record_header(recorder, self.geometry, cleared, Access::COMPUTE);
+        self.dispatch(recorder, self.header_pass, 1, 0);
+        recorder.barrier(Access::TRANSFER_WRITE | Access::COMPUTE_WRITE, readers | Access::HOST_READ);
         recorder.end_pass();
     }
 

@@ -57,6 +57,7 @@ impl<D: Design> Pooled<D> {
         let build_scene = scene.filter(|_| D::BUILD_READS_SCENE);
         let pipelines = BuildPipelines::new(device, modules, geometry, &pools, build_scene, &constants);
         let design = D::make(&pipelines, &config, build_scene)?;
+        let header_pass = pipelines.compute("build_0_header")?;
         let kernels = TraceKernels::new(
             device,
             geometry,
@@ -72,7 +73,7 @@ impl<D: Design> Pooled<D> {
         let scene = build_scene.map(|scene| scene.set.clone());
         Ok(Self {
             design,
-            parts: Parts { config, geometry: geometry.clone(), pools, work_budget },
+            parts: Parts { config, geometry: geometry.clone(), pools, work_budget, header_pass },
             kernels,
             scene,
             known: Mutex::new(bytemuck::Zeroable::zeroed()),

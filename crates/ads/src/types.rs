@@ -191,6 +191,10 @@ pub struct GeometryHeader {
     pub lower: [f32; 3],
     /// Upper corner, metres.
     pub upper: [f32; 3],
+    /// The lower corner while it is measured: numbers in the order of the floats they stand for.
+    pub lower_keys: [u32; 3],
+    /// The upper corner while it is measured.
+    pub upper_keys: [u32; 3],
 }
 
 /// Book-keeping of a [`crate::RayQueue`].

@@ -79,7 +79,7 @@ impl Build {
         let compute = Access::COMPUTE;
 
         let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
-        target.record_header(recorder, "bricks/build_0_clear", &[Pool::Lists, Pool::Bricks], readers);
+        target.record_header(recorder, "bricks/build_0_header", &[Pool::Lists, Pool::Bricks], readers);
         if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
             pass(recorder, near_label, near, triangles, compute);
             pass(recorder, slices_label, slices, 1, compute | Access::FRAGMENT);

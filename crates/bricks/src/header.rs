@@ -31,6 +31,8 @@ pub struct Header {
     pub near_size: f32,
     /// Bound of how far rounding moves a triangle against a ray, metres.
     pub rounding: f32,
+    /// Metres relative to the frame origin.
+    pub eye: [f32; 3],
     /// Centre of the faces, or of the bounds for views along axes, metres relative to the frame origin.
     pub centre: [f32; 3],
     /// Lower corner of the geometry relative to the centre, metres.

@@ -4,17 +4,15 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
-    Pooled, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
-    record_layout,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
 
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
 use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Pool, Views, well_formed};
+use crate::{Config, Contents, Header, Pool, well_formed};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
@@ -34,35 +32,15 @@ fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { config, geometry, pools, .. } = parts;
-    let bounds = geometry.bounds();
+    let Parts { pools, .. } = parts;
     let (cells, fits) = cells(parts);
-    let along_axes = (config.views == Views::Axes).then(|| BoxCells::over(bounds, cells, eye));
-    let centre = along_axes.map_or_else(|| centre_within(eye, bounds), |at| at.centre);
-    let [lower, upper] =
-        bounds.map(|corner| std::array::from_fn::<f32, 3, _>(|axis| corner[axis] - centre[axis]));
-    let farthest = lower.iter().chain(&upper).fold(0.0_f32, |far, x| far.max(x.abs()));
-    let reach = along_axes.map_or(farthest, |at| at.reach);
-    // A difference of two coordinates is rounded relative to itself, so it does not matter how far the
-    // centre is from the frame origin.
-    let rounding = CELL_ROUNDING * reach;
-    // What a ray hits outside of the near region is not behind the centre, also where columns are few.
-    let near_size = (NEAR_BOX * cells[0] as f32 * reach).max(2.0 * rounding);
     Header {
         capacity: parts.elements(Pool::Entries) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,
         columns: cells[0],
         rows: cells[1],
         slices: cells[2],
-        reach,
-        // Depths are positive, also where all geometry is at the centre.
-        near_size: near_size.max(1.0e-30),
-        rounding,
-        centre,
-        lower: lower.map(|x| x - rounding),
-        upper: upper.map(|x| x + rounding),
-        cells_lower: along_axes.map_or([0.0; 3], |at| at.lower),
-        cells_per_metre: along_axes.map_or([0.0; 3], |at| at.per_metre),
+        eye,
         bricks_address: pools.address_of(Pool::Bricks),
         lists_address: pools.address_of(Pool::Lists),
         entries_address: pools.address_of(Pool::Entries),
@@ -105,7 +83,7 @@ impl Design for Passes {
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "BrickHeader" {
         status, demand, capacity, near_demand, near_capacity, corrupted, columns, rows, slices, reach, near_size,
-        rounding, centre, lower, upper, cells_lower, cells_per_metre, bricks_address, lists_address, entries_address,
+        rounding, eye, centre, lower, upper, cells_lower, cells_per_metre, bricks_address, lists_address, entries_address,
         sums_address, near_address, records_address, triangles_address, slice_first, slice_shift, record_demand,
         record_capacity, cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
     })];

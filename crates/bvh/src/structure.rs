@@ -8,7 +8,7 @@ use rasray_ads::{
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::bvh::{BVH_CODE_CELLS, BVH_LEAF, BVH_NONE};
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
 use crate::host::{self, Box3};
@@ -73,7 +73,6 @@ fn has_room(parts: &Parts<Config>) -> bool {
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, root: u32) -> Header {
     let Parts { config, geometry, pools, .. } = parts;
-    let [lower, upper] = geometry.bounds();
     let triangles = geometry.triangle_count();
     let has_room = has_room(parts);
     let capacity = |pool| if has_room { parts.elements(pool) as u32 } else { 0 };
@@ -90,21 +89,11 @@ fn first_header(parts: &Parts<Config>, root: u32) -> Header {
         scratch_capacity: capacity(Pool::Scratch),
         order_offset,
         order_stride,
-        lower,
-        cells_per_metre: cells_per_metre([lower, upper]),
         nodes_address: pools.address_of(Pool::Nodes),
         records_address: pools.address_of(Pool::Records),
         scratch_address: pools.address_of(Pool::Scratch),
         ..Header::default()
     }
-}
-
-/// Cells of the Morton grid a metre, the same along all axes so that cells are cubes.
-fn cells_per_metre([lower, upper]: Box3) -> [f32; 3] {
-    let extent = (0..3).fold(0.0_f32, |extent, axis| extent.max(upper[axis] - lower[axis]));
-    // Kept normal: what does not fit is clamped to the grid, which costs quality and no hit.
-    let cells = (BVH_CODE_CELLS / extent.max(f32::MIN_POSITIVE)).clamp(f32::MIN_POSITIVE, f32::MAX);
-    [cells; 3]
 }
 
 impl rasray_ads::Demand for Demand {

@@ -35,7 +35,7 @@ impl Build {
 
     /// Records all passes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, cells: u64, target: BuildTarget<'_>) {
-        target.record_header(recorder, "grid/build_0_clear", &[Pool::Lists], Access::COMPUTE);
+        target.record_header(recorder, "grid/build_0_header", &[Pool::Lists], Access::COMPUTE);
         if let Some(pairs) = &self.pairs {
             pairs.record(recorder, target);
         }

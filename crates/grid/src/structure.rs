@@ -4,8 +4,8 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
-    Pooled, RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
     record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
@@ -37,23 +37,12 @@ fn turns(cells: [u32; 3]) -> u64 {
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
-    let Parts { geometry, pools, .. } = parts;
+    let Parts { pools, .. } = parts;
     let (cells, fits) = cells(parts);
-    let BoxCells { centre, reach, rounding, lower, per_metre } =
-        BoxCells::over(geometry.bounds(), cells, eye);
-    let bounds = |corner: usize, wider: f32| {
-        std::array::from_fn(|axis| geometry.bounds()[corner][axis] - centre[axis] + wider)
-    };
     Header {
         capacity: parts.elements(Pool::Entries) as u32,
         cells,
-        reach,
-        rounding,
-        centre,
-        lower: bounds(0, -rounding),
-        upper: bounds(1, rounding),
-        cells_lower: lower,
-        cells_per_metre: per_metre,
+        eye,
         lists_address: pools.address_of(Pool::Lists),
         entries_address: pools.address_of(Pool::Entries),
         scratch_address: pools.address_of(Pool::Scratch),
@@ -89,7 +78,7 @@ impl Design for Passes {
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "GridHeader" {
-        status, demand, capacity, corrupted, cells, reach, rounding, centre, lower, upper, cells_lower,
+        status, demand, capacity, corrupted, cells, reach, rounding, eye, centre, lower, upper, cells_lower,
         cells_per_metre, lists_address, entries_address, scratch_address, triangle_capacity, pairs, groups,
     })];
 

@@ -91,7 +91,7 @@ impl Build {
             (Making::Single, Depth::Bits32) => &[Pool::Lists, Pool::Blocks, Pool::Heads],
             (Making::Peel, _) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Scratch],
         };
-        target.record_header(recorder, "ldc/build_0_clear", cleared, shaders | Access::VERTEX_READ);
+        target.record_header(recorder, "ldc/build_0_header", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
             pairs.record(recorder, target);
         }

@@ -26,6 +26,8 @@ pub struct Header {
     pub cell: f32,
     /// Side of the cube, metres.
     pub size: f32,
+    /// `tolerance` over the side of the cube.
+    pub tolerance_per_side: f32,
     /// How far a fragment may be from the ray along the view, metres.
     pub tolerance: f32,
     /// Lists too long for one dispatch of the sort.

@@ -8,7 +8,6 @@ use rasray_ads::{
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::ldc::LDC_SLICES;
 
 use crate::build::Build;
 use crate::layout::{
@@ -21,28 +20,15 @@ pub type LayeredDepthCube = Pooled<Build>;
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
-    let Parts { config, geometry, pools, .. } = parts;
-    let [lower, upper] = geometry.bounds();
-    let largest = lower.iter().chain(&upper).fold(0.0_f32, |largest, x| largest.max(x.abs()));
-    let extent = (0..3).fold(0.0_f32, |extent, axis| extent.max(upper[axis] - lower[axis]));
-    // A margin for the rounding of what is subtracted from corner and ray.
-    let rounding = 4.8e-7 * largest;
-    // Where all geometry is one point its cells have a size all the same.
-    let size = (extent + 4.0 * rounding).max(1.0e-30);
+    let Parts { config, pools, .. } = parts;
     Header {
         capacity: parts.elements(Pool::Payload) as u32,
         fringe_capacity: parts.elements(Pool::Fringe) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         layer_capacity: layer_capacity(config, pools.sizes()) as u32,
         layer_limit: config.layers,
-        slices_a_metre: LDC_SLICES as f32 / size,
         resolution: config.resolution,
-        cell: size / config.resolution as f32,
-        size,
-        tolerance: config.tolerance * size,
-        origin: lower.map(|x| x - 2.0 * rounding),
-        lower: lower.map(|x| x - rounding),
-        upper: upper.map(|x| x + rounding),
+        tolerance_per_side: config.tolerance,
         lists_address: pools.address_of(Pool::Lists),
         depths_address: pools.address_of(Pool::Depths),
         payload_address: pools.address_of(Pool::Payload),
@@ -82,7 +68,7 @@ impl Design for Build {
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "LdcHeader" {
         status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
-        tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
+        tolerance_per_side, tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
         depths_address, payload_address, blocks_address, heads_address, fringe_address, scratch_address,
         layer_capacity, layer_limit, beyond, pairs, pair_capacity,
         groups,

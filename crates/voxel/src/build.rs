@@ -91,7 +91,7 @@ impl Build {
             Axes::All | Axes::Voxel => &[Pool::Voxels, Pool::Normals, Pool::Lists],
         };
 
-        target.record_header(recorder, "voxel/build_0_clear", cleared, shaders | Access::VERTEX_READ);
+        target.record_header(recorder, "voxel/build_0_header", cleared, shaders | Access::VERTEX_READ);
         if let Some(pairs) = &self.pairs {
             pairs.record(recorder, target);
         }

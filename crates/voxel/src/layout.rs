@@ -101,23 +101,6 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     plan(config, Demand { entries, long_lists: 0, pairs: 1024 })
 }
 
-/// The cube that voxels and views divide: its lower corner, and its side, metres.
-///
-/// It holds the bounds and is wider by a 256th, so that nothing lies on its sides but where coordinates are too coarse
-/// for that.
-pub(crate) fn cube([lower, upper]: [[f32; 3]; 2]) -> ([f32; 3], f32) {
-    let pairs = || lower.iter().zip(&upper).map(|(&low, &high)| (f64::from(low), f64::from(high)));
-    let extent = pairs().fold(0.0_f64, |extent, (low, high)| extent.max(high - low));
-    let side = (extent * (1.0 + 1.0 / 256.0)).max(1.0e-30);
-    let corner: Vec<f32> = pairs().map(|(low, high)| (0.5 * (low + high - side)) as f32).collect();
-    // Rounding may have moved the corner away from the far end.
-    let reach = corner
-        .iter()
-        .zip(&upper)
-        .fold(side, |reach, (&corner, &high)| reach.max(f64::from(high) - f64::from(corner)));
-    ([corner[0], corner[1], corner[2]], (reach as f32).next_up())
-}
-
 /// Bytes for counted voxels, cells, entries and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
@@ -224,23 +207,5 @@ mod tests {
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
         assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));
         assert!(plan(&paged, Demand { entries: PAGE_LIMIT.into(), ..many }).is_ok());
-    }
-
-    #[test]
-    fn the_cube_holds_the_bounds() {
-        for bounds in [
-            [[-1.0, -2.0, 0.5], [1.0, 3.0, 0.5]],
-            [[1.0e5, -1.0e5, 0.0], [1.0e5 + 2.0, -1.0e5 + 2.0, 2.0]],
-            [[1.0e9, 0.0, 0.0], [1.0e9, 0.0, 0.0]],
-            [[-1.8e18; 3], [1.8e18; 3]],
-            [[0.0; 3]; 2],
-        ] {
-            let (lower, side) = cube(bounds);
-            assert!(side > 0.0 && side.is_finite());
-            for axis in 0..3 {
-                assert!(lower[axis] <= bounds[0][axis]);
-                assert!(f64::from(lower[axis]) + f64::from(side) >= f64::from(bounds[1][axis]));
-            }
-        }
     }
 }

@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
 use crate::layout::{
-    Demand, cube, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
+    Demand, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
 };
 use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
 
@@ -24,20 +24,13 @@ pub type Voxels = Pooled<Build>;
 
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>) -> Header {
-    let Parts { config, geometry, pools, .. } = parts;
-    let (lower, side) = cube(geometry.bounds());
-    let (resolution, grid) = (config.resolution as f32, config.grid() as f32);
+    let Parts { config, pools, .. } = parts;
     Header {
         capacity: parts.elements(Pool::Fragments) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         resolution: config.resolution,
         grid: config.grid(),
         samples: config.samples,
-        cell: side / resolution,
-        voxel: side / grid,
-        cells_per_metre: resolution / side,
-        voxels_per_metre: grid / side,
-        lower,
         voxels_address: pools.address_of(Pool::Voxels),
         normals_address: pools.address_of(Pool::Normals),
         lists_address: pools.address_of(Pool::Lists),

@@ -1,4 +1,4 @@
-use rasray_ads::{Hit, Ray, StructureKind};
+use rasray_ads::{Geometry, Hit, Ray, Structure, StructureKind};
 use rasray_systems::{Preset, SYSTEMS, Spec};
 
 use crate::harness::Bench;
@@ -108,10 +108,31 @@ impl Subject {
     /// # Panics
     /// If the device fails, rays do not finish, or the build finds its own lists corrupted.
     pub fn answers(&self, bench: &Bench, eye: [f32; 3], triangles: &[Triangle], rays: &[Ray]) -> Answers {
-        let geometry = bench.geometry(triangles);
-        let mut structure = self.spec.create(bench.device(), &geometry, None).expect("the options are valid");
-        let closest = bench.build_and_trace(structure.as_mut(), eye, rays);
-        let occluded = bench.occluded(structure.as_ref(), rays);
+        let mut structure = self.structure(bench, &bench.geometry(triangles));
+        self.answers_of(bench, structure.as_mut(), eye, rays)
+    }
+
+    /// The structure over a geometry, not built.
+    ///
+    /// # Panics
+    /// If the device fails.
+    pub fn structure(&self, bench: &Bench, geometry: &Geometry) -> Box<dyn Structure> {
+        self.spec.create(bench.device(), geometry, None).expect("the options are valid")
+    }
+
+    /// Builds a structure of its own and traces.
+    ///
+    /// # Panics
+    /// As [`Subject::answers`].
+    pub fn answers_of(
+        &self,
+        bench: &Bench,
+        structure: &mut dyn Structure,
+        eye: [f32; 3],
+        rays: &[Ray],
+    ) -> Answers {
+        let closest = bench.build_and_trace(structure, eye, rays);
+        let occluded = bench.occluded(structure, rays);
         assert_eq!(structure.status(0).expect("the status is readable").corrupted, 0, "{}", self.name());
         let key = |hit: &Hit| match self.kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => {

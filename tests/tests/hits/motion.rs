@@ -1,8 +1,9 @@
 //! Hits do not know where a scene lies where that is exact, nor how a ray is cut: scenes scaled by powers of
 //! two and turned by right angles, rays split in two, segments asked from both ends. Structures that find
-//! triangles, hits compared bit for bit.
+//! triangles, hits compared bit for bit. And of all structures: where the device moved the vertices, hits are those of a
+//! structure that was made for where they are.
 
-use rasray_ads::{PRIMITIVE_NONE, Ray, StructureKind};
+use rasray_ads::{BoundsPass, GeometryHeader, PRIMITIVE_NONE, Ray, StructureKind};
 use rasray_metrics::Truth;
 use rasray_reference::oracle::Oracle;
 use rasray_tests::harness::{Bench, oracle_ray};
@@ -126,5 +127,63 @@ fn a_segment_is_occluded_from_both_ends_or_from_none() {
         }
         let occluded = clear.iter().filter(|&&i| first.occluded[i]).count();
         assert!(occluded > 20 && occluded < clear.len(), "{occluded} of {}", clear.len());
+    }
+}
+
+/// The host states where the triangles were, the device measures where they are.
+#[test]
+fn positions_that_the_device_moved_are_built_where_they_are() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let (triangles, rays) = (scene(false), general_rays(ray_count()));
+    let moved_point = |[x, y, z]: [f32; 3]| [1.7 * x - 3.0, 0.6 * y + 0.25, z + 1.0];
+    let moved: Vec<Triangle> = triangles.iter().map(|triangle| triangle.map(moved_point)).collect();
+    let bounds_pass = BoundsPass::new(device).expect("the device works");
+    for subject in Subject::all() {
+        let name = subject.name();
+        let expected = subject.answers(&bench, EYE, &moved, &rays);
+        let geometry = bench.geometry(&triangles);
+        let mut structure = subject.structure(&bench, &geometry);
+        device.upload_slice(&geometry.desc().positions, 0, &moved).expect("the device works");
+        let unmeasured = bench.build_once(structure.as_mut(), EYE);
+        // What has no pools needs no bounds.
+        let is_found = !unmeasured.complete && unmeasured.outside > 0;
+        assert!(is_found || unmeasured.pools.is_empty(), "{name}: {unmeasured:?}");
+        device.submit(|recorder| bounds_pass.record(recorder, &geometry)).expect("the device works");
+        let found = subject.answers_of(&bench, structure.as_mut(), EYE, &rays);
+        assert_same(&format!("{name}: moved"), &rays, &expected, &found);
+    }
+}
+
+/// Bounds as the device measures them are those of the host: of corners that are numbers, zeros of none, both zeros alike.
+#[test]
+fn bounds_are_measured_exactly() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let bounds_pass = BoundsPass::new(device).expect("the device works");
+    let mut random = Random::new(5);
+    let corner = |random: &mut Random| random.point(-1.0, 1.0).map(|x| x * 1.0e-3);
+    let many: Vec<Triangle> = (0..20_000).map(|_| [(); 3].map(|()| corner(&mut random))).collect();
+    let mut odd = many[..3].to_vec();
+    odd[1][0] = [f32::NAN, 1.0, 1.0];
+    odd[2][1] = [f32::INFINITY, 1.0, 1.0];
+    let below: Vec<Triangle> = vec![[[-3.0e38, -2.0, -1.0e-40], [-1.0, -5.0, -1.0], [-2.0, -2.0, -0.0]]];
+    for triangles in [many, odd, below, vec![[[1.0, -0.0, 3.0]; 3]], Vec::new()] {
+        let corners = || triangles.iter().flatten().filter(|corner| corner.iter().all(|x| x.is_finite()));
+        let expected: [[f32; 3]; 2] = if corners().next().is_none() {
+            [[0.0; 3]; 2]
+        } else {
+            let over = |with: fn(f32, f32) -> f32| {
+                std::array::from_fn(|axis| corners().map(|corner| corner[axis]).reduce(with).expect("some"))
+            };
+            [over(f32::min), over(f32::max)]
+        };
+        let stated: Vec<Triangle> = vec![[[0.0; 3]; 3]; triangles.len()];
+        let geometry = bench.geometry(&stated);
+        device.upload_slice(&geometry.desc().positions, 0, &triangles).expect("the device works");
+        device.submit(|recorder| bounds_pass.record(recorder, &geometry)).expect("the device works");
+        let header =
+            device.download_as::<GeometryHeader>(geometry.header(), 0, 1).expect("the device works")[0];
+        assert_eq!([header.lower, header.upper], expected, "{} triangles", triangles.len());
     }
 }

@@ -59,7 +59,7 @@ fn records_of_queues_and_geometry() {
         selected_z, selected, takes, corrupted,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {
-        vertex_count, triangle_count, draw_count, outside, lower, upper,
+        vertex_count, triangle_count, draw_count, outside, lower, upper, lower_keys, upper_keys,
     });
     // Modules have what they read alone, and few read draws.
     check_layout!([&shaders::LDC_BUILD_6_FRINGE], Draw as "Draw" { first_triangle, triangle_count, instance, flags });

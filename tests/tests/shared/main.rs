@@ -9,5 +9,6 @@ mod march;
 mod march_cases;
 mod pages;
 mod parity;
+mod placement;
 mod triangle;
 mod turns;

@@ -1,0 +1,18 @@
+// What: works out what of a structure's header follows from the bounds of the geometry, which only the device knows, and from
+// the eye. One invocation; the first pass of every build.
+// Reads: the geometry's header; of the structure's what the host wrote: options, capacities, eye. Writes: the structure's.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "structure/names.glsl"
+#include "structure/from_bounds.glsl"
+
+layout(local_size_x = 1) in;
+
+layout(push_constant, scalar) uniform HeaderConstants {
+    StructureRef built;
+};
+
+void main() {
+    STRUCTURE_NAME(from_bounds)(built, geometry_header.lower, geometry_header.upper);
+}

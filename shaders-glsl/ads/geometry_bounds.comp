@@ -1,0 +1,51 @@
+// What: measures the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
+// Reads: positions and indices of GEOMETRY_SET. Writes: keys of its header, which were filled before: all bits for the lower
+// ones, none for the upper ones.
+#version 460
+#include "contract/extensions.glsl"
+
+layout(local_size_x = 64) in;
+
+#define GEOMETRY_WRITTEN
+#include "ads/geometry.glsl"
+
+shared uint shared_keys[6];
+
+// Numbers in the order of floats: -0 comes just before 0.
+uint key_of(float x) {
+    uint bits = floatBitsToUint(x);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+void include_corner(vec3 corner) {
+    // Corners that are no numbers bound nothing; the check finds those that no bounds hold.
+    if (any(isnan(corner)) || any(isinf(corner))) {
+        return;
+    }
+    [[unroll]] for (int axis = 0; axis < 3; axis++) {
+        uint key = key_of(corner[axis]);
+        atomicMin(shared_keys[axis], key);
+        atomicMax(shared_keys[3 + axis], key);
+    }
+}
+
+void main() {
+    uint thread = gl_LocalInvocationIndex;
+    if (thread < 6u) {
+        shared_keys[thread] = thread < 3u ? 0xFFFFFFFFu : 0u;
+    }
+    barrier();
+    uint primitive = thread + gl_WorkGroupSize.x * (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
+    if (primitive < geometry_triangle_count()) {
+        vec3 a, b, c;
+        geometry_vertices(primitive, a, b, c);
+        include_corner(a);
+        include_corner(b);
+        include_corner(c);
+    }
+    barrier();
+    if (thread < 3u) {
+        atomicMin(geometry_header.lower_keys[thread], shared_keys[thread]);
+        atomicMax(geometry_header.upper_keys[thread], shared_keys[3u + thread]);
+    }
+}

@@ -1,0 +1,21 @@
+// What: bounds from their keys; one invocation.
+// Reads: keys of the header of GEOMETRY_SET. Writes: its bounds; zeros where there is no triangle.
+#version 460
+#include "contract/extensions.glsl"
+
+layout(local_size_x = 1) in;
+
+#define GEOMETRY_WRITTEN
+#include "ads/geometry.glsl"
+
+float float_of(uint key) {
+    return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7FFFFFFFu : ~key);
+}
+
+void main() {
+    bool any_corner = geometry_header.lower_keys[0] <= geometry_header.upper_keys[0];
+    [[unroll]] for (int axis = 0; axis < 3; axis++) {
+        geometry_header.lower[axis] = any_corner ? float_of(geometry_header.lower_keys[axis]) : 0.0;
+        geometry_header.upper[axis] = any_corner ? float_of(geometry_header.upper_keys[axis]) : 0.0;
+    }
+}

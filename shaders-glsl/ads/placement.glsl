@@ -1,0 +1,84 @@
+// What: where views and cells are placed for the bounds of a geometry and an eye: functions of values, for the header pass of
+// each structure (`from_bounds.glsl`).
+// Reads, writes: nothing. Metres relative to the frame origin.
+// Source: none; docs/core.md.
+#ifndef ADS_PLACEMENT_GLSL
+#define ADS_PLACEMENT_GLSL
+
+#include "ads/constants.glsl"
+
+float largest_axis(vec3 v) {
+    return max(v.x, max(v.y, v.z));
+}
+
+// Farthest that a box is from the origin along an axis.
+float box_reach(vec3 lower, vec3 upper) {
+    return max(largest_axis(abs(lower)), largest_axis(abs(upper)));
+}
+
+// The centre of faces for an eye and geometry within bounds: the eye itself within them, or where they are flat; else the
+// point of about their inner half that is nearest to it, as far back towards the eye as rays from there need.
+// From an eye outside all geometry lies in a part of the faces, in as few tiles as it is far away.
+vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
+    precise vec3 extent = upper - lower;
+    float longest = largest_axis(extent);
+    // Longer sides than there are numbers for leave the eye where it is.
+    bool has_inside = all(greaterThan(extent, vec3(PLACEMENT_FLATTEST * longest))) && longest <= PLACEMENT_LONGEST;
+    bool is_inside = all(lessThanEqual(lower, eye)) && all(lessThanEqual(eye, upper));
+    if (is_inside || !has_inside) {
+        return eye;
+    }
+    precise vec3 margin = PLACEMENT_MARGIN * extent;
+    precise vec3 within = min(max(eye, lower + margin), upper - margin);
+    precise vec3 from_eye = eye - within;
+    precise vec3 to_sides = max(upper - within, within - lower);
+    float away = largest_axis(abs(from_eye));
+    float reach = largest_axis(to_sides);
+    // The geometry is at least as far from the centre as that is from where it came, and as `reach`.
+    precise float back = max(min(away - PLACEMENT_EYE_LIMIT * reach, away / (PLACEMENT_EYE_LIMIT + 1.0)), 0.0);
+    precise vec3 centre = within + from_eye * (back / away);
+    return centre;
+}
+
+// Lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their longest side, so that no side
+// of the geometry lies on one of its own.
+vec4 cube_placement(vec3 lower, vec3 upper) {
+    precise float widened = max(largest_axis(upper - lower) * PLACEMENT_WIDENED, PLACEMENT_SMALLEST);
+    // Rounding must not move the corner into the geometry, and may move it away from the far end.
+    precise vec3 corner = min(0.5 * lower + 0.5 * upper - 0.5 * widened, lower);
+    precise float rounded = max(widened, largest_axis(upper - corner));
+    return vec4(corner, uintBitsToFloat(floatBitsToUint(rounded) + 1u));
+}
+
+// Cells of one box along the axes of the world: what ads/box_cells.glsl works on.
+struct BoxPlacement {
+    vec3 centre;          // middle of the bounds
+    float reach;          // half the longest side of the bounds; more where the eye is far away
+    float rounding;       // how far a ray may be from a triangle that it hits
+    vec3 lower;           // corner of the first cell relative to the centre
+    vec3 per_metre;       // cells
+};
+
+// So many cells along each axis, 1 or more, over the bounds, for rays from around the eye.
+// The cells reach PLACEMENT_WIDENING margins below the bounds and twice as many above: sides lie well within a cell then,
+// and so does the middle.
+BoxPlacement box_placement(vec3 lower, vec3 upper, uvec3 cells, vec3 eye) {
+    precise vec3 centre = 0.5 * lower + 0.5 * upper;
+    precise vec3 first = lower - centre;
+    precise vec3 last = upper - centre;
+    precise vec3 away = eye - centre;
+    float own = max(box_reach(first, last), PLACEMENT_SMALLEST);
+    float most = float(max(cells.x, max(cells.y, cells.z)));
+    // Margins of a distant eye are no wider than a share of a cell.
+    precise float limit = (2.0 * PLACEMENT_WIDEST_MARGIN / CELL_ROUNDING) * own / most;
+    float reach = max(min(largest_axis(abs(away)) / PLACEMENT_EYE_LIMIT, limit), own);
+    precise float rounding = CELL_ROUNDING * reach;
+    precise float wider = PLACEMENT_WIDENING * rounding;
+    // Halves, so that they stay within the range of numbers.
+    precise vec3 half_extent = 0.5 * last - 0.5 * first + 1.5 * wider;
+    precise vec3 per_metre = 0.5 * vec3(cells) / half_extent;
+    precise vec3 corner = first - wider;
+    return BoxPlacement(centre, reach, rounding, corner, per_metre);
+}
+
+#endif

@@ -1,0 +1,25 @@
+// What: places the cube of a layered depth cube over the bounds of the geometry.
+// Reads, writes: header.
+// Source: none; docs/systems/ldc.md.
+#ifndef LDC_FROM_BOUNDS_GLSL
+#define LDC_FROM_BOUNDS_GLSL
+
+#include "ads/placement.glsl"
+#include "ldc/header.glsl"
+
+void ldc_from_bounds(LdcRef s, vec3 lower, vec3 upper) {
+    // A margin for the rounding of what is subtracted from corner and ray.
+    precise float rounding = LDC_ROUNDING * box_reach(lower, upper);
+    // Where all geometry is one point its cells have a size all the same.
+    precise float size = max(largest_axis(upper - lower) + 4.0 * rounding, PLACEMENT_SMALLEST);
+    precise float cell = size / float(LDC_HEADER(s).resolution);
+    LDC_HEADER(s).size = size;
+    LDC_HEADER(s).cell = cell;
+    LDC_HEADER(s).slices_a_metre = LDC_SLICES / size;
+    LDC_HEADER(s).tolerance = LDC_HEADER(s).tolerance_per_side * size;
+    LDC_HEADER(s).origin = lower - 2.0 * rounding;
+    LDC_HEADER(s).lower = lower - rounding;
+    LDC_HEADER(s).upper = upper + rounding;
+}
+
+#endif
