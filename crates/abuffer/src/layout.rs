@@ -264,7 +264,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             Coverage::EdgeOn => 4 * cells + 12 * demand.fringe + 4 * demand.triangles.div_ceil(32),
         },
         ids: if config.ids { 4 * demand.nodes * node_slots(config) } else { 0 },
-        rest: 232
+        rest: 248
             + 4 * demand.near_triangles
             + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
                 4 * demand.pairs

@@ -128,7 +128,7 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
         cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }) + 8 * blocks,
         entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest: 148 + 4 * demand.near + pairs,
+        rest: 160 + 4 * demand.near + pairs,
     }
 }
 

@@ -105,7 +105,7 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
         cells: 12 * bricks + 4 * demand.cells,
         entries: 4 * demand.entries,
         scan: if config.skip { 4 * bricks } else { bricks.max(demand.cells).div_ceil(1024) * 4 },
-        rest: 336
+        rest: 348
             + 4 * demand.near
             + 12 * demand.records
             + demand.triangles * if config.corners { 36 } else { 24 },

@@ -71,7 +71,7 @@ pub fn formula_bytes(demand: &Demand) -> FormulaBytes {
     FormulaBytes {
         cells: 4 * cells,
         entries: 4 * demand.entries,
-        rest: 140 + cells.div_ceil(1024) * 4 + 4 * demand.triangles,
+        rest: 152 + cells.div_ceil(1024) * 4 + 4 * demand.triangles,
     }
 }
 
