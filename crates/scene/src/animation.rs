@@ -1,6 +1,6 @@
 //! Everything needed to pose a scene at a time other than rest: nodes, clips, skins, morph targets.
 //!
-//! [`crate::Scene::meshes`] hold the pose at rest. What is here is as the file has it, checked:
+//! [`crate::Scene::meshes`] hold the pose at rest, [`crate::Scene::at`] makes another. What is here is as the file has it, checked:
 //! indices are in range, arrays have the lengths that the fields promise, times ascend.
 
 use glam::{DAffine3, DQuat, DVec3};
@@ -18,6 +18,10 @@ pub struct Rig {
     pub skins: Vec<Skin>,
     /// Meshes that skins or morph targets deform.
     pub deformed: Vec<DeformedMesh>,
+    /// The node of each camera, in the order of [`crate::Scene::cameras`].
+    pub cameras: Vec<usize>,
+    /// The node of each light, in the order of [`crate::Scene::lights`].
+    pub lights: Vec<usize>,
 }
 
 /// A node of the graph.
@@ -168,8 +172,18 @@ pub struct MorphTarget {
 pub struct SkinBinding {
     /// Index into [`Rig::skins`].
     pub skin: usize,
-    /// Four joints a vertex, indices into [`Skin::joints`].
-    pub joints: Vec<[u32; 4]>,
-    /// Their shares: not negative, sum 1.
-    pub weights: Vec<[f32; 4]>,
+    /// Joints per vertex: a multiple of 4.
+    pub per_vertex: usize,
+    /// Those of one vertex after the other, indices into [`Skin::joints`].
+    pub joints: Vec<u32>,
+    /// Their shares: not negative, the sum of a vertex is 1.
+    pub weights: Vec<f32>,
+}
+
+impl SkinBinding {
+    /// Joints of a vertex with their shares.
+    pub fn of_vertex(&self, vertex: usize) -> impl Iterator<Item = (u32, f32)> {
+        let range = vertex * self.per_vertex..(vertex + 1) * self.per_vertex;
+        self.joints[range.clone()].iter().copied().zip(self.weights[range].iter().copied())
+    }
 }

@@ -47,6 +47,11 @@ pub(crate) fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Resu
     Ok(())
 }
 
+/// The same of normals, tangents, texture coordinates and colours alone.
+pub(crate) fn clean_attributes(mesh: &mut Mesh, remarks: &mut Remarks) {
+    attributes::clean(mesh, remarks);
+}
+
 /// A mesh as the place of a remark.
 fn place(mesh: &Mesh) -> String {
     format!("mesh {}", mesh.name)

@@ -77,8 +77,13 @@ fn build(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<Scene, Scen
     let animation = animations::read(&document, &hierarchy, skins, deformed, placements)?;
     let mut scene = Scene { name: scene_name(path), meshes, instances, animation, ..Scene::default() };
     materials::convert(&document, &mut scene)?;
-    scene.lights = lights::place(&document, &hierarchy, &order);
-    scene.cameras = cameras::place(&document, &hierarchy, &order);
+    let (light_nodes, lights) = lights::place(&document, &hierarchy, &order).into_iter().unzip();
+    let (camera_nodes, cameras) = cameras::place(&document, &hierarchy, &order).into_iter().unzip();
+    (scene.lights, scene.cameras) = (lights, cameras);
+    let rig = &mut scene.animation.rig;
+    if !rig.nodes.is_empty() {
+        (rig.lights, rig.cameras) = (light_nodes, camera_nodes);
+    }
     let remarks = document.remarks.take();
     finish(path, scene, remarks, |remarks| {
         let lost = ["dropped-triangles", "empty-mesh", "no-positions", "non-finite-instances"];

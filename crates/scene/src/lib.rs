@@ -18,6 +18,7 @@ pub mod model;
 pub mod needs;
 pub mod obj;
 pub mod ply;
+pub mod pose;
 mod recognise;
 mod remarks;
 mod text;
@@ -27,6 +28,7 @@ pub use error::SceneError;
 pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;
 pub use model::*;
+pub use pose::Moment;
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -11,7 +11,7 @@ use crate::animation::{
 };
 use crate::{Animation, SceneError};
 
-/// Reads all clips, and warns if anything in the scene could move: it is shown at rest.
+/// Reads all clips and what they move.
 pub(super) fn read(
     document: &Document<'_>,
     hierarchy: &Hierarchy,
@@ -23,16 +23,10 @@ pub(super) fn read(
     for (i, animation) in document.root.animations.iter().enumerate() {
         clips.push(read_clip(document, i, animation)?);
     }
-    let skinned = deformed.iter().filter(|mesh| mesh.skin.is_some()).count();
     let morphed = deformed.iter().filter(|mesh| !mesh.targets.is_empty()).count();
     if clips.is_empty() && deformed.is_empty() {
         return Ok(Animation::default());
     }
-    let text = format!(
-        "{} animation clips, {skinned} skinned and {morphed} morphed meshes are shown at rest",
-        clips.len()
-    );
-    document.note("animation-at-rest", "", text);
     let nodes = document.root.nodes.iter().enumerate().map(|(i, node)| RigNode {
         name: node.name.clone().unwrap_or_else(|| format!("node{i}")),
         parent: hierarchy.parent[i],
@@ -43,7 +37,7 @@ pub(super) fn read(
         duration: clips.iter().map(|clip| clip.duration).fold(0.0, f32::max),
         skins: skins.len(),
         morphed_meshes: morphed,
-        rig: Rig { nodes: nodes.collect(), placements, clips, skins, deformed },
+        rig: Rig { nodes: nodes.collect(), placements, clips, skins, deformed, ..Rig::default() },
     })
 }
 

@@ -89,8 +89,8 @@ pub(super) fn remark(document: &Document<'_>, place: &str, primitive: &Primitive
             Semantic::TexCoords(0 | 1) => {
                 float || share || (is_quantized(document) && component != ComponentType::U32)
             }
-            Semantic::Colors(0) | Semantic::Weights(0) => float || share,
-            Semantic::Joints(0) => unsigned && !accessor.normalized,
+            Semantic::Colors(0) | Semantic::Weights(_) => float || share,
+            Semantic::Joints(_) => unsigned && !accessor.normalized,
             // Not read, or refused where it is read.
             _ => true,
         };

@@ -2,17 +2,16 @@
 
 use std::f32::consts::PI;
 
-use ::gltf::json::camera::{Camera as JsonCamera, Type};
-use ::gltf::json::validation::Checked;
-use glam::{DAffine3, DMat3};
-
 use super::document::Document;
 use super::hierarchy::Hierarchy;
+use crate::pose::rigid;
 use crate::{Camera, Projection};
+use ::gltf::json::camera::{Camera as JsonCamera, Type};
+use ::gltf::json::validation::Checked;
 
-/// The cameras of the nodes in `order`. Scale and shear of the nodes are taken off; aspect ratio
+/// The cameras of the nodes in `order`, each with its node. Scale and shear of the nodes are taken off; aspect ratio
 /// and clip planes of the file are not used: the image decides the one, rays need no other.
-pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<Camera> {
+pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Camera)> {
     let mut cameras = Vec::new();
     for &node in order {
         let Some(index) = document.root.nodes[node].camera else { continue };
@@ -22,7 +21,7 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
             node_name.or_else(|| source.name.clone()).unwrap_or_else(|| format!("camera{}", cameras.len()));
         match (rigid(hierarchy.world[node]), projection(source)) {
             (Some(world_from_camera), Some(projection)) => {
-                cameras.push(Camera { name, world_from_camera, projection });
+                cameras.push((node, Camera { name, world_from_camera, projection }));
             }
             _ => {
                 document.note("bad-camera", format!("camera {name}"), fault(document, index.value(), source))
@@ -40,15 +39,6 @@ fn fault(document: &Document<'_>, index: usize, source: &JsonCamera) -> String {
         }
         Checked::Valid(_) => "its place or projection is degenerate; it was dropped".to_owned(),
     }
-}
-
-/// The rigid map with the same place, view direction and up direction.
-fn rigid(world: DAffine3) -> Option<DAffine3> {
-    let back = world.matrix3.z_axis.try_normalize()?;
-    let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
-    let up = back.cross(right);
-    let rigid = DAffine3 { matrix3: DMat3::from_cols(right, up, back), translation: world.translation };
-    rigid.is_finite().then_some(rigid)
 }
 
 fn projection(source: &JsonCamera) -> Option<Projection> {

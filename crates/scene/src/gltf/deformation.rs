@@ -3,7 +3,6 @@
 use ::gltf::json::Index;
 use ::gltf::json::accessor::Accessor;
 use ::gltf::json::mesh::Primitive;
-use glam::Vec3;
 
 use super::attributes::read_directions;
 use super::document::Document;
@@ -56,31 +55,4 @@ pub(super) fn read(
 
 fn make_finite<const N: usize>(list: &mut [[f32; N]]) {
     list.iter_mut().flatten().filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
-}
-
-/// Adds the targets, weighted as at rest, to `mesh`.
-pub(super) fn morph(deformed: &DeformedMesh, mesh: &mut Mesh) {
-    for (target, &weight) in
-        deformed.targets.iter().zip(&deformed.weights).filter(|(_, weight)| **weight != 0.0)
-    {
-        add(&mut mesh.positions, target.positions.as_deref(), weight);
-        if let Some(normals) = &mut mesh.normals {
-            add(normals, target.normals.as_deref(), weight);
-        }
-        if let Some(tangents) = &mut mesh.tangents {
-            add(tangents, target.tangents.as_deref(), weight);
-        }
-    }
-    // The sum of unit vectors is not one; left alone, it would be reported as a fault of the file.
-    for normal in mesh.normals.iter_mut().flatten() {
-        *normal = Vec3::from(*normal).normalize_or_zero().to_array();
-    }
-}
-
-fn add<const N: usize>(vectors: &mut [[f32; N]], displacements: Option<&[[f32; 3]]>, weight: f32) {
-    for (vector, displacement) in vectors.iter_mut().zip(displacements.unwrap_or_default()) {
-        for (x, d) in vector.iter_mut().zip(displacement) {
-            *x += weight * d;
-        }
-    }
 }

@@ -10,6 +10,7 @@ use glam::DVec3;
 use super::document::Document;
 use super::hierarchy::Hierarchy;
 use crate::Light;
+use crate::pose::light_direction;
 
 /// The lights of a file.
 pub(super) fn of(root: &Root) -> &[JsonLight] {
@@ -19,9 +20,9 @@ pub(super) fn of(root: &Root) -> &[JsonLight] {
         .map_or(&[], |found| &found.lights)
 }
 
-/// The lights of the nodes in `order`. Scale moves a light but does not change how bright it is or
+/// The lights of the nodes in `order`, each with its node. Scale moves a light but does not change how bright it is or
 /// how far it reaches.
-pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<Light> {
+pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usize]) -> Vec<(usize, Light)> {
     let mut lights = Vec::new();
     for &node in order {
         let extensions = document.root.nodes[node].extensions.as_ref();
@@ -30,11 +31,10 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
         };
         let source = &of(&document.root)[reference.light.value()];
         let world = hierarchy.world[node];
-        let direction = world.transform_vector3(DVec3::NEG_Z).try_normalize();
-        match light(source, world.translation, direction) {
+        match light(source, world.translation, light_direction(world)) {
             Some(light) => {
                 remark(document, reference.light.value(), source);
-                lights.push(light);
+                lights.push((node, light));
             }
             None => {
                 let text = match source.type_ {

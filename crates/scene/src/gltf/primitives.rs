@@ -1,6 +1,6 @@
 //! A mesh primitive to an indexed triangle mesh.
 
-use ::gltf::json::mesh::Semantic::{Joints, Weights};
+use ::gltf::json::mesh::Semantic::{Joints as JointsOf, Weights as WeightsOf};
 use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 use glam::DAffine3;
@@ -11,6 +11,7 @@ use super::document::Document;
 use super::hierarchy::Hierarchy;
 use super::{deformation, skins};
 use crate::animation::{DeformedMesh, Skin};
+use crate::pose::{Joints, deform};
 use crate::remarks::Remarks;
 use crate::{Limits, Mesh, SceneError, check};
 
@@ -100,21 +101,17 @@ pub(super) fn read(
     Limits::check(document.path, "the number of triangles", found, document.limits.triangles, "triangles")?;
 
     let node = &document.root.nodes[shown.node];
-    let binding = match (node.skin, attribute(primitive, Joints(0)), attribute(primitive, Weights(0))) {
-        (Some(skin), Some(joints), Some(weights)) => {
-            if attribute(primitive, Joints(1)).is_some() {
-                let text = "only the first four joints of a vertex are used";
-                document.note("many-joints", format!("mesh {}", mesh.name), text);
-            }
-            let vertices = mesh.positions.len();
-            Some(skins::read_binding(document, &place, skin.value(), (joints, weights), vertices)?)
-        }
-        (Some(_), ..) => {
+    let sets: Vec<(usize, usize)> = (0..)
+        .map_while(|set| Some((attribute(primitive, JointsOf(set))?, attribute(primitive, WeightsOf(set))?)))
+        .collect();
+    let binding = match node.skin {
+        Some(_) if sets.is_empty() => {
             let text = "its node has a skin, but it has no joints or weights";
             document.note("skin-without-joints", format!("mesh {}", mesh.name), text);
             None
         }
-        (None, ..) => None,
+        Some(skin) => Some(skins::read_binding(document, &place, skin.value(), &sets, mesh.positions.len())?),
+        None => None,
     };
     let morphed = primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty());
     let mut deformed = None;
@@ -122,9 +119,10 @@ pub(super) fn read(
     if morphed || binding.is_some() {
         let weights = node.weights.as_deref().or(source.weights.as_deref()).unwrap_or_default();
         let mut kept = deformation::read(document, &place, primitive, weights, &mesh)?;
-        deformation::morph(&kept, &mut mesh);
-        world_from_mesh =
-            binding.as_ref().map(|found| skins::pose(&skins[found.skin], found, hierarchy, &mut mesh));
+        let joints = binding.as_ref().map(|found| Joints::new(&skins[found.skin], found, &hierarchy.world));
+        let weights: Vec<f64> = kept.weights.iter().copied().map(f64::from).collect();
+        deform(&mut mesh, &kept, &weights, joints.as_ref());
+        world_from_mesh = joints.map(|joints| joints.world_from_mesh());
         kept.skin = binding;
         deformed = Some(kept);
     }

@@ -1,12 +1,11 @@
-//! Skins: joints, bindings, and the pose at rest.
+//! Skins: joints and bindings.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::accessor::{read_floats, read_integers};
 use super::document::Document;
-use super::hierarchy::Hierarchy;
+use crate::SceneError;
 use crate::animation::{Skin, SkinBinding};
-use crate::{Mesh, SceneError};
 
 /// Reads all skins of a file.
 pub(super) fn read_all(document: &Document<'_>) -> Result<Vec<Skin>, SceneError> {
@@ -38,80 +37,54 @@ fn affine(elements: &[f32; 16]) -> DAffine3 {
     DAffine3 { matrix3: DMat3::from_cols(column(0), column(4), column(8)), translation: column(12) }
 }
 
-/// Reads which joints move the vertices of a primitive. `accessors` are those of joints and weights.
+/// Reads which joints move the vertices of a primitive. `sets` are the accessors of joints and weights, four joints per
+/// vertex each.
 pub(super) fn read_binding(
     document: &Document<'_>,
     place: &str,
     skin: usize,
-    accessors: (usize, usize),
+    sets: &[(usize, usize)],
     vertices: usize,
 ) -> Result<SkinBinding, SceneError> {
     let available = document.root.skins[skin].joints.len();
-    let joints = read_integers::<4>(document, accessors.0)?;
-    let mut weights = read_floats::<4>(document, accessors.1)?;
-    if joints.len() != vertices || weights.len() != vertices {
-        let reason = format!("{} joints and {} weights for {vertices} vertices", joints.len(), weights.len());
-        return Err(document.invalid(place, reason));
-    }
-    for (joints, weights) in joints.iter().zip(&mut weights) {
-        for (&joint, weight) in joints.iter().zip(weights.iter_mut()) {
-            if !(weight.is_finite() && *weight > 0.0) {
-                *weight = 0.0;
-            } else if joint as usize >= available {
-                let reason = format!("joint {joint}, but skins[{skin}] has only {available}");
-                return Err(document.invalid(place, reason));
+    let per_vertex = 4 * sets.len();
+    let mut joints = vec![0; vertices * per_vertex];
+    let mut weights = vec![0.0; vertices * per_vertex];
+    for (set, accessors) in sets.iter().enumerate() {
+        let joints_of = read_integers::<4>(document, accessors.0)?;
+        let weights_of = read_floats::<4>(document, accessors.1)?;
+        if joints_of.len() != vertices || weights_of.len() != vertices {
+            let (joints, weights) = (joints_of.len(), weights_of.len());
+            let reason = format!("{joints} joints and {weights} weights for {vertices} vertices");
+            return Err(document.invalid(place, reason));
+        }
+        for (vertex, (joints_of, weights_of)) in joints_of.into_iter().zip(weights_of).enumerate() {
+            let first = vertex * per_vertex + 4 * set;
+            for (place_of, (joint, weight)) in joints_of.into_iter().zip(weights_of).enumerate() {
+                if !(weight.is_finite() && weight > 0.0) {
+                    continue;
+                }
+                if joint as usize >= available {
+                    let reason = format!("joint {joint}, but skins[{skin}] has only {available}");
+                    return Err(document.invalid(place, reason));
+                }
+                joints[first + place_of] = joint;
+                weights[first + place_of] = weight;
             }
         }
-        let sum: f32 = weights.iter().sum();
-        // A vertex that no joint moves follows the first.
-        *weights = if sum.is_normal() { weights.map(|weight| weight / sum) } else { [1.0, 0.0, 0.0, 0.0] };
     }
     if available == 0 && vertices > 0 {
         return Err(document.invalid(format!("skins[{skin}]"), "has no joints"));
     }
-    let joints =
-        joints.into_iter().map(|joints| joints.map(|joint| joint.min(available.max(1) as u32 - 1))).collect();
-    Ok(SkinBinding { skin, joints, weights })
-}
-
-/// Moves the vertices of `mesh` to where the joints have them at rest, relative to the returned
-/// place in the world (the first joint's), so that f32 suffices far from the origin. As the format
-/// asks, the transform of the node that holds the mesh plays no part.
-pub(super) fn pose(skin: &Skin, binding: &SkinBinding, hierarchy: &Hierarchy, mesh: &mut Mesh) -> DAffine3 {
-    let origin = skin.joints.first().map_or(DVec3::ZERO, |&joint| hierarchy.world[joint].translation);
-    let to_origin = DAffine3::from_translation(-origin);
-    let moves: Vec<DAffine3> = (skin.joints.iter().zip(&skin.joint_from_mesh))
-        .map(|(&joint, &joint_from_mesh)| to_origin * hierarchy.world[joint] * joint_from_mesh)
-        .collect();
-    for (vertex, (joints, weights)) in binding.joints.iter().zip(&binding.weights).enumerate() {
-        let blended = joints.iter().zip(weights).filter(|(_, weight)| **weight > 0.0).fold(
-            DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO },
-            |sum, (&joint, &weight)| {
-                let (step, weight) = (moves[joint as usize], f64::from(weight));
-                DAffine3 {
-                    matrix3: sum.matrix3 + step.matrix3 * weight,
-                    translation: sum.translation + step.translation * weight,
-                }
-            },
-        );
-        let position = &mut mesh.positions[vertex];
-        *position = blended.transform_point3(DVec3::from(position.map(f64::from))).as_vec3().to_array();
-        if let Some(normal) = mesh.normals.as_mut().and_then(|normals| normals.get_mut(vertex)) {
-            let turned = cofactors(blended.matrix3) * DVec3::from(normal.map(f64::from));
-            *normal = turned.normalize_or_zero().as_vec3().to_array();
-        }
-        if let Some([x, y, z, _]) = mesh.tangents.as_mut().and_then(|tangents| tangents.get_mut(vertex)) {
-            let turned = blended.matrix3 * DVec3::new((*x).into(), (*y).into(), (*z).into());
-            [*x, *y, *z] = turned.normalize_or_zero().as_vec3().to_array();
+    for weights in weights.chunks_exact_mut(per_vertex.max(1)) {
+        let sum: f32 = weights.iter().sum();
+        if sum.is_normal() {
+            weights.iter_mut().for_each(|weight| *weight /= sum);
+        } else {
+            // A vertex that no joint moves follows the first.
+            weights.fill(0.0);
+            weights[0] = 1.0;
         }
     }
-    DAffine3::from_translation(origin)
-}
-
-/// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them
-/// back to the side that the winding has.
-fn cofactors(matrix: DMat3) -> DMat3 {
-    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let side = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
-    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side
+    Ok(SkinBinding { skin, per_vertex, joints, weights })
 }

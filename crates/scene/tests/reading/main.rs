@@ -17,3 +17,4 @@ mod needs_of_scenes;
 mod obj_corpus;
 mod obj_reading;
 mod ply_reading;
+mod poses;

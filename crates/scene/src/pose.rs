@@ -1,0 +1,371 @@
+//! Scenes at a time: nodes moved by clips, meshes deformed by morph targets and joints, all in f64 and rounded once.
+
+use std::collections::HashMap;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3, DVec4};
+
+use crate::animation::{
+    Channel, ChannelValues, DeformedMesh, Interpolation, NodeTransform, Rig, Skin, SkinBinding,
+};
+use crate::remarks::Remarks;
+use crate::{Light, Mesh, Scene, check};
+
+/// When a scene is shown, and what moves it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Moment {
+    /// Seconds from the beginning of every clip. Before the first and after the last key of a channel its value is the one
+    /// of that key.
+    pub seconds: f64,
+    /// Indices into [`Rig::clips`]; of two that animate the same property of a node the later one counts.
+    pub clips: Vec<usize>,
+}
+
+impl Rig {
+    /// The clips that can be played at once: all, but for those that animate a property of a node that an earlier one of
+    /// them animates as well, such as the gaits of a figure.
+    pub fn compatible_clips(&self) -> Vec<usize> {
+        let mut taken = std::collections::HashSet::new();
+        let property = |channel: &Channel| (channel.node, std::mem::discriminant(&channel.values));
+        (0..self.clips.len())
+            .filter(|&clip| {
+                let channels = &self.clips[clip].channels;
+                let competes = channels.iter().any(|channel| taken.contains(&property(channel)));
+                if !competes {
+                    taken.extend(channels.iter().map(property));
+                }
+                !competes
+            })
+            .collect()
+    }
+}
+
+/// Where all nodes of a rig are, and how much of each morph target they show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pose {
+    /// Map from each node's space to the world.
+    pub world_from_node: Vec<DAffine3>,
+    /// Weights of the morph targets of each node's mesh, where a clip animates them.
+    pub weights: Vec<Option<Vec<f64>>>,
+}
+
+impl Pose {
+    /// Evaluates the clips at a moment. Linear in nodes and channels.
+    pub fn new(rig: &Rig, moment: &Moment) -> Self {
+        let mut local: Vec<NodeTransform> = rig.nodes.iter().map(|node| node.transform).collect();
+        let mut weights = vec![None; rig.nodes.len()];
+        let clips = moment.clips.iter().filter_map(|&clip| rig.clips.get(clip));
+        for channel in clips.flat_map(|clip| &clip.channels) {
+            let Some(node) = local.get_mut(channel.node) else { continue };
+            let at = Between::keys(&channel.times, moment.seconds);
+            if let ChannelValues::Weights { values, targets } = &channel.values {
+                weights[channel.node] = Some(at.of_slices(channel.interpolation, values, *targets));
+                continue;
+            }
+            // The format forbids to animate a matrix.
+            let NodeTransform::Parts { translation, rotation, scale } = node else { continue };
+            match &channel.values {
+                ChannelValues::Translation(values) => {
+                    *translation = at.of_vectors(channel.interpolation, values)
+                }
+                ChannelValues::Scale(values) => *scale = at.of_vectors(channel.interpolation, values),
+                ChannelValues::Rotation(values) => *rotation = at.of_rotations(channel.interpolation, values),
+                ChannelValues::Weights { .. } => {}
+            }
+        }
+        Self { world_from_node: multiply(rig, &local), weights }
+    }
+}
+
+/// Transforms multiplied along the forest, whose parents may come after their children.
+fn multiply(rig: &Rig, local: &[NodeTransform]) -> Vec<DAffine3> {
+    let mut world: Vec<Option<DAffine3>> = vec![None; local.len()];
+    for start in 0..local.len() {
+        let mut chain = Vec::new();
+        let mut next = Some(start);
+        // A forest has no cycle; a chain longer than there are nodes would be one.
+        while let Some(node) = next.filter(|&node| world[node].is_none() && chain.len() < local.len()) {
+            chain.push(node);
+            next = rig.nodes[node].parent;
+        }
+        let mut above = next.and_then(|node| world[node]).unwrap_or(DAffine3::IDENTITY);
+        for node in chain.into_iter().rev() {
+            above *= local[node].to_affine();
+            world[node] = Some(above);
+        }
+    }
+    world.into_iter().map(|world| world.unwrap_or(DAffine3::IDENTITY)).collect()
+}
+
+/// The keys around a time.
+struct Between {
+    first: usize,
+    second: usize,
+    /// How far from the first to the second, 0 to 1.
+    share: f64,
+    /// Seconds between them.
+    seconds: f64,
+}
+
+impl Between {
+    fn keys(times: &[f32], seconds: f64) -> Self {
+        let after = times.partition_point(|&time| f64::from(time) <= seconds);
+        if after == 0 || after == times.len() {
+            let key = after.saturating_sub(1);
+            return Self { first: key, second: key, share: 0.0, seconds: 0.0 };
+        }
+        let (begin, end) = (f64::from(times[after - 1]), f64::from(times[after]));
+        Self {
+            first: after - 1,
+            second: after,
+            share: (seconds - begin) / (end - begin),
+            seconds: end - begin,
+        }
+    }
+
+    /// What is added up for a value that is interpolated number by number: places in the list of elements, with their shares.
+    fn terms(&self, interpolation: Interpolation) -> [(usize, f64); 4] {
+        let Self { first, second, share: s, seconds } = *self;
+        match interpolation {
+            Interpolation::Step => [(first, 1.0), (first, 0.0), (first, 0.0), (first, 0.0)],
+            Interpolation::Linear => [(first, 1.0 - s), (second, s), (first, 0.0), (first, 0.0)],
+            Interpolation::CubicSpline => {
+                let (s2, s3) = (s * s, s * s * s);
+                [
+                    (3 * first + 1, 2.0 * s3 - 3.0 * s2 + 1.0),
+                    (3 * first + 2, seconds * (s3 - 2.0 * s2 + s)),
+                    (3 * second + 1, 3.0 * s2 - 2.0 * s3),
+                    (3 * second, seconds * (s3 - s2)),
+                ]
+            }
+        }
+    }
+
+    fn of_vectors(&self, interpolation: Interpolation, values: &[[f32; 3]]) -> DVec3 {
+        let terms = self.terms(interpolation).into_iter().filter(|(_, share)| *share != 0.0);
+        terms.fold(DVec3::ZERO, |sum, (at, share)| {
+            let value = values.get(at).copied().unwrap_or_default();
+            sum + DVec3::from(value.map(f64::from)) * share
+        })
+    }
+
+    fn of_rotations(&self, interpolation: Interpolation, values: &[[f32; 4]]) -> DQuat {
+        let value = |at: usize| DVec4::from(values.get(at).copied().unwrap_or_default().map(f64::from));
+        let unit = |q: DVec4| q.try_normalize().map_or(DQuat::IDENTITY, DQuat::from_vec4);
+        match interpolation {
+            Interpolation::Step => unit(value(self.first)),
+            Interpolation::Linear => {
+                unit(value(self.first)).slerp(unit(value(self.second)), self.share).normalize()
+            }
+            Interpolation::CubicSpline => {
+                let terms = self.terms(interpolation).into_iter().filter(|(_, share)| *share != 0.0);
+                unit(terms.fold(DVec4::ZERO, |sum, (at, share)| sum + value(at) * share))
+            }
+        }
+    }
+
+    /// Elements of `length` numbers each.
+    fn of_slices(&self, interpolation: Interpolation, values: &[f32], length: usize) -> Vec<f64> {
+        let terms = self.terms(interpolation);
+        let number =
+            |at: usize, place: usize| values.get(at * length + place).copied().map_or(0.0, f64::from);
+        (0..length)
+            .map(|place| {
+                let terms = terms.iter().filter(|(_, share)| *share != 0.0);
+                terms.map(|&(at, share)| number(at, place) * share).sum()
+            })
+            .collect()
+    }
+}
+
+/// How joints have moved since a mesh was bound to them.
+pub(crate) struct Joints<'a> {
+    binding: &'a SkinBinding,
+    /// Of each joint: from mesh space to the world, less `origin`.
+    moves: Vec<DAffine3>,
+    origin: DVec3,
+}
+
+impl<'a> Joints<'a> {
+    pub fn new(skin: &Skin, binding: &'a SkinBinding, world_from_node: &[DAffine3]) -> Self {
+        let world = |joint: usize| world_from_node.get(joint).copied().unwrap_or(DAffine3::IDENTITY);
+        let origin = skin.joints.first().map_or(DVec3::ZERO, |&joint| world(joint).translation);
+        let to_origin = DAffine3::from_translation(-origin);
+        let moves = skin.joints.iter().zip(&skin.joint_from_mesh);
+        let moves =
+            moves.map(|(&joint, &joint_from_mesh)| to_origin * world(joint) * joint_from_mesh).collect();
+        Self { binding, moves, origin }
+    }
+
+    /// Where deformed vertices are, relative to which they are rounded: the first joint's place, so that f32 suffices far
+    /// from the origin. As the format asks, the transform of the node that holds the mesh plays no part.
+    pub fn world_from_mesh(&self) -> DAffine3 {
+        DAffine3::from_translation(self.origin)
+    }
+
+    /// The weighted sum of the joints of a vertex.
+    fn of_vertex(&self, vertex: usize) -> DAffine3 {
+        let zero = DAffine3 { matrix3: DMat3::ZERO, translation: DVec3::ZERO };
+        self.binding.of_vertex(vertex).filter(|(_, weight)| *weight > 0.0).fold(
+            zero,
+            |sum, (joint, weight)| {
+                let (step, weight) = (self.moves[joint as usize], f64::from(weight));
+                DAffine3 {
+                    matrix3: sum.matrix3 + step.matrix3 * weight,
+                    translation: sum.translation + step.translation * weight,
+                }
+            },
+        )
+    }
+}
+
+/// Moves the vertices of `mesh`, which is as the file has it, by weighted targets of `deformed` and by joints.
+pub(crate) fn deform(mesh: &mut Mesh, deformed: &DeformedMesh, weights: &[f64], joints: Option<&Joints<'_>>) {
+    type Displacements = Option<Vec<[f32; 3]>>;
+    let shown: Vec<_> = deformed.targets.iter().zip(weights).filter(|(_, weight)| **weight != 0.0).collect();
+    let morphed =
+        |of: fn(&crate::animation::MorphTarget) -> &Displacements, vertex: usize, from: [f32; 3]| {
+            shown.iter().fold(DVec3::from(from.map(f64::from)), |sum, (target, weight)| {
+                let displacement = of(target).as_ref().and_then(|list| list.get(vertex));
+                displacement.map_or(sum, |by| sum + DVec3::from(by.map(f64::from)) * **weight)
+            })
+        };
+    // What nothing moves keeps every bit.
+    let is_still = shown.is_empty();
+    if is_still && joints.is_none() {
+        return;
+    }
+    for vertex in 0..mesh.positions.len() {
+        let moved = joints.map(|joints| joints.of_vertex(vertex));
+        let position = morphed(|target| &target.positions, vertex, mesh.positions[vertex]);
+        let position = moved.map_or(position, |moved| moved.transform_point3(position));
+        mesh.positions[vertex] = position.as_vec3().to_array();
+        if let Some(normal) = mesh.normals.as_mut().and_then(|normals| normals.get_mut(vertex)) {
+            let turned = morphed(|target| &target.normals, vertex, *normal);
+            let turned = moved.map_or(turned, |moved| cofactors(moved.matrix3) * turned);
+            *normal = turned.normalize_or_zero().as_vec3().to_array();
+        }
+        if let Some([x, y, z, _]) = mesh.tangents.as_mut().and_then(|tangents| tangents.get_mut(vertex)) {
+            let turned = morphed(|target| &target.tangents, vertex, [*x, *y, *z]);
+            let turned = moved.map_or(turned, |moved| moved.matrix3 * turned);
+            [*x, *y, *z] = turned.normalize_or_zero().as_vec3().to_array();
+        }
+    }
+}
+
+/// The matrix that turns normals, whatever the determinant; for a mirrored map it also flips them back to the side that the
+/// winding has.
+fn cofactors(matrix: DMat3) -> DMat3 {
+    let [x, y, z] = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
+    let side = if matrix.determinant() < 0.0 { -1.0 } else { 1.0 };
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * side
+}
+
+/// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent where the node
+/// is degenerate.
+pub(crate) fn rigid(world: DAffine3) -> Option<DAffine3> {
+    let back = world.matrix3.z_axis.try_normalize()?;
+    let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
+    let up = back.cross(right);
+    let rigid = DAffine3 { matrix3: DMat3::from_cols(right, up, back), translation: world.translation };
+    rigid.is_finite().then_some(rigid)
+}
+
+/// The way that a light at a node shines.
+pub(crate) fn light_direction(world: DAffine3) -> Option<DVec3> {
+    world.transform_vector3(DVec3::NEG_Z).try_normalize()
+}
+
+impl Scene {
+    /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed. Triangles keep
+    /// their order and number, so that ids do not depend on the time. A scene without a rig is as it was.
+    ///
+    /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
+    /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A camera or a
+    /// light whose node degenerates stays where it was at rest.
+    pub fn at(&self, moment: &Moment) -> Self {
+        let rig = &self.animation.rig;
+        let mut scene = self.clone();
+        if rig.placements.len() != self.instances.len() {
+            return scene;
+        }
+        let pose = Pose::new(rig, moment);
+        let world = |node: usize| pose.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY);
+        let mut deformed_of = vec![None; self.meshes.len()];
+        for deformed in &rig.deformed {
+            deformed_of[deformed.mesh] = Some(deformed);
+        }
+        // Nodes with other weights show other meshes; the first one takes the place of the mesh at rest.
+        let mut made: HashMap<(usize, Vec<u64>), (usize, Option<DAffine3>)> = HashMap::new();
+        let mut is_replaced = vec![false; self.meshes.len()];
+        for (instance, placement) in scene.instances.iter_mut().zip(&rig.placements) {
+            let mut placed = world(placement.node) * placement.node_from_mesh;
+            if let Some(deformed) = deformed_of[instance.mesh] {
+                let weights = pose.weights.get(placement.node).cloned().flatten();
+                let weights =
+                    weights.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect());
+                let key = (instance.mesh, weights.iter().map(|weight| weight.to_bits()).collect());
+                let (mesh, skinned) = *made.entry(key).or_insert_with(|| {
+                    let (mesh, place) =
+                        posed_mesh(&self.meshes[instance.mesh], deformed, &weights, rig, &pose);
+                    let index = if std::mem::replace(&mut is_replaced[instance.mesh], true) {
+                        scene.meshes.push(mesh);
+                        scene.meshes.len() - 1
+                    } else {
+                        scene.meshes[instance.mesh] = mesh;
+                        instance.mesh
+                    };
+                    (index, place)
+                });
+                instance.mesh = mesh;
+                placed = skinned.unwrap_or(placed);
+            }
+            instance.world_from_mesh = placed;
+        }
+        for (camera, &node) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            camera.world_from_camera = rigid(world(node)).unwrap_or(camera.world_from_camera);
+        }
+        for (light, &node) in scene.lights.iter_mut().zip(&rig.lights) {
+            move_light(light, world(node));
+        }
+        scene
+    }
+}
+
+/// A mesh deformed, with the attributes brought into the state that [`Mesh`] promises; and where it is, if joints say so.
+fn posed_mesh(
+    at_rest: &Mesh,
+    deformed: &DeformedMesh,
+    weights: &[f64],
+    rig: &Rig,
+    pose: &Pose,
+) -> (Mesh, Option<DAffine3>) {
+    let mut mesh = Mesh {
+        positions: deformed.positions.clone(),
+        normals: deformed.normals.clone(),
+        tangents: deformed.tangents.clone(),
+        ..at_rest.clone()
+    };
+    let joints = deformed
+        .skin
+        .as_ref()
+        .and_then(|binding| Some(Joints::new(rig.skins.get(binding.skin)?, binding, &pose.world_from_node)));
+    deform(&mut mesh, deformed, weights, joints.as_ref());
+    // What was wrong with the file was said when it was read.
+    check::clean_attributes(&mut mesh, &mut Remarks::default());
+    (mesh, joints.map(|joints| joints.world_from_mesh()))
+}
+
+fn move_light(light: &mut Light, world: DAffine3) {
+    let (place, way) = (world.translation, light_direction(world));
+    if !place.is_finite() {
+        return;
+    }
+    match light {
+        Light::Point { position, .. } => *position = place,
+        Light::Directional { direction, .. } => *direction = way.unwrap_or(*direction),
+        Light::Spot { position, direction, .. } => {
+            *position = place;
+            *direction = way.unwrap_or(*direction);
+        }
+    }
+}
