@@ -14,8 +14,8 @@
 
 // Radiance of a pixel, summed over its samples. 16 bytes.
 struct FilmPixel {
-    vec3 sum;
-    uint samples;
+    vec3 sum;                 // sum over its samples, linear RGB, W/(sr m^2)
+    uint samples;             // samples in the sum
 };
 
 // What the film refused. 4 bytes.

@@ -11,6 +11,12 @@
 //! module; tests hold the Rust structs against them.
 
 pub mod layout;
+pub mod records;
+
+/// Ids of specialisation constants, generated from the GLSL that declares them. No two constants have one.
+pub mod constant_ids {
+    include!(concat!(env!("OUT_DIR"), "/constant_ids.rs"));
+}
 
 /// Numbers generated from the shared GLSL files.
 pub mod constants {
@@ -78,9 +84,19 @@ pub fn spirv(name: &str) -> &'static [u32] {
     shader(name).unwrap_or_else(|| panic!("no shader module `{name}` was compiled")).words()
 }
 
+// Parts of the build script, for their tests.
+#[cfg(test)]
+#[path = "../build/comments.rs"]
+mod comments;
+#[cfg(test)]
+#[path = "../build/constant_ids.rs"]
+mod constant_ids_of_glsl;
 #[cfg(test)]
 #[path = "../build/packed.rs"]
 mod packed;
+#[cfg(test)]
+#[path = "../build/records.rs"]
+mod records_of_glsl;
 
 #[cfg(test)]
 mod tests {

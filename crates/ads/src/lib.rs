@@ -34,7 +34,6 @@ mod pooled;
 mod pools;
 mod pyramid;
 mod queue;
-mod record_layout;
 mod scan;
 mod steps;
 mod structure;
@@ -57,9 +56,7 @@ pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
-pub use record_layout::RecordLayout;
-#[doc(hidden)]
-pub use record_layout::size_of_member;
+pub use rasray_shaders_glsl::records::RecordLayout;
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict};
 pub use structure::{
