@@ -72,7 +72,7 @@ struct Surface {
     uint material;            // index of the material, or PRIMITIVE_NONE
 };
 
-// One run of triangles of one instance. Global triangle id = first_triangle + local index.
+// One run of triangles of one instance. 16 bytes. Global triangle id = first_triangle + local index.
 struct Draw {
     uint first_triangle;      // global id of the first triangle
     uint triangle_count;      // number of triangles

@@ -5,7 +5,7 @@
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::constants::bvh::BVH_NONE;
+use crate::constants::{bvh::BVH_NONE, contract::PRIMITIVE_NONE};
 
 include!(concat!(env!("OUT_DIR"), "/records.rs"));
 
@@ -45,5 +45,35 @@ impl BvhRecord {
     /// All corners.
     pub fn corners(&self) -> [[f32; 3]; 3] {
         [self.a, self.b, self.c]
+    }
+}
+
+impl FilmPixel {
+    /// Mean over the samples; black where there is none.
+    pub fn mean(&self) -> [f32; 3] {
+        if self.samples == 0 { [0.0; 3] } else { self.sum.map(|x| x / self.samples as f32) }
+    }
+}
+
+impl Hit {
+    /// Whether anything was hit.
+    pub fn is_hit(&self) -> bool {
+        self.primitive != PRIMITIVE_NONE
+    }
+}
+
+impl Ray {
+    /// A ray without limits, exclusion or cone.
+    pub fn new(origin: [f32; 3], direction: [f32; 3]) -> Self {
+        Self {
+            origin,
+            t_min: 0.0,
+            direction,
+            t_max: f32::INFINITY,
+            exclude_primitive: PRIMITIVE_NONE,
+            flags: 0,
+            cone_width: 0.0,
+            cone_spread: 0.0,
+        }
     }
 }

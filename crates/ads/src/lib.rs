@@ -56,14 +56,16 @@ pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
-pub use rasray_shaders_glsl::records::RecordLayout;
+pub use rasray_shaders_glsl::records::{
+    Draw, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
+};
 pub use scan::Scan;
-pub use steps::{SkipReason, StepKind, TestVerdict};
+pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{
     BuildStatus, Check, Dependencies, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure,
     StructureKind, StructureReport, TraceMode,
 };
-pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
+pub use types::GeometryHeader;
 pub use viewpoint::{CameraView, Viewpoint};
 pub use visit::{Builder, PairsPass, Visit, Visits, bin_groups};
 

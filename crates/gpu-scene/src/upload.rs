@@ -9,7 +9,10 @@ use rasray_shaders_glsl::constants::{
     scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS},
 };
 
-use crate::{GpuSceneError, Sampling, SceneTables, TexelRuns, View, layout::Frame};
+use crate::{
+    GpuSceneError, Sampling, SceneTables, TexelRuns, View,
+    layout::{Frame, viewpoint_of},
+};
 
 /// Number of buffers in the scene's set.
 const BINDINGS: u32 = SCENE_BINDING_TEXELS_3 + 1;
@@ -178,7 +181,7 @@ impl GpuScene {
 
     /// The eye and what the camera sees there.
     pub fn viewpoint(&self) -> Viewpoint {
-        self.frame.viewpoint()
+        viewpoint_of(&self.frame)
     }
 
     /// World, metres.
