@@ -10,13 +10,14 @@
 #define GEOMETRY_SET 0
 #endif
 
+// Counts and bounds of the geometry. 40 bytes.
 struct GeometryHeader {
-    uint vertex_count;
-    uint triangle_count;
-    uint draw_count;
+    uint vertex_count;   // vertices
+    uint triangle_count; // triangles
+    uint draw_count;     // draws
     uint outside;        // triangles that the last check found outside of the bounds or with a vertex that there is not
-    vec3 lower;          // of all positions
-    vec3 upper;
+    vec3 lower;          // lower corner of all positions, metres
+    vec3 upper;          // upper corner of all positions, metres
 };
 
 #ifdef GEOMETRY_CHECKED

@@ -37,7 +37,6 @@ mod queue;
 mod scan;
 mod steps;
 mod structure;
-mod types;
 mod viewpoint;
 mod visit;
 
@@ -57,7 +56,7 @@ pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
 pub use rasray_shaders_glsl::records::{
-    Draw, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
+    Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 pub use scan::Scan;
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
@@ -65,7 +64,6 @@ pub use structure::{
     BuildStatus, Check, Dependencies, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure,
     StructureKind, StructureReport, TraceMode,
 };
-pub use types::GeometryHeader;
 pub use viewpoint::{CameraView, Viewpoint};
 pub use visit::{Builder, PairsPass, Visit, Visits, bin_groups};
 
