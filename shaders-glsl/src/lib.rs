@@ -1,4 +1,5 @@
-//! All GLSL of rasray, the same as SPIR-V, and the numbers that shaders and Rust share.
+//! All GLSL of rasray, the same as SPIR-V, and what shaders and Rust share, generated from the GLSL: [numbers](constants),
+//! [records] of buffers, and [ids of specialisation constants](constant_ids).
 //!
 //! A module is there iff it is listed in `permutations.txt` and the features of its section are
 //! on, so an embedder of one structure has the modules of that structure alone. Packages hold the modules ready made;
@@ -8,7 +9,7 @@
 //! A shader of one's own includes files of this crate (`bricks/trace.glsl`): its compiler is told [`ROOT`], which the
 //! build script of a crate that names this one as a dependency finds in `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate
 //! `rasray-shader-compiler` has an example. [`layout`] reads names, offsets and sizes of buffer members back out of a
-//! module; tests hold the Rust structs against them.
+//! module; tests hold [records] against them.
 
 pub mod layout;
 pub mod records;
@@ -122,6 +123,13 @@ mod tests {
             Some(&words[..])
         );
         assert!(packed::pack(&words[..8]).is_none());
+    }
+
+    #[test]
+    fn records_without_default_are_records() {
+        for name in records_of_glsl::ZEROS_MISLEAD {
+            assert!(records::ALL.iter().any(|record| record.name == name), "{name}");
+        }
     }
 
     #[test]
