@@ -59,44 +59,47 @@ struct AbufferHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
     uint capacity;        // fragments or pages the pools hold
-    uint near_demand;     // Triangles that intersect the near region
-    uint near_capacity;
+    uint near_demand;     // triangles that intersect the near region
+    uint near_capacity;   // triangles that the near-region list holds
     uint unsorted;        // lists longer than the reorder passes sort
-    uint corrupted;       // list entries that point to no node
+    uint corrupted;       // list entries that name no node
     uint resolution;      // cells along a side of a face, border not counted
     uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
     float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
-    float thickness_per_reach; // what is added to it, zero where it is given
-    float near_per_reach; // near_size; these four are what the header pass needs of the options
-    float rounding_per_reach;
+    float thickness_per_reach; // what is added to it, over the reach; zero where it is given
+    float near_per_reach; // `near_size` over the reach
+    float rounding_per_reach; // `rounding` over the reach
     float widest;         // side of a cell at a depth of 1, of the widest view
     float near_size;      // metres: half side of the near region
     uint long_demand;     // lists too long for the first reorder pass
     vec3 eye;             // metres relative to the frame origin: common centre of the faces
-    uint long_capacity;
-    vec3 lower;           // bounds of the geometry relative to the eye, metres
-    uint fragments;       // found by the build, ABUFFER_STORAGE_PAGED only
-    vec3 upper;
-    uint camera_cells;    // columns of the camera's view, border not counted, and from bit 16 on rows
-    vec3 camera_x;        // rows of the matrix that turns the camera's pyramid into the middle of |x| <= z, |y| <= z
-    vec3 camera_y;
-    vec3 camera_z;
+    uint long_capacity;   // long lists that the scratch holds
+    vec3 lower;           // lower corner of the geometry relative to the eye, metres
+    uint fragments;       // fragments found by the build, ABUFFER_STORAGE_PAGED only
+    vec3 upper;           // upper corner of the geometry relative to the eye, metres
+    uint camera_cells;    // columns of the camera's view, border not counted, and from bit 16 on its rows
+    // first row of the matrix that turns the camera's pyramid into the middle of `|x| <= z`, `|y| <= z`; zeros without
+    // camera
+    vec3 camera_x;
+    vec3 camera_y;        // second row of that matrix
+    vec3 camera_z;        // third row of that matrix: depth
     uint lost;            // triangles with an area that no cell of any view keeps
-    uint triangles;       // of the geometry that there are marks for
-    uint fringe_demand;   // triangles kept outside of centres
-    uint fringe_capacity;
+    uint triangles;       // triangles of the geometry that there are marks for
+    // triangles kept outside of centres, also those beyond the capacity; only with conservative lists
+    uint fringe_demand;
+    uint fringe_capacity; // triangles that the conservative lists hold
     float reach;          // metres: largest coordinate of the geometry relative to the eye
-    float rounding;       // metres: how far rounding moves a triangle against a ray; with conservative lists
-    uint pairs;           // triangles with many cells of a view, binning only
-    uint pair_capacity;
+    float rounding;       // metres: how far rounding moves a triangle against a ray; only with conservative lists
+    uint pairs;           // triangles with many cells of a view, also those beyond the capacity; binning only
+    uint pair_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
-    uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
-    uvec2 lists_address;
-    uvec2 nodes_address;
-    uvec2 data_address;
-    uvec2 near_address;
-    uvec2 scratch_address;
-    uvec2 fringe_address;
+    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
+    uvec2 lists_address;  // device address of the heads and tails of lists
+    uvec2 nodes_address;  // device address of the nodes
+    uvec2 data_address;   // device address of the payload
+    uvec2 near_address;   // device address of the near-region list
+    uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists
+    uvec2 fringe_address; // device address of the conservative lists
 };
 
 // Depths of a cell's fragments, as far as the storage keeps them.

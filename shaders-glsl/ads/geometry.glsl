@@ -10,15 +10,16 @@
 #define GEOMETRY_SET 0
 #endif
 
+// Counts and bounds of the geometry. 64 bytes.
 struct GeometryHeader {
-    uint vertex_count;
-    uint triangle_count;
-    uint draw_count;
+    uint vertex_count;   // vertices
+    uint triangle_count; // triangles
+    uint draw_count;     // draws
     uint outside;        // triangles that the last check found outside of the bounds or with a vertex that there is not
-    vec3 lower;          // of all positions
-    vec3 upper;
-    uint lower_keys[3];  // the same while they are measured: numbers in the order of the floats they stand for
-    uint upper_keys[3];
+    vec3 lower;          // lower corner of all positions, metres
+    vec3 upper;          // upper corner of all positions, metres
+    uint lower_keys[3];  // lower corner while it is measured: numbers in the order of the floats they stand for
+    uint upper_keys[3];  // upper corner while it is measured
 };
 
 #ifdef GEOMETRY_WRITTEN

@@ -12,40 +12,41 @@
 #define QUEUE_SET 2
 #endif
 
+// Counts and sums of one queue. 88 bytes.
 struct QueueHeader {
     uint groups_x;        // indirect dispatch of the next round
-    uint groups_y;
-    uint groups_z;
-    uint capacity;        // slots
+    uint groups_y;        // always 1
+    uint groups_z;        // always 1
+    uint capacity;        // slots of the queue
     uint round;           // rounds begun for the rays now in the queue
     uint listed;          // rays to trace in this round (from round 1 on)
     uint paused;          // rays that paused in this round
-    uint unfinished;      // rays that were still paused after their last round, summed over traces
-    uint not_ready;       // rays that met a structure that was not complete, summed over traces
+    uint unfinished;      // rays that were still paused after their last round, over all traces since the reset
+    uint not_ready;       // rays that met a structure that was not complete, over all traces since the reset
     uint selecting;       // slots selected for the passes after the next take
-    uint cells_low;       // 64-bit sums of work, kept where counters are enabled
-    uint cells_high;
-    uint entries_low;
-    uint entries_high;
-    uint tests_low;
-    uint tests_high;
+    uint cells_low;       // cells visited, low word; work is summed where counters are enabled
+    uint cells_high;      // cells visited, high word
+    uint entries_low;     // list entries read, low word
+    uint entries_high;    // list entries read, high word
+    uint tests_low;       // primitives tested, low word
+    uint tests_high;      // primitives tested, high word
     uint selected_x;      // indirect dispatch over the slots selected
-    uint selected_y;
-    uint selected_z;
+    uint selected_y;      // always 1
+    uint selected_z;      // always 1
     uint selected;        // slots selected when they were last taken
     uint takes;           // times they were taken; its parity says which list holds them
     uint corrupted;       // list entries that named nothing, in the structure last traced since it was built
 };
 
-// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words.
+// One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. 28 bytes.
 struct TraceStep {
-    uint kind;
-    uint round;
-    uint a;
-    uint b;
-    uint c;
-    float t_low;
-    float t_high;
+    uint kind;                // a STEP_* number; it says what the words after `round` mean
+    uint round;               // the dispatch it was taken in, from 0
+    uint a;                   // the kind's
+    uint b;                   // the kind's
+    uint c;                   // the kind's
+    float t_low;              // the kind's
+    float t_high;             // the kind's
 };
 
 layout(set = QUEUE_SET, binding = 0, scalar) buffer QueueHeaderBuffer {

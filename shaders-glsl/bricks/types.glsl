@@ -12,42 +12,45 @@ layout(constant_id = 40) const uint BRICK_VIEWS = BRICK_VIEWS_AXES;
 layout(constant_id = 41) const uint BRICK_SKIP = 1u;
 layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 
-// State and sizes of one value. 348 bytes.
+// State and sizes of bricks. 348 bytes.
 struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
-    uint near_demand;     // Triangles that intersect the near region
-    uint near_capacity;
-    uint corrupted;       // list entries that point to no triangle
-    uint columns;         // of every view, a multiple of 4
-    uint rows;
-    uint slices;
-    float reach;          // metres: farthest that the geometry is from the centre along an axis; of views along axes, or more
+    uint near_demand;     // triangles that intersect the near region
+    uint near_capacity;   // triangles that the near-region list holds
+    uint corrupted;       // list entries that name no triangle
+    uint columns;         // columns of every view, a multiple of 4
+    uint rows;            // rows of every view, a multiple of 4
+    uint slices;          // slices of every column, a multiple of 4
+    // metres: farthest that the geometry is from the centre along an axis; of views along axes, more where the eye is
+    // far away
+    float reach;
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 eye;             // metres relative to the frame origin
-    vec3 centre;          // metres relative to the frame origin: of the faces, or of the geometry's bounds
-    vec3 lower;           // bounds of the geometry relative to the centre, metres
-    vec3 upper;
-    vec3 cells_lower;     // views along axes: corner of the first cell relative to the centre, metres
-    vec3 cells_per_metre; // views along axes
-    uvec2 bricks_address; // device addresses of the pools, zero where descriptors are used
-    uvec2 lists_address;
-    uvec2 entries_address;
-    uvec2 sums_address;
-    uvec2 near_address;
-    uvec2 records_address;
-    uvec2 triangles_address;
-    int slice_first;      // BrickSlices.first
-    int slice_shift;      // BrickSlices.shift
-    uint record_demand;   // triangles in columns
-    uint record_capacity;
-    uint cell_demand;     // cells that list something
-    uint cell_capacity;
-    uint triangle_capacity;
+    // metres relative to the frame origin: centre of the faces, or for views along axes of the bounds of the geometry
+    vec3 centre;
+    vec3 lower;           // lower corner of the geometry relative to the centre, metres
+    vec3 upper;           // upper corner of the geometry relative to the centre, metres
+    vec3 cells_lower;     // views along axes only: corner of the first cell relative to the centre, metres
+    vec3 cells_per_metre; // cells per metre along each axis, views along axes only
+    uvec2 bricks_address; // device address of the bricks; zero with descriptors, as all that follow
+    uvec2 lists_address;  // device address of the lists
+    uvec2 entries_address; // device address of the entries
+    uvec2 sums_address;   // device address of the sums of the scan, later of the distances
+    uvec2 near_address;   // device address of the near-region list
+    uvec2 records_address; // device address of the records
+    uvec2 triangles_address; // device address of the triangles' corners
+    int slice_first;      // `BrickSlices.first`: bits of the depth at which slice 0 begins
+    int slice_shift;      // `BrickSlices.shift`: 23 less the logarithm of the slices per octave
+    uint record_demand;   // triangles in columns, also those beyond the capacity
+    uint record_capacity; // records the pool holds
+    uint cell_demand;     // cells that list something, as far as records fit
+    uint cell_capacity;   // lists the pool holds
+    uint triangle_capacity; // triangles whose corners the pool holds
     uint pairs;           // triangles with many columns of a view
-    uint groups[3];       // a workgroup for each of them
+    uint groups[3];       // workgroups for them, one each
     uint octaves[BRICK_OCTAVES]; // triangles that begin so many octaves before the farthest geometry
 };
 

@@ -10,41 +10,43 @@
 struct BvhHeader {
     uint status;            // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint root;              // child reference of the whole tree; BVH_NONE without triangles
-    uint triangle_count;
+    uint triangle_count;    // triangles in the tree
     uint node_capacity;     // nodes the pool holds
     uint record_capacity;   // triangle records the pool holds
     uint scratch_capacity;  // words the pool holds
     uint order_offset;      // word of the scratch pool with the primitive of the first record
     uint order_stride;      // words from one to the next
-    vec3 lower;             // bounds of the geometry, metres; Morton codes only
-    float spare_lower;
-    vec3 cells_per_metre;   // of the Morton grid, an axis
-    uint corrupted;         // references that point to no node or record
-    uvec2 nodes_address;    // device addresses of the pools, zero where descriptors are used
-    uvec2 records_address;
-    uvec2 scratch_address;
-    uvec2 spare_address;
+    vec3 lower;             // lower corner of the geometry, metres relative to the frame origin; Morton codes only
+    float spare_lower;      // zero
+    vec3 cells_per_metre;   // cells of the Morton grid per metre, along each axis
+    uint corrupted;         // references that name no node or record
+    uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
+    uvec2 records_address;  // device address of the triangle records
+    uvec2 scratch_address;  // device address of the scratch pool
+    uvec2 spare_address;    // zero
 };
 
 // An inner node: the boxes of its two children, so that one read decides about both. 64 bytes.
 // A child reference is a node's number, or BVH_LEAF with a run of records.
 // A link names one child of one node: twice the node's number, plus 1 for the second child.
 struct BvhNode {
-    vec3 lower_0;           // metres relative to the frame origin
-    uint child_0;
-    vec3 upper_0;
-    uint child_1;
-    vec3 lower_1;
-    uint parent;            // link by which this node is reached; BVH_NONE for the root
-    vec3 upper_1;
-    uint spare;
+    vec3 lower_0;           // lower corner of the first child, metres relative to the frame origin
+    uint child_0;           // reference of the first child: a node's number, or a leaf
+    vec3 upper_0;           // upper corner of the first child
+    uint child_1;           // reference of the second child
+    vec3 lower_1;           // lower corner of the second child
+    // link by which this node is reached: twice the parent's number, plus 1 for its second child; BVH_NONE for the
+    // root
+    uint parent;
+    vec3 upper_1;           // upper corner of the second child
+    uint spare;             // zero, or undefined in a tree built on the device
 };
 
 // A triangle in the order of the leaves. 40 bytes.
 struct BvhRecord {
-    vec3 a;                 // corners, metres relative to the frame origin
-    vec3 b;
-    vec3 c;
+    vec3 a;                 // first corner, metres relative to the frame origin
+    vec3 b;                 // second corner
+    vec3 c;                 // third corner
     uint primitive;         // global triangle id
 };
 

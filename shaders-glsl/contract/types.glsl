@@ -8,31 +8,33 @@
 // A ray in metres relative to the frame origin. 48 bytes.
 // Hits count for t_min < t < t_max, t in units of |direction|.
 struct Ray {
-    vec3 origin;
-    float t_min;
-    vec3 direction;           // need not be unit, must be finite and not zero
-    float t_max;              // may be +infinity
+    vec3 origin;              // metres relative to the frame origin
+    float t_min;              // hits at or before this t do not count
+    vec3 direction;           // need not be unit; finite and not zero
+    float t_max;              // may be infinite; negative: the ray asks nothing
     uint exclude_primitive;   // never hit; PRIMITIVE_NONE excludes nothing
     uint flags;               // 0: kept for what a ray may ask beyond this, none so far
-    float cone_width;         // metres at the origin
-    float cone_spread;        // radians, growth of the width per metre
+    float cone_width;         // width of the ray cone at the origin, metres
+    float cone_spread;        // growth of the width per metre, radians
 };
 
-// What a ray met. 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
+// What a ray hit. 16 bytes. A miss has primitive PRIMITIVE_NONE and t = t_max.
 // a and b belong to the structure: barycentrics of vertices 1 and 2 where hits are primitives.
 struct Hit {
-    float t;
-    uint primitive;           // global triangle id
-    float a;
+    float t;                  // in units of the ray direction's length
+    uint primitive;           // global triangle id; PRIMITIVE_UNKNOWN of a fragment that does not keep it
+    float a;                  // the structure's; weight of vertex 1 where hits are primitives
+    // the structure's; weight of vertex 2 where hits are primitives, and the bits HIT_STORED where a fragment without
+    // them names its triangle for diagnostics
     float b;
 };
 
 // Where a traversal stands, so that it can pause and go on. 64 bytes. Zeroed (trace_state_begin)
 // for a fresh ray; `cursor` belongs to the structure.
 struct TraceState {
-    Hit best;
-    uint cursor[8];
-    uint cells;               // cells stepped so far
+    Hit best;                 // best hit so far
+    uint cursor[8];           // the structure's
+    uint cells;               // cells visited so far
     uint entries;             // list entries read so far
     uint tests;               // primitive tests so far
     uint rounds;              // dispatches so far
@@ -40,42 +42,42 @@ struct TraceState {
 
 // What a ray has spent. 16 bytes.
 struct RayWork {
-    uint cells;               // cells stepped
+    uint cells;               // cells visited
     uint entries;             // list entries read
-    uint tests;               // primitive tests
-    uint rounds;              // dispatches
+    uint tests;               // primitives tested
+    uint rounds;              // dispatches the ray took part in
 };
 
 // What is shaded. 128 bytes. Metres relative to the frame origin, linear Rec. 709, W/(sr m^2).
 struct Surface {
-    vec3 position;
-    float position_error;     // metres: bound of |computed - true| along each axis
+    vec3 position;            // where the surface is
+    float position_error;     // metres: bound of `|computed - true|` along each axis
     vec3 geometric_normal;    // unit, faces the ray
-    uint primitive;           // global triangle id or PRIMITIVE_NONE
+    uint primitive;           // global triangle id, PRIMITIVE_UNKNOWN or PRIMITIVE_NONE
     vec3 normal;              // unit shading normal, on the side of geometric_normal
-    uint valid;               // SURFACE_* bits; 0 is a miss
-    vec3 base_color;
-    float metallic;
-    vec3 emission;
-    float roughness;          // perceptual
-    float transmission;
-    float ior;
-    float opacity;            // 1 unless the material blends
+    uint valid;               // SURFACE_* bits of what the structure knows; 0 is a miss
+    vec3 base_color;          // linear
+    float metallic;           // in [0, 1]
+    vec3 emission;            // radiance
+    float roughness;          // perceptual, in [0, 1]
+    float transmission;       // in [0, 1]
+    float ior;                // index of refraction
+    float opacity;            // in [0, 1]; 1 unless the material blends
     float thickness;          // metres; 0 is a thin wall
-    vec3 attenuation_color;
-    float attenuation_distance;
-    float specular;
+    vec3 attenuation_color;   // colour of white light after attenuation_distance
+    float attenuation_distance; // metres
+    float specular;           // strength of dielectric reflection
     uint side;                // 1: the ray came from the front (counter-clockwise side)
-    float t;                  // of the hit
-    uint material;            // index, or PRIMITIVE_NONE
+    float t;                  // of the hit, in units of the ray direction's length
+    uint material;            // index of the material, or PRIMITIVE_NONE
 };
 
-// One run of triangles of one instance. Global triangle id = first_triangle + local index.
+// One run of triangles of one instance. 16 bytes. Global triangle id = first_triangle + local index.
 struct Draw {
-    uint first_triangle;
-    uint triangle_count;
-    uint instance;
-    uint flags;               // DRAW_*
+    uint first_triangle;      // global id of the first triangle
+    uint triangle_count;      // number of triangles
+    uint instance;            // index of the instance
+    uint flags;               // DRAW_* bits
 };
 
 #endif

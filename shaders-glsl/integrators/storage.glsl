@@ -14,8 +14,8 @@
 
 // Radiance of a pixel, summed over its samples. 16 bytes.
 struct FilmPixel {
-    vec3 sum;
-    uint samples;
+    vec3 sum;                 // sum over its samples, linear RGB, W/(sr m^2)
+    uint samples;             // samples in the sum
 };
 
 // What the film refused. 4 bytes.
@@ -25,9 +25,10 @@ struct FilmFaults {
 
 // What the ray through a pixel's centre meets. 20 bytes.
 struct AovPixel {
-    float distance;       // metres from the ray's origin; 0: nothing
+    float distance;       // metres from the ray's origin (the eye in perspective); 0: nothing
     vec3 normal;          // unit geometric normal, world axes, facing the ray; 0: nothing
-    uint primitive;       // global triangle id or PRIMITIVE_NONE
+    // global triangle id; PRIMITIVE_NONE: nothing, PRIMITIVE_UNKNOWN: the structure does not know it
+    uint primitive;
 };
 
 layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer FilmPixelBuffer { FilmPixel film_pixels[]; };

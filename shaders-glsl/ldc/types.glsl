@@ -21,39 +21,39 @@ layout(constant_id = 58) const uint LDC_PAYLOAD = LDC_PAYLOAD_INDEX;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 59) const uint LDC_IDS = 0u;
 
-// State and sizes of one value. 188 bytes.
+// State and sizes of a layered depth cube. 188 bytes.
 struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
     uint capacity;        // places the pools hold
     uint fringe_demand;   // triangles kept outside of centres; counted once all fragments fit
-    uint fringe_capacity;
+    uint fringe_capacity; // triangles that the conservative lists hold
     uint unsorted;        // lists longer than the sort passes sort
-    uint corrupted;       // list entries that point to no fragment
+    uint corrupted;       // list entries that name no fragment
     uint resolution;      // cells along a side of a view
     float cell;           // metres: side of a cell
     float size;           // metres: side of the cube
-    float tolerance_per_side;
-    float tolerance;      // metres, LDC_ACCEPT_TOLERANCE only
+    float tolerance_per_side; // `tolerance` over the side of the cube
+    float tolerance;      // metres: how far a fragment may be from the ray along the view; LDC_ACCEPT_TOLERANCE only
     uint long_demand;     // lists too long for one dispatch of the sort
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube
-    uint long_capacity;
-    vec3 lower;           // bounds of the geometry, metres
-    uint layer_demand;    // fragments of the deepest cell, LDC_BUILD_PEEL only, as the next three
-    vec3 upper;
-    float slices_a_metre; // of depth, LDC_OCCUPANCY_SLICES only
-    uvec2 lists_address;  // device addresses of the pools, zero where descriptors are used
-    uvec2 depths_address;
-    uvec2 payload_address;
-    uvec2 blocks_address;
-    uvec2 heads_address;
-    uvec2 fringe_address;
-    uvec2 scratch_address;
+    uint long_capacity;   // long lists that the scratch holds
+    vec3 lower;           // lower corner of the geometry, metres relative to the frame origin
+    uint layer_demand;    // fragments of the deepest cell, LDC_BUILD_PEEL only, as what else counts layers
+    vec3 upper;           // upper corner of the geometry, metres relative to the frame origin
+    float slices_a_metre; // slices of depth per metre, LDC_OCCUPANCY_SLICES only
+    uvec2 lists_address;  // device address of the lists; zero with descriptors, as all that follow
+    uvec2 depths_address; // device address of the depths
+    uvec2 payload_address; // device address of what fragments carry in addition to their depth
+    uvec2 blocks_address; // device address of the blocks
+    uvec2 heads_address;  // device address of the heads of the conservative lists
+    uvec2 fringe_address; // device address of the conservative lists' nodes
+    uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
     uint layer_capacity;  // layers that are peeled
-    uint layer_limit;     // layers that may be
-    uint beyond;          // fragments behind those
-    uint pairs;           // triangles with many cells of their view, binning only
-    uint pair_capacity;
+    uint layer_limit;     // layers that may be peeled
+    uint beyond;          // fragments behind the layers that may be peeled
+    uint pairs;           // triangles with many cells of their view, also those beyond the capacity; binning only
+    uint pair_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
 };
 

@@ -21,32 +21,32 @@ layout(constant_id = 37) const uint PRIMITIVE_DEPTHS = PRIMITIVE_DEPTHS_CLIPPED;
 layout(constant_id = 38) const uint PRIMITIVE_MARCH = PRIMITIVE_MARCH_EXACT;
 layout(constant_id = 39) const uint PRIMITIVE_CENTRE = PRIMITIVE_CENTRE_SCENE;
 
-// State and sizes of one value. 160 bytes.
+// State and sizes of primitive lists. 160 bytes.
 struct PrimitiveHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
-    uint near_demand;     // Triangles that intersect the near region
-    uint near_capacity;
-    uint corrupted;       // list entries that point to no node
+    uint near_demand;     // triangles that intersect the near region
+    uint near_capacity;   // triangles that the near-region list holds
+    uint corrupted;       // list entries that name no node
     uint tiles;           // cells along a side of a face, border not counted
     uint tile;            // pixels along a side of a cell
     float reach;          // metres: farthest that the geometry is from the centre along an axis
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 eye;             // metres relative to the frame origin
-    vec3 centre;          // of the faces, metres relative to the frame origin
-    vec3 lower;           // bounds of the geometry relative to the centre, metres
-    vec3 upper;
-    uvec2 bounds_address; // device addresses of the pools, zero where descriptors are used
-    uvec2 lists_address;
-    uvec2 entries_address;
-    uvec2 sums_address;
-    uvec2 near_address;
-    uvec2 pairs_address;
-    uint pair_capacity;   // words of the pool
-    uint pairs;           // triangles with many columns of a face
-    uint groups[3];       // workgroups for each of them
+    vec3 centre;          // metres relative to the frame origin: centre of the faces
+    vec3 lower;           // lower corner of the geometry relative to the centre, metres
+    vec3 upper;           // upper corner of the geometry relative to the centre, metres
+    uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
+    uvec2 lists_address;  // device address of the lists
+    uvec2 entries_address; // device address of the entries
+    uvec2 sums_address;   // device address of the sums of the scan
+    uvec2 near_address;   // device address of the near-region list
+    uvec2 pairs_address;  // device address of the pairs
+    uint pair_capacity;   // words that the pool of pairs holds
+    uint pairs;           // pairs: a triangle and a face of which it may reach into many columns
+    uint groups[3];       // workgroups for them
 };
 
 // Depths of what a cell lists.

@@ -10,30 +10,30 @@
 // Camera, sizes of the tables and the constant environment. Metres relative to the frame origin.
 // 144 bytes.
 struct Frame {
-    vec3 camera_position;
+    vec3 camera_position;       // where perspective rays start; the centre of an orthographic image
     uint projection;            // PROJECTION_*
-    vec3 camera_right;          // unit
+    vec3 camera_right;          // unit, to the right in the image
     float half_width;           // perspective: tangent of the half angle; orthographic: metres
-    vec3 camera_up;             // unit
+    vec3 camera_up;             // unit, up in the image
     float half_height;          // as half_width
-    vec3 camera_forward;        // unit
-    float cone_spread;          // radians a pixel subtends at the image centre; orthographic: 0
-    float cone_width;           // metres a pixel covers at the ray origin; perspective: 0
+    vec3 camera_forward;        // unit, into the image
+    float cone_spread;          // radians that a pixel subtends at the image centre; orthographic: 0
+    float cone_width;           // metres that a pixel covers at the ray's origin; perspective: 0
     uint width;                 // pixels a row of the whole image
-    uint height;                // rows
-    uint seed;
-    uint triangle_count;
+    uint height;                // rows of the whole image
+    uint seed;                  // seed of all random numbers
+    uint triangle_count;        // triangles of the geometry
     uint light_count;           // point, directional and spot lights
     uint emissive_count;        // entries of emissive_triangles; 0 if their power is 0
     uint environment_kind;      // ENVIRONMENT_*
     uint environment_width;     // texels per row, 0 unless latitude-longitude
-    uint environment_height;
-    uint environment_sampled;   // 1 if the environment emits anything and is worth a light sample
+    uint environment_height;    // rows, 0 unless latitude-longitude
+    uint environment_sampled;   // 1 if the environment emits and is worth a light sample
     vec3 environment_radiance;  // W/(sr m^2), the constant environment
     uint sampling;              // SAMPLER_*
-    float footprint_scale;      // of a camera ray's cone: 1 / sqrt(samples per pixel)
+    float footprint_scale;      // of a camera ray's cone: `1 / sqrt(samples per pixel)`
     vec3 kind_shares;           // probability of the kinds of light: punctual, emissive triangles, environment
-    uint texel_shift;           // a run of texels has 2^texel_shift of them; at most 30
+    uint texel_shift;           // a run of texels has `2^texel_shift` of them; at most 30
 };
 
 // How a draw is shaded; one per draw of the geometry, same order. 44 bytes.
@@ -41,8 +41,8 @@ struct Frame {
 struct DrawShading {
     uint first_triangle;        // global triangle id of its first triangle
     uint first_vertex;          // global vertex index of its first vertex
-    uint material;
-    uint flags;                 // DRAW_ALPHA_MASKED, DRAW_MIRRORED
+    uint material;              // index into the materials
+    uint flags;                 // DRAW_ALPHA_MASKED and DRAW_MIRRORED
     uint normals;               // posed attributes, 3 words a vertex, unit, world
     uint tangents;              // posed attributes, 4 words a vertex, xyz unit, w = +1 or -1
     uint uv0;                   // vertex attributes, 2 words a vertex
@@ -56,42 +56,44 @@ struct DrawShading {
 struct TextureRef {
     uint texture;               // index into textures, or TEXTURE_NONE
     uint uv_set;                // 0 or 1
-    vec3 row_u;                 // u' = dot(row_u, (u, v, 1))
-    vec3 row_v;                 // v' = dot(row_v, (u, v, 1))
+    vec3 row_u;                 // `u' = dot(row_u, (u, v, 1))`
+    vec3 row_v;                 // `v' = dot(row_v, (u, v, 1))`
 };
 
-// 256 bytes.
+// What a surface is made of. 256 bytes.
 struct Material {
     vec4 base_color;            // linear RGBA
     vec3 emission;              // W/(sr m^2)
-    float metallic;
-    float roughness;            // perceptual
-    float transmission;
-    float ior;
+    float metallic;             // in [0, 1]
+    float roughness;            // perceptual, in [0, 1]
+    float transmission;         // in [0, 1]
+    float ior;                  // index of refraction
     float thickness;            // metres; 0 is a thin wall
-    vec3 attenuation_color;
+    vec3 attenuation_color;     // in [0, 1] each
     float attenuation_distance; // metres, +infinity: no absorption
-    vec3 specular_color;
-    float specular;
-    float normal_scale;
-    float alpha_cutoff;         // MATERIAL_ALPHA_MASK only
+    vec3 specular_color;        // linear RGB
+    float specular;             // in [0, 1]
+    float normal_scale;         // scale of the normal map's x and y
+    float alpha_cutoff;         // with MATERIAL_ALPHA_MASK only
     uint flags;                 // MATERIAL_*
     uint albedo;                // vertex attributes, GLASS_* words: what rough glass loses; ATTRIBUTE_NONE: nothing
-    TextureRef base_color_texture;          // table entry with TEXTURE_SRGB
-    TextureRef metallic_roughness_texture;  // without
-    TextureRef normal_texture;              // without
-    TextureRef emission_texture;            // with
-    TextureRef transmission_texture;        // without
+    TextureRef base_color_texture; // with TEXTURE_SRGB
+    TextureRef metallic_roughness_texture; // linear
+    TextureRef normal_texture;  // linear
+    TextureRef emission_texture; // with TEXTURE_SRGB
+    TextureRef transmission_texture; // linear
 };
 
+// Where the texels of a texture lie and how they are sampled.
 // Levels are stored one after the other, level 0 first, each tight and rows top first.
 // Level l has max(1, width >> l) by max(1, height >> l) texels. 20 bytes.
 struct Texture {
     uint first_texel;           // number of level 0's first texel, over all runs
-    uint width;                 // of level 0
-    uint height;
+    uint width;                 // texels per row of level 0
+    uint height;                // rows of level 0
     uint level_count;           // 1 if smaller levels are not used
-    uint sampling;              // WRAP_* | WRAP_* << TEXTURE_WRAP_V_SHIFT | TEXTURE_LINEAR | TEXTURE_SRGB
+    // wrap modes and TEXTURE_* flags: `WRAP_* | WRAP_* << TEXTURE_WRAP_V_SHIFT | TEXTURE_LINEAR | TEXTURE_SRGB`
+    uint sampling;
 };
 
 // A light without extent. 56 bytes.
@@ -101,9 +103,9 @@ struct Light {
     vec3 direction;             // unit, the way light travels; point: unused
     float range;                // metres, +infinity: none
     vec3 intensity;             // W/sr; directional: irradiance, W/m^2
-    float cone_scale;           // spot: see docs/shading.md, "Lights"
-    float cone_offset;
-    float cumulative;           // share of all power up to and including this light; the last is 1
+    float cone_scale;           // spot: factor of the cosine; docs/shading.md, "Lights"
+    float cone_offset;          // spot: added after the factor
+    float cumulative;           // share of the power of all punctual lights up to and including this one; the last is 1
 };
 
 // One triangle of an emissive draw. 8 bytes.
@@ -114,10 +116,10 @@ struct EmissiveTriangle {
 
 // What a path carries from one dispatch to the next. 52 bytes.
 struct PathState {
-    vec3 throughput;
-    uint pixel;                 // row * width + column in the whole image
+    vec3 throughput;            // share of the light hit next that reaches the camera
+    uint pixel;                 // number of the pixel in the whole image: `row * width + column`
     vec3 radiance;              // gathered so far, W/(sr m^2)
-    uint sample_index;
+    uint sample_index;          // index of the sample
     float bsdf_pdf;             // 1/sr, of the last scattering; 0: emission hit next counts fully
     uint medium;                // material whose inside the path is in, or MATERIAL_NONE
     uint bounce;                // scatterings so far

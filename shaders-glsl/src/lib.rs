@@ -1,4 +1,5 @@
-//! All GLSL of rasray, the same as SPIR-V, and the numbers that shaders and Rust share.
+//! All GLSL of rasray, the same as SPIR-V, and what shaders and Rust share, generated from the GLSL: [numbers](constants),
+//! [records] of buffers, and [ids of specialisation constants](constant_ids).
 //!
 //! A module is there iff it is listed in `permutations.txt` and the features of its section are
 //! on, so an embedder of one structure has the modules of that structure alone. Packages hold the modules ready made;
@@ -8,9 +9,15 @@
 //! A shader of one's own includes files of this crate (`bricks/trace.glsl`): its compiler is told [`ROOT`], which the
 //! build script of a crate that names this one as a dependency finds in `DEP_RASRAY_SHADERS_GLSL_ROOT`; the crate
 //! `rasray-shader-compiler` has an example. [`layout`] reads names, offsets and sizes of buffer members back out of a
-//! module; tests hold the Rust structs against them.
+//! module; tests hold [records] against them.
 
 pub mod layout;
+pub mod records;
+
+/// Ids of specialisation constants, generated from the GLSL that declares them. No two constants have one.
+pub mod constant_ids {
+    include!(concat!(env!("OUT_DIR"), "/constant_ids.rs"));
+}
 
 /// Numbers generated from the shared GLSL files.
 pub mod constants {
@@ -78,9 +85,19 @@ pub fn spirv(name: &str) -> &'static [u32] {
     shader(name).unwrap_or_else(|| panic!("no shader module `{name}` was compiled")).words()
 }
 
+// Parts of the build script, for their tests.
+#[cfg(test)]
+#[path = "../build/comments.rs"]
+mod comments;
+#[cfg(test)]
+#[path = "../build/constant_ids.rs"]
+mod constant_ids_of_glsl;
 #[cfg(test)]
 #[path = "../build/packed.rs"]
 mod packed;
+#[cfg(test)]
+#[path = "../build/records.rs"]
+mod records_of_glsl;
 
 #[cfg(test)]
 mod tests {
@@ -106,6 +123,13 @@ mod tests {
             Some(&words[..])
         );
         assert!(packed::pack(&words[..8]).is_none());
+    }
+
+    #[test]
+    fn records_without_default_are_records() {
+        for name in records_of_glsl::ZEROS_MISLEAD {
+            assert!(records::ALL.iter().any(|record| record.name == name), "{name}");
+        }
     }
 
     #[test]

@@ -20,7 +20,7 @@ layout(constant_id = 77) const uint VOXEL_STORAGE = VOXEL_STORAGE_CONTIGUOUS;
 layout(constant_id = 78) const uint VOXEL_IDS = 0u;
 layout(constant_id = 79) const uint VOXEL_MARKED = VOXEL_MARKED_BY_TRIANGLES;
 
-// State and sizes of one value. 136 bytes.
+// State and sizes of voxels with axis A-buffers. 136 bytes.
 struct VoxelHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // fragments found by the build, or pages begun for them, also those beyond the capacity
@@ -28,24 +28,25 @@ struct VoxelHeader {
     uint fragments;       // fragments found by the build
     uint unsorted;        // lists longer than the sort passes sort
     uint long_demand;     // lists too long for one dispatch of the sort
-    uint long_capacity;
+    uint long_capacity;   // long lists that the scratch holds
     uint corrupted;       // lists that reached beyond the pool or came back to themselves
     uint resolution;      // cells along a side of a view
     uint grid;            // voxels along a side
-    uint longest;         // fragments of the longest list where lists are not bisected; all bits where that is not known
+    // fragments of the longest list where lists are not bisected; all bits set where that is not known
+    uint longest;
     uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
     float cell;           // metres: side of a cell
     float voxel;          // metres: side of a voxel
-    float cells_per_metre;
-    float voxels_per_metre;
+    float cells_per_metre; // one over `cell`
+    float voxels_per_metre; // one over `voxel`
     vec3 lower;           // metres relative to the frame origin: lower corner of the cube
-    uvec2 voxels_address; // device addresses of the pools, zero where descriptors are used
-    uvec2 normals_address;
-    uvec2 lists_address;
-    uvec2 fragments_address;
-    uvec2 scratch_address;
-    uint pairs;           // triangles with many cells of a view, binning only
-    uint pair_capacity;
+    uvec2 voxels_address; // device address of the voxels; zero with descriptors, as all that follow
+    uvec2 normals_address; // device address of the sums of normals
+    uvec2 lists_address;  // device address of the lists
+    uvec2 fragments_address; // device address of the fragments
+    uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
+    uint pairs;           // triangles with many cells of a view, also those beyond the capacity; binning only
+    uint pair_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
 };
 

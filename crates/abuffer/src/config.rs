@@ -1,6 +1,7 @@
 //! Options of the A-buffer and the two presets.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
 use crate::{Accept, Coverage, March, Payload, Storage, Views};
 
@@ -258,20 +259,20 @@ impl Config {
     /// Specialisation constants: id and bits.
     pub(crate) fn constants(&self) -> Vec<(u32, u32)> {
         vec![
-            (10, self.lists()),
-            (11, self.march.number()),
-            (12, self.accept.number()),
-            (13, u32::from(self.sort)),
-            (14, u32::from(self.skip)),
-            (15, self.payload.number()),
-            (16, self.coverage.number()),
-            (17, self.storage.number()),
-            (18, u32::from(self.inline)),
-            (19, self.page),
-            (20, self.views.number()),
-            (21, u32::from(self.single_layer)),
-            (22, u32::from(self.ids)),
-            (23, u32::from(self.jitter)),
+            (ids::ABUFFER_BUCKETS, self.lists()),
+            (ids::ABUFFER_MARCH, self.march.number()),
+            (ids::ABUFFER_ACCEPT, self.accept.number()),
+            (ids::ABUFFER_SORT, u32::from(self.sort)),
+            (ids::ABUFFER_SKIP, u32::from(self.skip)),
+            (ids::ABUFFER_PAYLOAD, self.payload.number()),
+            (ids::ABUFFER_COVERAGE, self.coverage.number()),
+            (ids::ABUFFER_STORAGE, self.storage.number()),
+            (ids::ABUFFER_INLINE, u32::from(self.inline)),
+            (ids::ABUFFER_PAGE, self.page),
+            (ids::ABUFFER_VIEWS, self.views.number()),
+            (ids::ABUFFER_SINGLE_LAYER, u32::from(self.single_layer)),
+            (ids::ABUFFER_IDS, u32::from(self.ids)),
+            (ids::ABUFFER_JITTER, u32::from(self.jitter)),
         ]
     }
 

@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
@@ -123,14 +123,7 @@ impl Design for Build {
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "AbufferHeader" {
-        status, demand, capacity, near_demand, near_capacity, unsorted, corrupted, resolution, samples,
-        thickness, thickness_per_reach, near_per_reach, rounding_per_reach, widest, near_size, long_demand, eye, long_capacity, lower, fragments, upper, camera_cells,
-        camera_x, camera_y, camera_z, lost, triangles, fringe_demand, fringe_capacity, reach, rounding,
-        pairs, pair_capacity, groups,
-        bounds_address, lists_address, nodes_address, data_address, near_address, scratch_address,
-        fringe_address,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

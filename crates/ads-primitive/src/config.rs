@@ -1,6 +1,7 @@
 //! Options of primitive lists and the presets.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_shaders_glsl::constant_ids::primitive as ids;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Accept, Coverage, Depths, March, Stop};
@@ -184,12 +185,18 @@ impl Config {
             Centre::Eye => numbers::PRIMITIVE_CENTRE_EYE,
             Centre::Scene => numbers::PRIMITIVE_CENTRE_SCENE,
         };
-        let (skip, pyramid) = (u32::from(self.skip), u32::from(self.has_pyramid()));
-        [self.buckets, storage, coverage, skip, pyramid, accept, stop, depths, march, centre]
-            .into_iter()
-            .zip(30..)
-            .map(|(value, id)| (id, value))
-            .collect()
+        vec![
+            (ids::PRIMITIVE_BUCKETS, self.buckets),
+            (ids::PRIMITIVE_STORAGE, storage),
+            (ids::PRIMITIVE_COVERAGE, coverage),
+            (ids::PRIMITIVE_SKIP, u32::from(self.skip)),
+            (ids::PRIMITIVE_PYRAMID, u32::from(self.has_pyramid())),
+            (ids::PRIMITIVE_ACCEPT, accept),
+            (ids::PRIMITIVE_STOP, stop),
+            (ids::PRIMITIVE_DEPTHS, depths),
+            (ids::PRIMITIVE_MARCH, march),
+            (ids::PRIMITIVE_CENTRE, centre),
+        ]
     }
 
     /// Options as name and value, for reports.

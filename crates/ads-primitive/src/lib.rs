@@ -10,7 +10,6 @@
 mod build;
 mod build_visit;
 mod config;
-mod header;
 mod layout;
 mod pool;
 mod rules;
@@ -18,10 +17,10 @@ mod structure;
 mod validate;
 
 pub use config::{Centre, Config, Storage};
-pub use header::Header;
 pub use layout::{Demand, FormulaBytes, cell_count, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
+pub use rasray_shaders_glsl::records::PrimitiveHeader as Header;
 pub use rules::{Accept, Coverage, Depths, March, Stop};
 pub use structure::{Passes, PrimitiveLists};
 pub use validate::{Contents, Fault, well_formed};

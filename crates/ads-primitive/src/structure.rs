@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 
@@ -63,11 +63,7 @@ impl Design for Passes {
     const TITLE: &'static str = "the primitive lists";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "PrimitiveHeader" {
-        status, demand, capacity, near_demand, near_capacity, corrupted, tiles, tile, reach, near_size, rounding,
-        eye, centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
-        pairs_address, pair_capacity, pairs, groups,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

@@ -2,7 +2,7 @@
 
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
-use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
 use crate::{AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
@@ -88,7 +88,7 @@ impl TraceKernels {
         if let Some(scene) = desc.scene {
             sets.push(&scene.layout);
         }
-        let mut constants = vec![(0, desc.counters.constant())];
+        let mut constants = vec![(COUNTERS, desc.counters.constant())];
         constants.extend_from_slice(desc.constants);
         constants.extend(desc.scene.iter().flat_map(|scene| &scene.constants));
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {

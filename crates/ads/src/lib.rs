@@ -32,11 +32,9 @@ mod pooled;
 mod pools;
 mod pyramid;
 mod queue;
-mod record_layout;
 mod scan;
 mod steps;
 mod structure;
-mod types;
 mod viewpoint;
 mod visit;
 
@@ -53,16 +51,15 @@ pub use pooled::Pooled;
 pub use pools::Pools;
 pub use pyramid::Pyramid;
 pub use queue::{Domain, QueueCounters, QueueParts, RayQueue};
-pub use record_layout::RecordLayout;
-#[doc(hidden)]
-pub use record_layout::size_of_member;
+pub use rasray_shaders_glsl::records::{
+    Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
+};
 pub use scan::Scan;
-pub use steps::{SkipReason, StepKind, TestVerdict};
+pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{
     BuildStatus, Check, Dependencies, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure,
     StructureKind, StructureReport, TraceMode,
 };
-pub use types::{Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, Surface, TraceState, TraceStep};
 pub use viewpoint::{CameraView, Viewpoint};
 pub use visit::{Builder, PairsPass, Visit, Visits, bin_groups};
 

@@ -1,10 +1,12 @@
 //! What a logged step says, in words.
 
 use std::fmt;
+use std::ops::Deref;
 
-use rasray_shaders_glsl::constants::contract as numbers;
+use bytemuck::{Pod, Zeroable};
+use rasray_shaders_glsl::{constants::contract as numbers, records};
 
-use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, TraceStep};
+use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN};
 
 /// The number that stands for the near box among the views of a cube.
 const VIEW_NEAR: u32 = 6;
@@ -92,6 +94,19 @@ pub enum SkipReason {
     Unknown,
 }
 
+/// One step of a logged traversal, as the device writes it; the methods say what its words mean.
+#[repr(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct TraceStep(pub records::TraceStep);
+
+impl Deref for TraceStep {
+    type Target = records::TraceStep;
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
 impl TraceStep {
     /// What was done.
     pub fn kind(&self) -> StepKind {
@@ -177,7 +192,7 @@ fn name_of(primitive: u32) -> String {
 impl fmt::Display for TraceStep {
     /// One line without indentation.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { a, b, t_low, t_high, .. } = *self;
+        let records::TraceStep { a, b, t_low, t_high, .. } = self.0;
         match self.kind() {
             StepKind::Round => write!(f, "round {a}"),
             StepKind::View if a == VIEW_NEAR => write!(f, "near box, t {t_low} to {t_high}"),
@@ -241,7 +256,7 @@ mod tests {
     use super::*;
 
     fn step(kind: u32, [a, b, c]: [u32; 3], [t_low, t_high]: [f32; 2]) -> TraceStep {
-        TraceStep { kind, round: 0, a, b, c, t_low, t_high }
+        TraceStep(records::TraceStep { kind, round: 0, a, b, c, t_low, t_high })
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Options of bricks.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry};
+use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 
 use crate::Views;
@@ -100,7 +101,11 @@ impl Config {
             Views::Cube => numbers::BRICK_VIEWS_CUBE,
             Views::Axes => numbers::BRICK_VIEWS_AXES,
         };
-        vec![(40, views), (41, u32::from(self.skip)), (42, u32::from(self.corners))]
+        vec![
+            (ids::BRICK_VIEWS, views),
+            (ids::BRICK_SKIP, u32::from(self.skip)),
+            (ids::BRICK_CORNERS_KEPT, u32::from(self.corners)),
+        ]
     }
 
     /// Options as name and value, for reports; `cells` are those of a view.

@@ -10,7 +10,6 @@
 mod build;
 mod config;
 mod grid;
-mod header;
 mod layout;
 mod pool;
 mod structure;
@@ -18,10 +17,10 @@ mod validate;
 
 pub use config::Config;
 pub use grid::Views;
-pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
+pub use rasray_shaders_glsl::records::BrickHeader as Header;
 pub use structure::{Bricks, Passes};
 pub use validate::{Contents, Fault, well_formed};
 

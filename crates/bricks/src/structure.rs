@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 
@@ -81,12 +81,7 @@ impl Design for Passes {
     const TITLE: &'static str = "the bricks";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "BrickHeader" {
-        status, demand, capacity, near_demand, near_capacity, corrupted, columns, rows, slices, reach, near_size,
-        rounding, eye, centre, lower, upper, cells_lower, cells_per_metre, bricks_address, lists_address, entries_address,
-        sums_address, near_address, records_address, triangles_address, slice_first, slice_shift, record_demand,
-        record_capacity, cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

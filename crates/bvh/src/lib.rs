@@ -10,7 +10,6 @@
 
 mod build;
 mod config;
-mod header;
 mod host;
 mod layout;
 mod pool;
@@ -18,10 +17,10 @@ mod structure;
 mod validate;
 
 pub use config::{Builder, Config};
-pub use header::{Header, Node, Record};
 pub use layout::{FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;
+pub use rasray_shaders_glsl::records::{BvhHeader as Header, BvhNode as Node, BvhRecord as Record};
 pub use structure::{Bvh, Demand, Tree};
 pub use validate::{Contents, Fault, Shape, well_formed};
 

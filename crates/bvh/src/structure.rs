@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
@@ -127,17 +127,7 @@ impl Design for Tree {
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[
-        record_layout!(Header as "BvhHeader" {
-            status, root, triangle_count, node_capacity, record_capacity, scratch_capacity, order_offset,
-            order_stride, lower, spare_lower, cells_per_metre, corrupted, nodes_address, records_address,
-            scratch_address, spare_address,
-        }),
-        record_layout!(Node as "BvhNode" {
-            lower_0, child_0, upper_0, child_1, lower_1, parent, upper_1, spare,
-        }),
-        record_layout!(Record as "BvhRecord" { a, b, c, primitive }),
-    ];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT, Node::LAYOUT, Record::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

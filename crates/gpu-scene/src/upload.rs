@@ -3,12 +3,16 @@
 use bytemuck::NoUninit;
 use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
 use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation};
+use rasray_shaders_glsl::constant_ids::scene as ids;
 use rasray_shaders_glsl::constants::{
     contract::DRAW_ALPHA_MASKED,
     scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS},
 };
 
-use crate::{GpuSceneError, Sampling, SceneTables, TexelRuns, View, layout::Frame};
+use crate::{
+    GpuSceneError, Sampling, SceneTables, TexelRuns, View,
+    layout::{Frame, viewpoint_of},
+};
 
 /// Number of buffers in the scene's set.
 const BINDINGS: u32 = SCENE_BINDING_TEXELS_3 + 1;
@@ -34,10 +38,10 @@ impl ShadingFeatures {
     /// one of them ignores it.
     pub fn constants(self) -> [(u32, u32); 4] {
         [
-            (90, self.textures.into()),
-            (91, self.transmission.into()),
-            (92, self.blend.into()),
-            (94, self.texel_runs.into()),
+            (ids::SCENE_HAS_TEXTURES, self.textures.into()),
+            (ids::SCENE_HAS_TRANSMISSION, self.transmission.into()),
+            (ids::SCENE_HAS_BLEND, self.blend.into()),
+            (ids::SCENE_HAS_TEXEL_RUNS, self.texel_runs.into()),
         ]
     }
 }
@@ -177,7 +181,7 @@ impl GpuScene {
 
     /// The eye and what the camera sees there.
     pub fn viewpoint(&self) -> Viewpoint {
-        self.frame.viewpoint()
+        viewpoint_of(&self.frame)
     }
 
     /// World, metres.

@@ -7,17 +7,16 @@
 
 mod build;
 mod config;
-mod header;
 mod layout;
 mod pool;
 mod structure;
 mod validate;
 
 pub use config::Config;
-pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::Addressing;
+pub use rasray_shaders_glsl::records::GridHeader as Header;
 pub use structure::{Grid, Passes};
 pub use validate::{Contents, Fault, well_formed};
 

@@ -6,7 +6,6 @@ use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
     RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
-    record_layout,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 
@@ -77,10 +76,7 @@ impl Design for Passes {
     const TITLE: &'static str = "the grid";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "GridHeader" {
-        status, demand, capacity, corrupted, cells, reach, rounding, eye, centre, lower, upper, cells_lower,
-        cells_per_metre, lists_address, entries_address, scratch_address, triangle_capacity, pairs, groups,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

@@ -1,10 +1,9 @@
 //! Auxiliary images: distance, normal and primitive of what lies at the centre of every pixel.
 
-use bytemuck::{Pod, Zeroable};
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Device, Recorder};
 use rasray_gpu_scene::GpuScene;
-use rasray_shaders_glsl::{INTEGRATORS_AOV, INTEGRATORS_PRIMARY};
+use rasray_shaders_glsl::{INTEGRATORS_AOV, INTEGRATORS_PRIMARY, records::AovPixel};
 
 use crate::{
     IntegratorError, Traced, Wave,
@@ -12,19 +11,6 @@ use crate::{
     integrator::{check_capacity, check_wave},
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
-
-/// What the ray through a pixel's centre meets, as shaders keep it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct AovPixel {
-    /// Metres from the ray's origin (the eye, if the projection is perspective); 0: nothing is met.
-    pub distance: f32,
-    /// Unit geometric normal, world axes, facing the ray; 0 where nothing is met.
-    pub normal: [f32; 3],
-    /// Global triangle id, `PRIMITIVE_NONE` where nothing is met, `PRIMITIVE_UNKNOWN` where the
-    /// structure does not know it.
-    pub primitive: u32,
-}
 
 /// Traces the rays of pixel centres and keeps what they meet. One trace a wave; `Wave::sample` is
 /// not used.

@@ -1,37 +1,12 @@
 //! Radiance summed over samples, pixel by pixel.
 
-use bytemuck::{Pod, Zeroable};
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
+use rasray_shaders_glsl::records::{FilmFaults, FilmPixel};
 
 use crate::IntegratorError;
 
 /// Most pixels of an image: their numbers, and those of three channels each, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
-
-/// Radiance of a pixel, as shaders keep it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct FilmPixel {
-    /// Sum over its samples, linear RGB, W/(sr m^2).
-    pub sum: [f32; 3],
-    /// Samples in the sum.
-    pub samples: u32,
-}
-
-impl FilmPixel {
-    /// Mean over the samples; black where there is none.
-    pub fn mean(&self) -> [f32; 3] {
-        if self.samples == 0 { [0.0; 3] } else { self.sum.map(|x| x / self.samples as f32) }
-    }
-}
-
-/// What the film refused, as shaders keep it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
-pub struct FilmFaults {
-    /// Samples with a channel that is not finite. They are left out of their pixel.
-    pub non_finite: u32,
-}
 
 /// The image that integrators add to. Cheap to clone; clones share the image.
 ///

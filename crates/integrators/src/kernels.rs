@@ -7,19 +7,16 @@ use rasray_gpu::{
     MemoryLocation, Recorder, SetLayout,
 };
 use rasray_gpu_scene::GpuScene;
-use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 
 use crate::{IntegratorError, Wave};
 
 /// Buffers in the integrators' set.
 const BINDINGS: u32 = 8;
 
-/// Specialisation constant of `integrators/primary.comp`.
-const CONSTANT_PIXEL_CENTRES: u32 = 93;
-
 /// Constants of the camera rays: through random points of their pixels, or through the centres.
 pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
-    [(CONSTANT_PIXEL_CENTRES, u32::from(pixel_centres))]
+    [(PIXEL_CENTRES, u32::from(pixel_centres))]
 }
 
 /// Push constants of all kernels, `WaveConstants` of `integrators/storage.glsl`.

@@ -48,11 +48,12 @@ mod traced;
 mod wave;
 
 pub use ambient_occlusion::AmbientOcclusion;
-pub use aov::{AovPass, AovPixel};
+pub use aov::AovPass;
 pub use error::IntegratorError;
-pub use film::{Film, FilmFaults, FilmPixel, PIXEL_LIMIT};
+pub use film::{Film, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc};
-pub use path::{BOUNCE_LIMIT, Path, PathState};
+pub use path::{BOUNCE_LIMIT, Path};
+pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState};
 pub use raycast::Raycast;
 pub use traced::Traced;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves};

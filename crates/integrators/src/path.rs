@@ -1,11 +1,10 @@
 //! Path tracing with light sampling.
 
-use bytemuck::{Pod, Zeroable};
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{Buffer, Recorder};
 use rasray_shaders_glsl::{
     INTEGRATORS_FILM_ACCUMULATE, INTEGRATORS_PATH_RESOLVE, INTEGRATORS_PATH_SHADE, INTEGRATORS_PRIMARY,
-    constants::scene::PATH_LAYER_LIMIT,
+    constants::scene::PATH_LAYER_LIMIT, records::PathState,
 };
 
 use crate::{
@@ -16,30 +15,6 @@ use crate::{
 
 /// Most scatterings of a path. A wave records up to this many rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
-
-/// What a path carries from one round to the next; `PathState` of `scene/types.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct PathState {
-    /// Share of the light met next that reaches the camera.
-    pub throughput: [f32; 3],
-    /// Number of the pixel in the whole image.
-    pub pixel: u32,
-    /// Gathered so far, W/(sr m^2).
-    pub radiance: [f32; 3],
-    /// Index of the sample.
-    pub sample_index: u32,
-    /// 1/sr of the last scattering; 0: emission met next counts fully.
-    pub bsdf_pdf: f32,
-    /// Material whose inside the path is in, or `MATERIAL_NONE`.
-    pub medium: u32,
-    /// Scatterings so far.
-    pub bounce: u32,
-    /// Blended surfaces met so far.
-    pub layers: u32,
-    /// Zero.
-    pub flags: u32,
-}
 
 /// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
 /// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.

@@ -1,6 +1,7 @@
 //! Options of the layered depth cube and the two presets.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 
 /// When a fragment counts as hit.
@@ -227,16 +228,16 @@ impl Config {
             Payload::Attributes => numbers::LDC_PAYLOAD_ATTRIBUTES,
         };
         vec![
-            (50, accept),
-            (51, coverage),
-            (52, self.depth.bits()),
-            (53, u32::from(self.skip)),
-            (54, self.block),
-            (55, occupancy),
-            (56, self.levels),
-            (57, making),
-            (58, payload),
-            (59, u32::from(self.ids)),
+            (ids::LDC_ACCEPT, accept),
+            (ids::LDC_COVERAGE, coverage),
+            (ids::LDC_DEPTH_BITS, self.depth.bits()),
+            (ids::LDC_SKIP, u32::from(self.skip)),
+            (ids::LDC_BLOCK, self.block),
+            (ids::LDC_OCCUPANCY, occupancy),
+            (ids::LDC_LEVELS, self.levels),
+            (ids::LDC_BUILD, making),
+            (ids::LDC_PAYLOAD, payload),
+            (ids::LDC_IDS, u32::from(self.ids)),
         ]
     }
 

@@ -9,7 +9,6 @@
 
 mod build;
 mod config;
-mod header;
 mod layout;
 mod pool;
 mod structure;
@@ -17,10 +16,10 @@ mod validate;
 
 pub use build::Build;
 pub use config::{Accept, Config, Coverage, Depth, Making, Occupancy, Payload};
-pub use header::Header;
 pub use layout::{Demand, FormulaBytes, block_count, cell_count, formula_bytes, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
+pub use rasray_shaders_glsl::records::LdcHeader as Header;
 pub use structure::LayeredDepthCube;
 pub use validate::{Contents, Fault, well_formed};
 

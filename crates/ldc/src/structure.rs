@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 
@@ -66,13 +66,7 @@ impl Design for Build {
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "LdcHeader" {
-        status, demand, capacity, fringe_demand, fringe_capacity, unsorted, corrupted, resolution, cell, size,
-        tolerance_per_side, tolerance, long_demand, origin, long_capacity, lower, layer_demand, upper, slices_a_metre, lists_address,
-        depths_address, payload_address, blocks_address, heads_address, fringe_address, scratch_address,
-        layer_capacity, layer_limit, beyond, pairs, pair_capacity,
-        groups,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

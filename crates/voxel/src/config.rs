@@ -1,6 +1,7 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
 use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 
 /// In which of the three views a fragment is kept, and along which axes a voxel is searched.
@@ -315,16 +316,16 @@ impl Config {
             Payload::Mirror => numbers::VOXEL_PAYLOAD_MIRROR,
         };
         vec![
-            (70, axes),
-            (71, march),
-            (72, accept),
-            (73, coverage),
-            (74, self.page),
-            (75, u32::from(self.sorts())),
-            (76, payload),
-            (77, self.storage.number()),
-            (78, u32::from(self.ids)),
-            (79, marking),
+            (ids::VOXEL_AXES, axes),
+            (ids::VOXEL_MARCH, march),
+            (ids::VOXEL_ACCEPT, accept),
+            (ids::VOXEL_COVERAGE, coverage),
+            (ids::VOXEL_PAGE, self.page),
+            (ids::VOXEL_SORT, u32::from(self.sorts())),
+            (ids::VOXEL_PAYLOAD, payload),
+            (ids::VOXEL_STORAGE, self.storage.number()),
+            (ids::VOXEL_IDS, u32::from(self.ids)),
+            (ids::VOXEL_MARKED, marking),
         ]
     }
 

@@ -11,7 +11,6 @@
 
 mod build;
 mod config;
-mod header;
 mod layout;
 mod pool;
 mod structure;
@@ -19,10 +18,10 @@ mod validate;
 
 pub use build::Build;
 pub use config::{Accept, Axes, Config, Coverage, March, Marking, Payload, Storage};
-pub use header::Header;
 pub use layout::{Demand, FormulaBytes, formula_bytes, list_count, plan};
 pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
+pub use rasray_shaders_glsl::records::VoxelHeader as Header;
 pub use structure::Voxels;
 pub use validate::{Contents, Fault, Fragment, well_formed};
 

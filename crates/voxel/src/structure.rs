@@ -5,7 +5,7 @@ use std::mem::offset_of;
 use bytemuck::cast_slice;
 use rasray_ads::{
     AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
+    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
 };
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
@@ -64,11 +64,7 @@ impl Design for Build {
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
-    const RECORDS: &'static [RecordLayout] = &[record_layout!(Header as "VoxelHeader" {
-        status, demand, capacity, fragments, unsorted, long_demand, long_capacity, corrupted, resolution, grid, longest, samples, cell, voxel,
-        cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
-        fragments_address, scratch_address, pairs, pair_capacity, groups,
-    })];
+    const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn common(config: &Config) -> Common {
         let Config { addressing, counters, work_budget, .. } = *config;

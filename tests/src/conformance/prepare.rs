@@ -2,7 +2,10 @@ use bytemuck::Zeroable;
 use glam::DVec3;
 use rasray_ads::{Geometry, Ray, Viewpoint};
 use rasray_experiment::{Placed, case_camera};
-use rasray_gpu_scene::{View, layout::Frame};
+use rasray_gpu_scene::{
+    View,
+    layout::{Frame, viewpoint_of},
+};
 use rasray_reference::oracle::{Oracle, Verdict};
 
 use crate::hard_cases::{Expectation, HardCase};
@@ -80,5 +83,5 @@ impl Prepared {
 fn viewpoint(eye: [f32; 3]) -> Viewpoint {
     let mut frame = Frame::zeroed();
     View { camera: case_camera(eye), width: 1, height: 1, seed: 0 }.write(&mut frame, DVec3::ZERO);
-    frame.viewpoint().at(eye)
+    viewpoint_of(&frame).at(eye)
 }

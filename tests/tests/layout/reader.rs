@@ -125,19 +125,11 @@ pub fn size_of_member<T, M>(_: fn(&T) -> &M) -> usize {
 }
 
 macro_rules! members {
-    ($record:ty { $($member:ident $(as $name:literal)?),* $(,)? }) => {
+    ($record:ty { $($member:ident),* }) => {
         [$((
-            [$($name,)? stringify!($member)][0].to_owned(),
+            stringify!($member).to_owned(),
             std::mem::offset_of!($record, $member),
             crate::reader::size_of_member(|record: &$record| &record.$member),
         )),*]
-    };
-}
-
-macro_rules! check_layout {
-    ($shaders:expr, $record:ty as $name:literal { $($members:tt)* }) => {
-        for shader in $shaders {
-            crate::reader::check(shader, $name, &members!($record { $($members)* }), size_of::<$record>());
-        }
     };
 }

@@ -295,15 +295,3 @@ fn a_small_model_keeps_the_bits_of_its_file() {
     let bits = |position: &[f32; 3]| position.map(f32::to_bits);
     assert!(tables.posed.positions.iter().map(bits).eq(files.map(bits)));
 }
-
-#[test]
-fn records_have_the_sizes_that_the_shaders_declare() {
-    assert_eq!(size_of::<layout::Draw>(), 16);
-    assert_eq!(size_of::<layout::Frame>(), 144);
-    assert_eq!(size_of::<layout::DrawShading>(), 44);
-    assert_eq!(size_of::<layout::TextureUse>(), 32);
-    assert_eq!(size_of::<layout::Material>(), 256);
-    assert_eq!(size_of::<layout::Texture>(), 20);
-    assert_eq!(size_of::<layout::Light>(), 56);
-    assert_eq!(size_of::<layout::EmissiveTriangle>(), 8);
-}

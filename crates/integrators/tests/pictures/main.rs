@@ -3,7 +3,6 @@
 mod common;
 mod corpus;
 mod images;
-mod layouts;
 mod needs;
 mod reference;
 mod texel_runs;
