@@ -12,17 +12,17 @@ const WIDEST_MARGIN: f64 = 0.125;
 /// sides lie well within a cell then, and so does the middle.
 const WIDENING: f64 = 4.0;
 
-/// Half the longest side of what has no size: all that follows from it stays within the range of numbers.
+/// Half the longest side of bounds without size: values computed from it stay finite and not zero.
 const SMALLEST_REACH: f32 = 1.0e-30;
 
-/// So many cells of one size over the bounds of a geometry; metres from their middle.
+/// A grid of equal cells over the bounds of a geometry, in metres relative to the middle of the bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoxCells {
     /// Middle of the bounds, metres relative to the frame origin.
     pub centre: [f32; 3],
     /// Half the longest side of the bounds; more where the eye is far away.
     pub reach: f32,
-    /// How far a ray may be from a triangle that it hits.
+    /// Maximum distance between a ray and a triangle that it hits, by rounding.
     pub rounding: f32,
     /// Corner of the first cell.
     pub lower: [f32; 3],
@@ -31,7 +31,8 @@ pub struct BoxCells {
 }
 
 impl BoxCells {
-    /// Places so many cells along each axis, 1 or more, over bounds (lower, upper), for rays from around the eye.
+    /// Places the given number of cells along each axis, 1 or more, over bounds (lower, upper), for rays from near the
+    /// eye.
     pub fn over([lower, upper]: [[f32; 3]; 2], cells: [u32; 3], eye: [f32; 3]) -> Self {
         let centre: [f32; 3] = std::array::from_fn(|axis| 0.5 * lower[axis] + 0.5 * upper[axis]);
         let from_centre =

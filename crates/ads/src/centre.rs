@@ -7,19 +7,19 @@ const EYE_LIMIT: f32 = 3.5;
 /// fraction at which a scene is likely to have a wall.
 const MARGIN: f32 = 0.2718;
 
-/// Flatter bounds than this, shortest over longest side, have no inside: a centre among their triangles would
-/// see them all edge-on and across many tiles.
+/// Bounds flatter than this, shortest over longest side, have no inside: from a centre among their triangles, all of
+/// them would be seen edge-on and cover many tiles.
 const FLATTEST: f32 = 0.25;
 
 /// The centre of faces for an eye and geometry within `bounds` (lower, upper), metres: the eye itself within
 /// them, or where they are flat; else the point of about their inner half that is nearest to it, as far back
 /// towards the eye as rays from there need.
 ///
-/// From an eye outside all geometry lies in a part of the faces, in as few tiles as it is far away.
+/// From an eye far outside, all geometry would lie in a small part of the faces, in few tiles.
 pub fn centre_within(eye: [f32; 3], [lower, upper]: [[f32; 3]; 2]) -> [f32; 3] {
     let extent: [f32; 3] = std::array::from_fn(|axis| upper[axis] - lower[axis]);
     let longest = extent.into_iter().fold(0.0_f32, f32::max);
-    // Written so that bounds beyond numbers leave the eye where it is.
+    // Written so that bounds that are not finite keep the centre at the eye.
     let has_inside = extent.into_iter().all(|side| side > FLATTEST * longest) && longest < f32::MAX;
     let is_inside = (0..3).all(|axis| lower[axis] <= eye[axis] && eye[axis] <= upper[axis]);
     if is_inside || !has_inside {
@@ -76,7 +76,7 @@ mod tests {
         assert!(ratio([0.0, 0.0, 1.0e3]) > 3.4);
     }
 
-    /// Bounds without an inside, of nothing, or beyond numbers, make no centre worse than the eye.
+    /// For bounds without an inside, empty or not finite, the centre is the eye.
     #[test]
     fn odd_bounds_leave_the_eye() {
         for bounds in [

@@ -1,7 +1,7 @@
 //! Records that Rust and shaders share, as data.
 
-/// A record that a structure shares with its shaders: name, and what Rust says of its members. A test holds it against
-/// every compiled module that has it.
+/// A record that a structure shares with its shaders: name, and the layout of its members in Rust. A test compares it
+/// with every compiled module that has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordLayout {
     /// Name in GLSL.
@@ -12,7 +12,7 @@ pub struct RecordLayout {
     pub members: &'static [(&'static str, usize, usize)],
 }
 
-/// Bytes of the member that a function leads to.
+/// Size in bytes of the member that a function returns.
 #[doc(hidden)]
 pub const fn size_of_member<T, M>(_: fn(&T) -> &M) -> usize {
     size_of::<M>()

@@ -17,7 +17,7 @@ pub struct Ray {
     pub t_max: f32,
     /// Never hit; `PRIMITIVE_NONE` excludes nothing.
     pub exclude_primitive: u32,
-    /// 0: kept for what a ray may ask beyond this, none so far.
+    /// Reserved, must be 0.
     pub flags: u32,
     /// Width of the ray cone at the origin, metres.
     pub cone_width: f32,
@@ -41,7 +41,7 @@ impl Ray {
     }
 }
 
-/// What a ray met. A miss has `PRIMITIVE_NONE`.
+/// What a ray hit. A miss has `PRIMITIVE_NONE`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Hit {
@@ -52,12 +52,12 @@ pub struct Hit {
     /// The structure's; weight of vertex 1 where hits are primitives.
     pub a: f32,
     /// The structure's; weight of vertex 2 where hits are primitives, and the bits `HIT_STORED` where a
-    /// fragment without them names its triangle for diagnostics.
+    /// fragment without them has its triangle's id for diagnostics.
     pub b: f32,
 }
 
 impl Hit {
-    /// Whether anything was met.
+    /// Whether anything was hit.
     pub fn is_hit(&self) -> bool {
         self.primitive != crate::PRIMITIVE_NONE
     }
@@ -81,7 +81,7 @@ pub struct TraceState {
     pub rounds: u32,
 }
 
-/// What a ray has spent, where work is counted per ray.
+/// The work of a ray, where it is counted per ray.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct RayWork {
@@ -213,7 +213,7 @@ pub struct QueueHeader {
     pub paused: u32,
     /// Rays that were given up, over all traces since the reset.
     pub unfinished: u32,
-    /// Rays that met an incomplete structure, over all traces since the reset.
+    /// Rays traced while the structure was incomplete, over all traces since the reset.
     pub not_ready: u32,
     /// Slots selected for the passes after the next [`crate::RayQueue::record_take`].
     pub selecting: u32,
@@ -239,6 +239,6 @@ pub struct QueueHeader {
     pub selected: u32,
     /// Times they were taken.
     pub takes: u32,
-    /// List entries that named nothing, in the structure last traced since it was built.
+    /// List entries with an invalid index in the structure last traced, since it was built.
     pub corrupted: u32,
 }
