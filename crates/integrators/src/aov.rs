@@ -13,20 +13,20 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
-/// What the ray through a pixel's centre meets, as shaders keep it.
+/// What the ray through a pixel's centre hits, in the layout of shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct AovPixel {
-    /// Metres from the ray's origin (the eye, if the projection is perspective); 0: nothing is met.
+    /// Metres from the ray's origin (the eye, if the projection is perspective); 0: nothing is hit.
     pub distance: f32,
-    /// Unit geometric normal, world axes, facing the ray; 0 where nothing is met.
+    /// Unit geometric normal, world axes, facing the ray; 0 where nothing is hit.
     pub normal: [f32; 3],
-    /// Global triangle id, `PRIMITIVE_NONE` where nothing is met, `PRIMITIVE_UNKNOWN` where the
+    /// Global triangle id, `PRIMITIVE_NONE` where nothing is hit, `PRIMITIVE_UNKNOWN` where the
     /// structure does not know it.
     pub primitive: u32,
 }
 
-/// Traces the rays of pixel centres and keeps what they meet. One trace a wave; `Wave::sample` is
+/// Traces the rays of pixel centres and keeps what they hit. One trace per wave; `Wave::sample` is
 /// not used.
 #[derive(Debug)]
 pub struct AovPass {
@@ -39,7 +39,7 @@ pub struct AovPass {
 }
 
 impl AovPass {
-    /// Makes queue, image and kernels for the scene's view, with at most `wave_capacity` rays a wave.
+    /// Makes queue, image and kernels for the scene's view, with at most `wave_capacity` rays per wave.
     ///
     /// # Errors
     /// Sizes that do not fit, out of memory, or the device refuses a pipeline.

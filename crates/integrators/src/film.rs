@@ -5,10 +5,10 @@ use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation
 
 use crate::IntegratorError;
 
-/// Most pixels of an image: their numbers, and those of three channels each, fit in 32 bits.
+/// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
 
-/// Radiance of a pixel, as shaders keep it.
+/// Radiance of a pixel, in the layout of shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct FilmPixel {
@@ -25,11 +25,11 @@ impl FilmPixel {
     }
 }
 
-/// What the film refused, as shaders keep it.
+/// Samples that were not added to the film, in the layout of shaders.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct FilmFaults {
-    /// Samples with a channel that is not finite. They are left out of their pixel.
+    /// Samples with a channel that is not finite. They are not added to their pixel.
     pub non_finite: u32,
 }
 
@@ -73,7 +73,7 @@ impl Film {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     pub fn width(&self) -> u32 {
         self.width
     }
@@ -119,7 +119,7 @@ impl Film {
         Ok(device.download_as(&self.pixels, 0, self.pixel_count() as usize)?)
     }
 
-    /// Downloads what was refused: submits and waits.
+    /// Downloads the count of samples that were not added: submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.

@@ -14,35 +14,35 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
-/// Most scatterings of a path. A wave records up to this many rounds.
+/// Maximum number of scatterings of a path. A wave records up to this number of rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
 
 /// What a path carries from one round to the next; `PathState` of `scene/types.glsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct PathState {
-    /// Share of the light met next that reaches the camera.
+    /// Throughput: the fraction of the light hit next that reaches the camera.
     pub throughput: [f32; 3],
     /// Number of the pixel in the whole image.
     pub pixel: u32,
-    /// Gathered so far, W/(sr m^2).
+    /// Radiance so far, W/(sr m^2).
     pub radiance: [f32; 3],
     /// Index of the sample.
     pub sample_index: u32,
-    /// 1/sr of the last scattering; 0: emission met next counts fully.
+    /// Density of the last scattering, 1/sr; 0: emission hit next has weight 1.
     pub bsdf_pdf: f32,
-    /// Material whose inside the path is in, or `MATERIAL_NONE`.
+    /// Material that the path is inside of, or `MATERIAL_NONE`.
     pub medium: u32,
     /// Scatterings so far.
     pub bounce: u32,
-    /// Blended surfaces met so far.
+    /// Blended surfaces hit so far.
     pub layers: u32,
     /// Zero.
     pub flags: u32,
 }
 
-/// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
-/// closest-hit ray and at most one shadow ray; paths that have ended take part in no pass.
+/// Paths of at most `bounces` scatterings. In every round each path that continues traces one closest-hit ray and at
+/// most one shadow ray; paths that have ended are in no pass.
 #[derive(Debug)]
 pub struct Path {
     bounces: u32,
@@ -107,8 +107,8 @@ impl Path {
     }
 }
 
-/// Closest-hit rounds that a path can need: one a scattering, one for what the last scattered ray
-/// meets, and one for every blended surface that it passes.
+/// Closest-hit rounds that a path can need: one per scattering, one for what the last scattered ray hits, and one for
+/// every blended surface that it passes.
 fn rounds(bounces: u32, blend: bool) -> u32 {
     bounces + 1 + if blend { PATH_LAYER_LIMIT } else { 0 }
 }
@@ -127,7 +127,7 @@ impl Integrator for Path {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let (paths, shadows) = (&self.queue, &self.shadow_queue);
         let all = Domain::First(wave.pixel_count);
-        // Of the first round these are all slots; from then on those whose paths go on.
+        // In the first round these are all slots, later those whose paths continue.
         let mut live = all;
         let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
         self.bindings.record(recorder, &self.primary, paths, all, &constants);
@@ -137,7 +137,7 @@ impl Integrator for Path {
             constants.round = round;
             traced.record_closest(recorder, paths, live)?;
             self.bindings.record(recorder, &self.shade, paths, live, &constants);
-            // In the last round every path has scattered as often as it may: it asks for no light.
+            // In the last round every path has reached the maximum number of scatterings and samples no light.
             if round + 1 < self.rounds {
                 paths.record_take(recorder);
                 shadows.record_take(recorder);
