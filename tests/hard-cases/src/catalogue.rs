@@ -80,7 +80,12 @@ const fn within(largest_dt: f64, row: CatalogueRow) -> CatalogueRow {
 /// All rows by theme.
 pub const CATALOGUE: &[CatalogueRow] = &[
     // Shape of triangles.
-    row("G1", "missed rays; for fragments at the rate that follows from the height in pixels", NoneMissed, Law),
+    row(
+        "G1",
+        "missed rays; for fragments at the rate that follows from the height in pixels",
+        NoneMissed,
+        Law,
+    ),
     within(1e-5, row("G2", "missed rays, |dt| / t", NoneMissed, Law)),
     row("G3", "false hits, NaN", Exact, Exact),
     row("G4", "false hits, NaN", Exact, Exact),
