@@ -217,7 +217,7 @@ pub(super) fn render(
     built.write_times(&mut output.times);
     output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
-        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "images beside the colours" });
+        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
         add_aovs(device, &stage, &built, job, &mut output)?;
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);

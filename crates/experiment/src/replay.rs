@@ -98,9 +98,9 @@ fn met(replay: &Replay, truth: &OracleReplay) -> String {
     let Some((primitive, _)) = truth.verdict.outcome.hit() else { return String::new() };
     let met = replay.steps_of(primitive);
     if met.is_empty() {
-        return format!("triangle {primitive}, which is truly hit, was not met\n");
+        return format!("triangle {primitive}, which is truly hit, was not tested\n");
     }
-    let mut text = format!("triangle {primitive}, which is truly hit, was met here:\n");
+    let mut text = format!("triangle {primitive}, which is truly hit, was tested here:\n");
     for (place, step) in met {
         let place = place.map_or_else(String::new, |place| format!(" in {place}"));
         let _ = writeln!(text, "  {step}{place}");

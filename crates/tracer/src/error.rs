@@ -36,7 +36,9 @@ pub enum TracerError {
         rounds: u32,
     },
     /// Traces found entries with an invalid index: the structure's memory was damaged since the build.
-    #[error("{entries} entries of {structure} named nothing while rays were traced: build it again")]
+    #[error(
+        "{entries} list entries of {structure} had an invalid index while rays were traced: build it again"
+    )]
     Corrupted {
         /// Name of the structure.
         structure: &'static str,

@@ -140,7 +140,7 @@ impl fmt::Display for Replay {
             writeln!(f, "{:width$}{step}", "", width = 2 * depth)?;
         }
         if self.omitted > 0 {
-            writeln!(f, "  … and {} steps more, for which there is no room", self.omitted)?;
+            writeln!(f, "  … and {} further steps, beyond the capacity", self.omitted)?;
         }
         match &self.hit {
             None => writeln!(f, "no answer: the ray did not finish, or the structure is not built"),
