@@ -1,7 +1,7 @@
 // What: keeps the triangle in cells that it reaches into without covering their centre, so that every cell
 // names all that a ray may hit in it.
 // Reads: geometry, header. Writes: bounds (heads, marks), fringe, header.fringe_demand. Conservative coverage only.
-// Source: not in the paper, which names edge-on triangles as its open limit.
+// Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/raster.glsl"

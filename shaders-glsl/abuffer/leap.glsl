@@ -1,4 +1,4 @@
-// What: how the exact march skips blocks of cells that hold nothing at a ray's depths.
+// What: skips blocks of cells that hold nothing at a ray's depths, in the exact march.
 // Reads: header, bounds. Writes: nothing.
 // Source: not in the paper; DIRT section 4.2.1 skips tiles.
 // What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be

@@ -54,7 +54,7 @@ void abuffer_count_one(AbufferRef s, uint list) {
     atomicAdd(ABUFFER_LISTS(s)[list], 1u);
 }
 
-// Takes a node for a fragment of a list; 0 where there is no room, which is counted.
+// Takes a node for a fragment of a list; 0 beyond the capacity, which is counted.
 uint abuffer_allocate(AbufferRef s, uint list) {
     uint node = 0u;
     if (ABUFFER_PAGED) {

@@ -1,6 +1,7 @@
-// What: keeps a triangle in a cell that it reaches into without covering its centre, the same for every builder.
+// What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, the same
+// for every builder.
 // Reads: geometry, header. Writes: bounds (heads, marks), fringe, header.fringe_demand.
-// Source: not in the paper, which names edge-on triangles as its open limit.
+// Source: not in the paper, which mentions edge-on triangles as a limitation.
 #ifndef ABUFFER_VISIT_FRINGE_GLSL
 #define ABUFFER_VISIT_FRINGE_GLSL
 

@@ -1,4 +1,4 @@
-// What: where a ray stands on its way through the cells of a view, and how that is kept between two dispatches.
+// What: the position of a ray's traversal through the cells of a view, and how it is saved between two dispatches.
 // Reads: header. Writes: nothing.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 next node of the list,
 // 7 the cell being searched, or the sample, or the place in the near-region list.
@@ -22,7 +22,7 @@ struct AbufferWalk {
     vec3 direction;
     CellMarch cells;
     SampleMarch samples;
-    bool came;            // to a cell whose way out is still to be found
+    bool came;            // the exit of the current cell is still to be found
     bool resumed;         // in that cell, with some of its neighbours
     uint place;           // sample, or entry of the near-region list
     ivec2 searched;       // the cell being searched
@@ -80,7 +80,7 @@ void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout 
         ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
 }
 
-// The segment that a ray was in.
+// Restores the segment that a paused ray was in.
 void abuffer_restore_stretch(TraceState state, vec2 clip, out AbufferStretch stretch, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
     view = (flags >> 2) & 7u;

@@ -1,10 +1,10 @@
-// What: the three orthographic views along the axes of a cube of space, and what a triangle does to their cells:
+// What: the three orthographic views along the axes of a cube of space, and tests of a triangle against their cells:
 // which view it faces most, which cells' centres it covers, which cells it reaches into, and the screen triangle that
 // makes the rasterizer visit at least those.
 // Reads, writes: nothing.
 // View 0 looks along x, 1 along y, 2 along z. In the frame of a view the origin is the lower corner of the
-// cube, z is depth, and the order of axes is turned, which is exact. A view has `resolution` cells a side and
-// a border of one, as a face of a cube around an eye has (ads/views.glsl); nothing lies in the border.
+// cube, z is depth, and the axes are permuted cyclically, which is exact. A view has `resolution` cells along a side
+// and a border of one, as a face of a cube around an eye has (ads/views.glsl); nothing lies in the border.
 #ifndef ADS_AXIS_VIEWS_GLSL
 #define ADS_AXIS_VIEWS_GLSL
 
@@ -48,7 +48,7 @@ uint axis_of_triangle(vec3 a, vec3 b, vec3 c) {
     return triangle_major_axis(normal);
 }
 
-// A point of the view's frame on the screen of the view, which is [-1, 1] a side, as coverage.glsl knows it.
+// A point of the view's frame on the screen of the view, which spans [-1, 1] along each side, as in coverage.glsl.
 vec3 axis_on_screen(AxisView view, vec3 p) {
     return vec3(p.xy / view.cell * (2.0 / float(view.resolution)) - 1.0, 1.0);
 }
@@ -60,7 +60,7 @@ vec4 axis_proposal(AxisView view, vec3 a, vec3 b, vec3 c, uint corner, float mar
         view.resolution, margin * 2.0 / float(view.resolution));
 }
 
-// First and last cell, border included, whose centre may be within `margin` cells of the triangle a, b, c
+// First and last cell, border included, whose centres may be within `margin` cells of the triangle a, b, c
 // (frame of the view); false where there is none.
 bool axis_cells(AxisView view, vec3 a, vec3 b, vec3 c, float margin, out ivec2 lower, out ivec2 upper) {
     return coverage_cells(axis_on_screen(view, a), axis_on_screen(view, b), axis_on_screen(view, c), view.resolution,
@@ -80,7 +80,7 @@ bool axis_at_center(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 cell, out float
     return triangle_intersect(axis_center(view, cell), vec3(0.0, 0.0, 1.0), a, b, c, z, barycentrics, error);
 }
 
-// Whether a cell is one of the view, not of its border.
+// Whether a cell is inside the view, not in its border.
 bool axis_has_cell(uint resolution, ivec2 cell) {
     return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(resolution)));
 }
@@ -93,8 +93,8 @@ float axis_plane_depth(vec3 a, vec3 b, vec3 c, vec2 p) {
     return normal.z == 0.0 ? a.z : depth;
 }
 
-// Largest difference of the plane's depth within a cell from that at its centre, metres. A triangle that faces the
-// view most leans by at most a cell a cell along each side.
+// Largest difference of the plane's depth within a cell from that at its centre, metres. The depth of a triangle that
+// faces this view most changes by at most one cell size per cell, along each side.
 float axis_extent(AxisView view, vec3 a, vec3 b, vec3 c) {
     vec3 normal = cross(b - a, c - a);
     float rise = 0.5 * (abs(normal.x) + abs(normal.y));

@@ -1,4 +1,4 @@
-// What: a triangle as passes that put triangles into cells look at it.
+// What: a triangle as passes that bin triangles into cells read it: corners, bounds, the columns and rows it may reach.
 // Reads: geometry. Writes: nothing.
 #ifndef ADS_BIN_TRIANGLE_GLSL
 #define ADS_BIN_TRIANGLE_GLSL
@@ -26,12 +26,12 @@ void bin_box(vec3 centre, uint primitive, out vec3 lower, out vec3 upper) {
     upper = max(a, max(b, c)) - centre;
 }
 
-// Whether bounds meet the box around the centre with that half side: the near box.
+// Whether bounds intersect the box of that half side around the centre, the near region.
 bool bin_box_is_near(vec3 lower, vec3 upper, float size) {
     return !any(greaterThan(lower, vec3(size))) && !any(lessThan(upper, vec3(-size)));
 }
 
-// Bounds in x/z and y/z of the part of an edge that is not nearer than the near box; unchanged where there is none.
+// Bounds in x/z and y/z of the part of an edge that is not nearer than the near region; unchanged where there is none.
 void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
     float s = p.z < near_size ? (near_size - p.z) / (q.z - p.z) : 0.0;
     if (max(p.z, q.z) < near_size) {
@@ -42,8 +42,9 @@ void bin_bound_edge(vec3 p, vec3 q, float near_size, inout vec4 bounds) {
 }
 
 // First and last column and row, of a face with `side` columns along a side and a border of that many cells, that may
-// hold any of the triangle (a, b, c in face space) or are within `margin` in x/z of it; false where none does. What lies
-// nearer than half the near box is met there: cutting an edge there is right to a column.
+// hold any of the triangle (a, b, c in face space) or are within `margin` in x/z of it; false where none does. What
+// lies nearer than half the near region is tested with the near-region list, so edges are clipped there; the result is
+// correct to within one column.
 bool bin_bounds(uint side, float near_size, vec3 a, vec3 b, vec3 c, float margin, int border, out ivec2 lower, out ivec2 upper) {
     float view_near = 0.5 * near_size;
     const float far = 3.0e38;

@@ -1,4 +1,4 @@
-// What: where a ray lies within the bounds of the geometry, and how far rounding moves what it hits there.
+// What: the t interval of a ray within the bounds of the geometry, and a bound of the rounding of t of a hit there.
 // Reads, writes: nothing.
 #ifndef ADS_BOUNDS_INTERVAL_GLSL
 #define ADS_BOUNDS_INTERVAL_GLSL
@@ -27,8 +27,8 @@ float largest_coordinate(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// How far rounding moves the t of a hit within `reach` metres, for surfaces that are not met along
-// themselves: 256 units of rounding.
+// Bound of the rounding of t for a hit within `reach` metres, for rays that do not run along the surface: 256 units of
+// rounding.
 float hit_slack(vec3 origin, vec3 direction, float reach) {
     return 1.6e-5 * (largest_coordinate(origin) + reach) / largest_coordinate(direction);
 }

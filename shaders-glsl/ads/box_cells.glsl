@@ -1,9 +1,9 @@
 // What: the planes between cells of one box of columns, rows and slices along the axes of the world: a view along z
 // in which all cells have one size.
 // Reads, writes: nothing.
-// A cell is one unit a side, so planes are whole numbers. Nothing else is exact: with R half the longest side
-// of the geometry and u = 2^-24, every place below is right to 48 u R metres for origins up to 4 R away;
-// cells list what lies within that.
+// A cell is one unit wide, so planes are whole numbers. Nothing else is exact: with R half the longest side
+// of the geometry and u = 2^-24, every position below is within 48 u R metres of its exact value for origins up to 4 R
+// away; cells list what lies within that distance.
 #ifndef ADS_BOX_CELLS_GLSL
 #define ADS_BOX_CELLS_GLSL
 
@@ -36,7 +36,7 @@ vec3 box_line_exits(BoxLine line, ivec3 planes) {
     return mix(t, vec3(uintBitsToFloat(0x7F800000u)), equal(line.inverse, vec3(0.0)));
 }
 
-// The cell that the ray is in at t, the nearest of so many where it is in none.
+// The cell that the ray is in at t; outside of the grid, the nearest of its `size` cells.
 ivec3 box_line_cell_at(BoxLine line, float t, ivec3 cells) {
     // Clamped before it becomes an integer, which holds no more than 2^31.
     return ivec3(clamp(line.origin + t * line.direction, vec3(0.0), vec3(cells) - 0.5));

@@ -1,9 +1,9 @@
 // What: between which depths a triangle lies within columns of cells along an axis (ads/box_cells.glsl).
 // This function decides for every builder; it may accept more than is exact, never less.
 // Reads, writes: nothing.
-// What of a triangle lies in a column of square section is convex, so its depths are one interval, and slices
-// between its ends are all hit: one view lists exactly the cells that a triangle reaches into, however steep
-// it stands. The ends lie at edges of the triangle within the square, or at corners of the square within the
+// The part of a triangle within a column of square section is convex. Its depths are one interval, and it reaches into
+// every slice between the ends. One view therefore lists exactly the cells that a triangle reaches into, also where it
+// is seen edge-on. The ends lie on edges of the triangle within the square, or at corners of the square within the
 // triangle.
 #ifndef ADS_BOX_CLIP_GLSL
 #define ADS_BOX_CLIP_GLSL

@@ -1,6 +1,6 @@
-// What: the same for triangles with many cells of a view: as many workgroups for each as the header says
-// (groups[2]), cells by turns. The host gives so many that an invocation looks at BIN_TURNS cells at most.
-// Reads, writes: see the structure's binned.glsl; reads pairs.
+// What: the same for the triangles of the large-triangle queue. Each gets groups[2] workgroups (in the header), which
+// take its cells in turn. The host chooses groups[2] so that no invocation visits more than BIN_TURNS cells.
+// Reads, writes: see the structure's binned.glsl; reads the large-triangle queue.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_visits.glsl"

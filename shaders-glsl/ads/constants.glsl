@@ -6,7 +6,7 @@
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
 
-// Longest list that is sorted in one dispatch: a heap of so many takes 27,000 steps at most.
+// Longest list that is sorted in one dispatch: a heap of this size takes at most 27,000 steps.
 #define SHORT_LIST_LIMIT 2048u
 
 // Dispatches that sort longer lists, and the steps of a list in each: drivers may end all loops of an invocation after
@@ -14,7 +14,7 @@
 #define LONG_LIST_ROUNDS 16u
 #define LONG_LIST_STEPS 60000u
 
-// Longest list that those dispatches sort: a heap of so many takes 875,000 steps at most. Longer ones stay unordered
+// Longest list that those dispatches sort: a heap of this size takes at most 875,000 steps. Longer ones stay unordered
 // and are counted.
 #define LONG_LIST_LIMIT 50000u
 
@@ -22,34 +22,36 @@
 #define NODE_SORT_LIMIT 1024u
 #define NODE_SORT_STEPS 24000u
 
-// Linked lists that one thread sorts, within the same steps; most have a node or none. 32 at most.
+// Maximum number of linked lists that one thread sorts, within the same number of steps; few lists have more than one
+// node. At most 32.
 #define NODE_SORT_LISTS 16u
 
 // Longest list of nodes that the dispatches for longer ones sort: it is counted and merged once within LONG_LIST_STEPS,
 // and 15 times in all. Longer ones stay unordered and are counted.
 #define NODE_SORT_LONG_LIMIT 19000u
 
-// What stands for the progress of a list that is sorted.
+// Progress of a list that is sorted completely.
 #define LONG_LIST_DONE 0xFFFFFFFFu
 
-// Longest list that is searched for a fragment that stands for a triangle beside the cell's centre; in cells
-// with more, every such triangle is kept.
+// Longest list that is searched for a fragment that can represent a triangle which misses the cell's centre. In cells
+// with longer lists every such triangle goes into the conservative list.
 #define FRINGE_LIMIT 4096u
 
-// A fragment stands for a triangle beside the centre if its plane passes the triangle's nearest point this close,
-// in widths of a cell or, where that is smaller, of the triangle.
+// A fragment represents a triangle that misses the centre if the distance of its plane from the triangle's nearest
+// point is at most this, in widths of the cell or, where that is smaller, of the triangle.
 #define FRINGE_DEPTH 0.25
 
 // Rays whose origin is farther from the centre of the views than this many times the geometry are tested against every
-// triangle where no hit may be lost: their rounding exceeds what the cells near the centre can bear.
+// triangle where no hit may be lost: their rounding exceeds the margins of the cells near the centre.
 #define ORIGIN_LIMIT 4.0
 
 // Bound of how far rounding moves a triangle against the ray that is marched, over the distance of the
 // geometry: 24 units of rounding for each of the five distances between origin and hit.
 #define TRIANGLE_ROUNDING 7.2e-6
 
-// Half side of the near box over cells a side times the distance of the geometry where no hit may be lost:
-// there a cell is as wide as the guard of the march, 16 units of rounding for each of nine distances.
+// Half side of the near region, divided by the number of cells along a side and by the distance of the geometry, where
+// no hit may be lost. At that distance a cell is as wide as the rounding guard of the march, 16 units of rounding for
+// each of nine distances.
 #define NEAR_BOX 4.8e-6
 
 // Cells list what lies within the rounding of the test in two coordinates (240 units) and that of the march (96), over
@@ -79,12 +81,12 @@
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu
 
-// Most cells of a view that one invocation of a binning builder looks at; triangles with more in it get workgroups.
+// Maximum number of cells per view that one invocation of a binning builder visits; triangles with more are large.
 #define BIN_CELLS 64
-// Threads of those, and how often the loops of one turn at most.
+// Threads per workgroup for large triangles, and the maximum number of iterations of their loops.
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000
-// Workgroups a row of their dispatch.
+// Workgroups per row of their dispatch.
 #define BIN_PAIR_ROW 32768u
 
 // Threads in a workgroup of the pass that builds a pyramid.

@@ -1,4 +1,4 @@
-// What: what a triangle does to a cell of a face: whether it covers the centre, and at which depth;
+// What: tests a triangle against a cell of a face: whether it covers the centre, and at which depth;
 // and the screen triangle that makes the rasterizer visit at least those cells.
 // Reads, writes: nothing.
 // The rasterizer only proposes. Whether a cell is covered is decided here from the three vertices,
@@ -79,7 +79,7 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
         vec2 upper = max(pa, max(pb, pc)) + 1.0e-6;
         bounds = vec4(max(lower, vec2(-limit)), min(upper, vec2(limit)));
     } else {
-        // The triangle reaches behind the eye: cut only by sides that all vertices lie beyond.
+        // The triangle reaches behind the eye: only sides beyond which all vertices lie reject it.
         float w = limit;
         bvec2 above = bvec2(a.x > w * a.z && b.x > w * b.z && c.x > w * c.z, a.y > w * a.z && b.y > w * b.z && c.y > w * c.z);
         bvec2 below = bvec2(-a.x > w * a.z && -b.x > w * b.z && -c.x > w * c.z,
@@ -91,8 +91,8 @@ bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     return bounds.x <= bounds.z && bounds.y <= bounds.w;
 }
 
-// First and last column and row, of a view with a border of one cell, of the cells whose centres may be
-// within `margin` of the triangle in x/z and in y/z; false where there is none.
+// First and last column and row of the cells whose centres may be within `margin` of the triangle in x/z and in y/z, in
+// a view with a border of one cell; false where there is none.
 bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out ivec2 lower, out ivec2 upper) {
     lower = ivec2(0);
     upper = ivec2(-1);

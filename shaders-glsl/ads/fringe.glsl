@@ -1,14 +1,14 @@
-// What: the conservative list of a cell: triangles that reach into it and have no fragment there, in a linked list of
-// their own. Links are node number + 1; 0 ends a list. Included once for each structure that has one: its
-// reference type tells the functions apart.
+// What: the conservative list of a cell: triangles that reach into it without a fragment there, as a separate linked
+// list per cell. Links are node number + 1; 0 ends a list. Included once per structure that has one: the functions are
+// overloads by its reference type.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
-//   FringeRef                the type that names the structure
+//   FringeRef                reference type of the structure
 //   FRINGE_HEAD(s, cell)     the first link of a cell
 //   FRINGE_NODES(s)          words of the nodes: triangle, next link, depths in the cell
 //   FRINGE_HEADER(s)         has fringe_demand, fringe_capacity and corrupted
-// Source: not in the papers; MMRT names edge-on triangles as its open limit.
-// Depths are not negative; the upper halves of their bits are kept, the larger one rounded up, so that what
-// is kept holds what was given.
+// Source: not in the papers; MMRT mentions edge-on triangles as a limitation.
+// Depths are not negative. The upper 16 bits of each are stored, the larger one rounded up, so that the stored interval
+// contains the given one.
 
 #ifndef ADS_FRINGE_GLSL
 #define ADS_FRINGE_GLSL
@@ -20,19 +20,19 @@ struct FringeNode {
 };
 
 uint fringe_pack_depths(vec2 depths) {
-    // Beyond the largest number stands infinity, which stays as it is.
+    // Rounding up the largest finite number gives infinity; infinity itself stays as it is.
     uint high = min((floatBitsToUint(depths.y) >> 16) + 1u, 0x7F80u);
     return floatBitsToUint(depths.x) >> 16 | high << 16;
 }
 
-// Whether a triangle of the fringe may be met at depths between `low` and `high`.
+// Whether the depth interval of a node overlaps [low, high].
 bool fringe_meets(FringeNode node, float low, float high) {
     return !(node.depths.x > high) && !(node.depths.y < low);
 }
 #endif
 
-// Puts a triangle, with the smallest and largest depth it has there, into a cell's fringe, or counts that
-// there was no room for it.
+// Adds a triangle, with its smallest and largest depth in the cell, to the cell's conservative list. Beyond the
+// capacity it is only counted.
 void fringe_add(FringeRef s, uint cell, uint primitive, vec2 depths) {
     uint node = atomicAdd(FRINGE_HEADER(s).fringe_demand, 1u);
     if (node < FRINGE_HEADER(s).fringe_capacity) {

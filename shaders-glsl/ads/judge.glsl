@@ -9,8 +9,8 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
-// The verdict (TEST_*) on a triangle with these corners met within [t_low, t_high]; t and t_error are 0 where it
-// is not met.
+// The verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and t_error are 0 where the
+// ray does not intersect it.
 uint judge_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     t = 0.0;
@@ -47,8 +47,8 @@ uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high
     return judge_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
-// Judges a triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.
-// True if it did.
+// Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. True if it was
+// replaced. The caller counts the test.
 bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;
@@ -72,7 +72,7 @@ bool test_triangle(Ray ray, uint primitive, float t_low, float t_high, inout Hit
     return test_corners(ray, primitive, a, b, c, t_low, t_high, best);
 }
 
-// The same wherever the triangle is met. Counts the test.
+// The same for hits at any t. Counts the test.
 bool test_anywhere(Ray ray, uint primitive, inout TraceState state) {
     float infinity = uintBitsToFloat(0x7F800000u);
     state.tests++;

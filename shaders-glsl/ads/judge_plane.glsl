@@ -1,5 +1,5 @@
-// What: whether the plane of a fragment's triangle, standing for what is in the fragment's cell, becomes a ray's best
-// hit, and if not, why.
+// What: whether the plane of a fragment's triangle, which represents the surface in the fragment's cell, becomes a
+// ray's best hit, and if not, why.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
 #ifndef ADS_JUDGE_PLANE_GLSL
@@ -12,13 +12,13 @@
 #include "ads/judge.glsl"
 #include "ads/triangle.glsl"
 
-// How wide a cell is at a point, and how far planes count beyond their triangles.
+// The width of a cell at a point, and how far beyond its triangle a plane is accepted.
 struct PlaneCell {
-    vec3 eye;             // metres: the point that cells widen from
-    float slope;          // width a metre of distance from the eye along its largest axis; 0 where all are equal
+    vec3 eye;             // metres: the point from which cells widen
+    float slope;          // width per metre of distance from the eye along its largest axis; 0: all cells are equal
     float width;          // metres, added to that
     float reach;          // in widths
-    bool anywhere;        // hits of the triangles themselves count wherever they lie, as alpha has them there
+    bool anywhere;        // hits on the triangle itself are accepted outside of the cell too, as alpha is tested there
 };
 
 // Barycentrics of the point of a triangle's plane below `p`; they may lie outside [0, 1].
@@ -35,8 +35,8 @@ bool plane_is_inside(vec2 barycentrics) {
     return barycentrics.x >= 0.0 && barycentrics.y >= 0.0 && barycentrics.x + barycentrics.y <= 1.000001;
 }
 
-// Whether a candidate replaces the best hit: nearer; as near, and on its triangle where the other is only on the plane
-// of one; else as near with a lower id. The order in which candidates are met does not matter.
+// Whether a candidate replaces the best hit: it is nearer; or as near, and on its triangle where the best hit is only
+// on the plane of one; or else as near, with a lower id. The result does not depend on the order of the candidates.
 bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
     bool inside = plane_is_inside(barycentrics);
     bool best_inside = plane_is_inside(vec2(best.a, best.b));
@@ -46,13 +46,13 @@ bool plane_is_better(Hit best, float t, uint primitive, vec2 barycentrics) {
     return hit_is_better(best, t, primitive);
 }
 
-// The best hit as one that no candidate at the same t loses to: those are ranked by plane_is_better.
+// The best hit, changed so that a candidate at the same t passes the test: plane_is_better ranks those.
 Hit plane_rival(Hit best) {
     best.primitive = best.primitive == PRIMITIVE_NONE ? PRIMITIVE_NONE : PRIMITIVE_UNKNOWN;
     return best;
 }
 
-// The verdict (TEST_*) on the plane of a triangle that is met within [t_low, t_high].
+// The verdict (TEST_*) on the plane of a triangle, for intersections within [t_low, t_high].
 uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     vec3 a;
@@ -79,8 +79,8 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     if (!inside) {
         vec3 from_eye = abs(ray.origin + t * ray.direction - cell.eye);
         float width = cell.slope * max(from_eye.x, max(from_eye.y, from_eye.z)) + cell.width;
-        // Outside of the triangle its plane stands for what else is in the cell, but no farther than a few
-        // cells are wide: seen edge-on, a cell holds a long stretch of the plane in front of other things.
+        // Outside of the triangle its plane represents the rest of the surface in the cell, up to a distance of a few
+        // cell widths: a plane seen edge-on has a long segment in the cell, in front of other surfaces.
         vec3 lengths = vec3(length(c - b), length(a - c), length(b - a));
         vec3 normal = cross(b - a, c - a);
         float twice_area = length(normal);
@@ -88,7 +88,7 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
         if (max(outside.x, max(outside.y, outside.z)) > cell.reach * width) {
             return TEST_OUT_OF_REACH;
         }
-        // A ray that starts closer to the plane than a cell is wide may have left that very surface.
+        // A ray that starts within a cell width of the plane may start on that surface.
         if (!(abs(dot(normal, ray.origin - a)) > width * twice_area)) {
             return TEST_LEAVING;
         }
@@ -102,8 +102,8 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
     return !proper || alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
 }
 
-// Judges a triangle that is listed by itself, logs it, and lets it replace the best hit if it may; `beside_planes`
-// where fragments count by their planes. The caller counts the test.
+// Evaluates a triangle of a list, logs the verdict, and replaces the best hit if the triangle is accepted.
+// `beside_planes`: fragments of the same structure are hit by their planes. The caller counts the test.
 void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool beside_planes, inout Hit best) {
     float t;
     vec2 barycentrics;
@@ -123,12 +123,13 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool beside
     }
 }
 
-// The same among fragments whose planes count.
+// The same where fragments are hit by their planes.
 void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     test_listed(ray, primitive, t_low, t_high, true, best);
 }
 
-// Judges a fragment's triangle, logs it, and lets it replace the best hit if it may. The caller counts the test.
+// Evaluates the plane of a fragment's triangle, logs the verdict, and replaces the best hit if it is accepted. The
+// caller counts the test.
 void test_plane(PlaneCell cell, Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     float t;
     vec2 barycentrics;

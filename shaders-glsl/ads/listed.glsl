@@ -1,14 +1,14 @@
-// What: tests triangles one by one: those of the near-region list, or all. Included once for each structure that does: its
-// reference type tells the functions apart.
+// What: tests triangles one by one: those of the near-region list, or all. Included once per structure that does: the
+// functions are overloads by its reference type.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
-//   ListedRef             the type that names the structure
+//   ListedRef             reference type of the structure
 //   LISTED_HEADER(s)      has near_demand and near_capacity
 //   LISTED_NEAR(s)        words of the near-region list; these two only where the structure has one
-// Source: ours: where no cell can be trusted, every triangle that may be hit is tested.
+// Source: ours: where rounding is too large for cells, every triangle that may be hit is tested.
 
 #include "ads/judge.glsl"
 
-// Goes on at `place`. True if the budget ended first.
+// Resumes at `place`. True if the work budget was used up first.
 bool listed_test(ListedRef s, Ray ray, bool all_triangles, bool any_hit, inout uint place, inout TraceState state, inout uint work) {
     uint count = geometry_triangle_count();
 #ifdef LISTED_NEAR

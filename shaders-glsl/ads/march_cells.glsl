@@ -11,25 +11,25 @@
 
 #define MARCH_INFINITY uintBitsToFloat(0x7F800000u)
 
-// A walk through one face between two t.
+// A traversal of one face between two t.
 struct CellMarch {
     vec3 origin;          // face space, metres from the eye
     vec3 direction;
     uint resolution;
-    float t_end;          // where the segment leaves the face or the ray ends
+    float t_end;          // where the segment exits the face or the ray ends
     ivec2 cell;           // the cell the ray is in
     float t_in;           // where it entered
-    float t_out;          // where it leaves
+    float t_out;          // where it exits
     float error_in;       // bounds of the errors of t_in and t_out
     float error_out;
-    ivec2 step_direction; // -1, 0 or 1 a side
+    ivec2 step_direction; // -1, 0 or 1 per axis
     bool step_x;          // which boundary t_out belongs to; both false: the segment ends in this cell
     bool step_y;
     uint neighbours;      // bits of 3x3 cells around `cell` that are still to be visited as well
-    uint touched;         // those of them beside the way out: the ray may be in their twins from t_out on
+    uint touched;         // those of them next to the exit: the ray may be in the cells opposite from t_out on
 };
 
-// t at which the ray meets x/z = boundary, and a bound of its error. Infinite where it does not.
+// t at which the ray intersects x/z = boundary, and a bound of its error. Infinite where it does not.
 float march_crossing(float boundary, float o, float d, float oz, float dz, int direction, out float error) {
     precise float numerator = boundary * oz - o;
     precise float denominator = d - boundary * dz;
@@ -37,7 +37,7 @@ float march_crossing(float boundary, float o, float d, float oz, float dz, int d
     if (direction > 0 ? !(denominator > 0.0) : !(denominator < 0.0)) {
         return MARCH_INFINITY;
     }
-    // Precise, as all that is found both step by step and by leaps.
+    // Precise: stepping and skipping must compute the same bits.
     precise float t = numerator / denominator;
     precise float bound = 6.0e-8 * (8.0 * abs(t) + (abs(boundary * oz) + abs(t * boundary * dz)) / abs(denominator));
     error = bound;
@@ -52,7 +52,7 @@ uint march_touching(float lower, float upper, float x, float z, float guard) {
     return 2u | (abs(from_lower) <= guard ? 1u : 0u) | (abs(from_upper) <= guard ? 4u : 0u);
 }
 
-// Bits of the cells that touch the ray within rounding at t: beside `cell` along x, y, and both.
+// Bits of the cells that the ray touches within rounding at t: the neighbours of `cell` along x, y, and both.
 uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along_y) {
     float size = max(max(abs(m.origin.x), abs(m.origin.y)), abs(m.origin.z));
     float speed = max(max(abs(m.direction.x), abs(m.direction.y)), abs(m.direction.z));
@@ -69,7 +69,7 @@ uint march_touched(CellMarch m, float t, float t_error, bool along_x, bool along
     return bits & ~(1u << 4);
 }
 
-// Finds where the ray leaves the current cell, and which neighbours it touches on the way out.
+// Finds where the ray exits the current cell, and which neighbours it touches at the exit.
 void march_find_exit(inout CellMarch m) {
     float error_x;
     float error_y;
@@ -91,7 +91,7 @@ void march_find_exit(inout CellMarch m) {
     uint touched = march_touched(m, m.t_out, m.error_out, !m.step_x, !m.step_y);
     m.neighbours |= touched;
     m.touched = touched;
-    // A touched side cell has a twin beyond the boundary that is stepped over.
+    // For a touched side cell, the cell opposite, beyond the boundary that is crossed, is touched as well.
     if (m.step_x) {
         m.neighbours |= m.step_direction.x > 0 ? touched << 1 : touched >> 1;
     } else if (m.step_y) {
@@ -99,17 +99,17 @@ void march_find_exit(inout CellMarch m) {
     }
 }
 
-// The cell that the ray is in at t, one of the border beyond the face.
+// The cell that the ray is in at t; beyond the face, a cell of the border.
 ivec2 march_cell_at(vec3 origin, vec3 direction, float t, uint resolution) {
     vec3 p = origin + t * direction;
     vec2 q = (p.xy / p.z * 0.5 + 0.5) * float(resolution);
-    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the walk
-    // corrects itself because steps follow boundaries, not points.
+    // Comparisons with NaN are false: a point at the eye starts in the first cell, and the traversal corrects itself
+    // because steps follow boundaries, not points.
     q = vec2(q.x >= 0.0 ? min(q.x, float(resolution)) : -1.0, q.y >= 0.0 ? min(q.y, float(resolution)) : -1.0);
     return ivec2(floor(q));
 }
 
-// Places a walk at the begin of a segment, whose way out of its first cell is still to be found (march_find_exit).
+// Starts a traversal at the begin of a segment; the exit of its first cell is still to be found (march_find_exit).
 // origin and direction are in face space; the segment [t_begin, t_end] lies in the face's pyramid within
 // rounding. t_error bounds the error of t_begin.
 CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
@@ -134,14 +134,14 @@ CellMarch march_place(vec3 origin, vec3 direction, uint resolution, float t_begi
     return m;
 }
 
-// The same with the way out.
+// The same with the exit.
 CellMarch march_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, float t_error) {
     CellMarch m = march_place(origin, direction, resolution, t_begin, t_end, t_error);
     march_find_exit(m);
     return m;
 }
 
-// Steps into the next cell of the ray, whose way out is still to be found; false at the end of the segment.
+// Steps into the next cell of the ray, whose exit is still to be found; false at the end of the segment.
 bool march_step(inout CellMarch m) {
     if (!m.step_x && !m.step_y) {
         return false;
@@ -149,12 +149,12 @@ bool march_step(inout CellMarch m) {
     m.cell += ivec2(m.step_x ? m.step_direction.x : 0, m.step_y ? m.step_direction.y : 0);
     m.t_in = m.t_out;
     m.error_in = m.error_out;
-    // What was touched on the way out of the last cell is touched on the way into this one.
+    // What was touched at the exit of the last cell is touched at the entry of this one.
     m.neighbours = m.touched;
     return true;
 }
 
-// Goes on to the next cell of the ray; false at the end of the segment.
+// Advances to the next cell of the ray; false at the end of the segment.
 bool march_next(inout CellMarch m) {
     if (!march_step(m)) {
         return false;
@@ -163,7 +163,7 @@ bool march_next(inout CellMarch m) {
     return true;
 }
 
-// Takes the next touched neighbour of the current cell; false where none is left.
+// Takes the next touched neighbour of the current cell; false after the last one.
 bool march_take_neighbour(inout CellMarch m, out ivec2 cell) {
     cell = m.cell;
     while (m.neighbours != 0u) {

@@ -1,9 +1,8 @@
-// What: cuts a ray into the segments it spends in the six faces' pyramids and in the near region.
+// What: cuts a ray into its segments within the six faces' pyramids and the near region.
 // Reads, writes: nothing.
-// The pyramids of the dominant axis partition space exactly; a ray changes pyramid only where two
-// coordinates are equal in magnitude, so there are at most seven segments. Around the eye, where
-// rounding no longer tells pyramids apart, a near region is cut out and its triangles are tested one by
-// one.
+// The pyramids of the dominant axis partition space exactly; a ray enters another pyramid only where two coordinates
+// are equal in magnitude, so there are at most seven segments. Around the eye, where rounding no longer tells pyramids
+// apart, a near region is cut out and its triangles are tested one by one.
 #ifndef ADS_MARCH_CUBE_GLSL
 #define ADS_MARCH_CUBE_GLSL
 
@@ -12,7 +11,7 @@
 #define SEGMENT_NEAR 6u
 // In place of a face: the ray is tested against every triangle.
 #define SEGMENT_ALL 7u
-// Six planes, two sides of the near box, and the end.
+// Six planes, two sides of the near region, and the end.
 #define SEGMENT_LIMIT 10u
 
 struct Segment {
@@ -22,7 +21,7 @@ struct Segment {
     float t_error;    // bounds the error of both ends
 };
 
-// t interval that a ray spends in the box |p|_max <= size, widened by rounding; empty if x > y.
+// t interval of a ray within the box |p|_max <= size, widened by rounding; empty if x > y.
 vec2 near_box_interval(vec3 origin, vec3 direction, float size) {
     float t0 = -uintBitsToFloat(0x7F800000u);
     float t1 = uintBitsToFloat(0x7F800000u);
@@ -58,8 +57,7 @@ float segment_crossing_after(vec3 o, vec3 d, float t) {
     return next;
 }
 
-// The segment that begins at t. origin is relative to the eye; `near` is the ray's interval in the
-// near box.
+// The segment that begins at t. origin is relative to the eye; `near` is the ray's t interval in the near region.
 Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near) {
     Segment segment;
     segment.t_begin = t;
@@ -69,8 +67,8 @@ Segment segment_at(vec3 origin, vec3 direction, float t, float t_max, vec2 near)
     segment.t_end = min(next, t_max);
     float size = max(max(abs(origin.x), abs(origin.y)), abs(origin.z));
     float speed = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
-    // Any t inside tells the face. Far out rounding hides how far a ray almost along a seam is from it,
-    // so the point is taken no farther away than the ray has come so far.
+    // Any t within the segment gives the face. Far from the eye, rounding exceeds the distance of a ray that runs
+    // almost along a seam from that seam, so the point is taken no farther away than the ray has already reached.
     float middle = segment.t_end < uintBitsToFloat(0x7F800000u) ? 0.5 * (t + segment.t_end) : t + 1.0 + abs(t);
     float reach = size / speed;
     middle = reach > 0.0 ? min(middle, t + abs(t) + reach) : middle;

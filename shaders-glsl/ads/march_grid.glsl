@@ -10,7 +10,7 @@ struct GridMarch {
     vec3 origin;          // grid units
     vec3 direction;
     vec3 inverse;         // 1 / direction, unused where a component is zero
-    ivec3 size;           // cells a side
+    ivec3 size;           // cells per axis
     float t_end;
     ivec3 cell;
     float t_in;
@@ -45,7 +45,8 @@ uint grid_touched(GridMarch m, float t, int skip_axis) {
     return bits;
 }
 
-// Bound of the error of a crossing at t of a boundary across `axis`; -1: of no boundary but the end of the walk.
+// Bound of the error of t where the ray crosses a boundary across `axis`; -1: not a boundary but the end of the
+// traversal.
 float grid_crossing_error(GridMarch m, float t, int axis) {
     float d = axis >= 0 ? abs(m.inverse[axis]) * abs(m.origin[axis]) : 0.0;
     return 6.0e-8 * (8.0 * abs(t) + 2.0 * d);
@@ -75,7 +76,7 @@ void grid_find_exit(inout GridMarch m) {
     }
 }
 
-// Starts a walk over [t_begin, t_end]; false where the ray does not meet the grid.
+// Starts a traversal of [t_begin, t_end]; false where the ray does not intersect the grid.
 bool grid_begin(vec3 origin, vec3 direction, ivec3 size, float t_begin, float t_end, out GridMarch m) {
     m.origin = origin;
     m.direction = direction;
@@ -131,7 +132,7 @@ bool grid_next(inout GridMarch m) {
     return true;
 }
 
-// Takes a walk that grid_begin has started to where another one of the same ray stood: what it had in `cell`, `t_in`,
+// Moves a traversal started by grid_begin to where an earlier one of the same ray paused, given its `cell`, `t_in`,
 // `entry_axis` and `neighbours`.
 void grid_resume(inout GridMarch m, ivec3 cell, float t_in, int entry_axis, uint neighbours) {
     m.cell = cell;

@@ -1,4 +1,4 @@
-// What: skips a block of cells at once, from the cell of a traversal to the one behind the block.
+// What: skips a block of cells in one step, from the current cell of a traversal to the cell behind the block.
 // Reads, writes: nothing.
 // As in ads/march_cells.glsl the exit is found in closed form, and the axis of the exit gets its index
 // exactly. The other index is found from the point there, as at the start of a traversal, with all cells that the
@@ -9,17 +9,17 @@
 
 #include "ads/march_cells.glsl"
 
-// Cells from `first` to `last`, the walk's among them, and where the ray leaves them.
+// Cells from `first` to `last`, which include the current one, and where the ray exits them.
 struct MarchLeap {
     ivec2 first;
     ivec2 last;
     float t_out;
     float error_out;
-    bool step_x;          // which side it leaves by; both false: the segment ends in the block
+    bool step_x;          // which side it exits by; both false: the segment ends in the block
     bool step_y;
 };
 
-// Over the walk's own cell.
+// A skip over the current cell alone.
 MarchLeap march_leap_of_one(CellMarch m) {
     return MarchLeap(m.cell, m.cell, m.t_out, m.error_out, m.step_x, m.step_y);
 }
@@ -43,13 +43,14 @@ MarchLeap march_leap_over(CellMarch m, ivec2 first, ivec2 last) {
     return MarchLeap(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
-// Over the block of 2^level cells a side around the walk's cell; blocks are counted from the border on.
+// A skip over the block of 2^level cells along a side that contains the current cell; blocks are counted from the
+// border on.
 MarchLeap march_leap_over_block(CellMarch m, uint level) {
     ivec2 first = ((m.cell + 1) >> int(level) << int(level)) - 1;
     return march_leap_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
 }
 
-// The cell that a walk comes to by leaving a block, or in which it ends, as far as rounding tells.
+// The cell that a ray enters where it exits a block, or in which it ends, within rounding.
 ivec2 march_leap_to(CellMarch m, MarchLeap leap) {
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
     ivec2 cell = mix(march_cell_at(m.origin, m.direction, leap.t_out, m.resolution), m.cell, equal(m.step_direction, ivec2(0)));
@@ -57,8 +58,8 @@ ivec2 march_leap_to(CellMarch m, MarchLeap leap) {
     return ivec2(leap.step_x ? over.x : cell.x, leap.step_y ? over.y : cell.y);
 }
 
-// The cell of a block in which a walk ends that does not leave it; the one beyond a boundary where it may
-// have crossed that.
+// The cell of a block in which a segment ends that does not exit the block; the cell beyond a boundary where rounding
+// allows that it was crossed.
 ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
     CellMarch last = m;
     last.cell = clamp(march_leap_to(m, leap), leap.first, leap.last);
@@ -68,9 +69,8 @@ ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
     return clamp(last.cell + farther * m.step_direction, leap.first, leap.last);
 }
 
-// Bound of the errors of all t at which a walk crosses boundaries on its way to a cell, `t` being the largest
-// of them. Those of boundaries between two are no larger than theirs; infinite where the ray runs along one
-// of them.
+// Bound of the errors of all t at which a traversal crosses boundaries up to a cell; `t` is the largest of them. The
+// error at a boundary between two others is no larger than theirs. Infinite where the ray runs along a boundary.
 float march_leap_error(CellMarch m, ivec2 cell, float t) {
     float error = 0.0;
     for (int axis = 0; axis < 2; axis++) {
@@ -86,10 +86,9 @@ float march_leap_error(CellMarch m, ivec2 cell, float t) {
     return error;
 }
 
-// Goes on to the cell behind the block just as a walk without leaps comes there: to the bit, with the way out still to
-// be found. False where
-// rounding leaves open how it does, because the ray leaves the block where it touches another boundary; then
-// nothing is changed.
+// Advances to the cell behind the block, with the same state, bit for bit, as a traversal without skips has there; the
+// exit of that cell is still to be found. False, with nothing changed, where rounding does not decide that state
+// because the ray exits the block where it touches another boundary.
 bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
     CellMarch next = m;
     next.cell = march_leap_to(m, leap);
@@ -98,7 +97,7 @@ bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
     left.cell = next.cell - step_cells;
     bool within = all(greaterThanEqual(left.cell, leap.first)) && all(lessThanEqual(left.cell, leap.last))
         && all(greaterThanEqual((left.cell - m.cell) * m.step_direction, ivec2(0)));
-    // The boundary that is crossed is touched from both sides, and no other may be.
+    // The crossed boundary is touched from both sides; no other boundary may be touched.
     int crossed = step_cells.x + 3 * step_cells.y;
     uint touched = march_touched(next, leap.t_out, leap.error_out, true, true) & ~(1u << (4 - crossed))
         | march_touched(left, leap.t_out, leap.error_out, true, true) & ~(1u << (4 + crossed));
@@ -113,7 +112,7 @@ bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
     return true;
 }
 
-// Goes on to the cell behind the block; false where the segment ends in it.
+// Advances to the cell behind the block; false where the segment ends in it.
 bool march_take_leap(inout CellMarch m, MarchLeap leap) {
     if (!leap.step_x && !leap.step_y) {
         return false;

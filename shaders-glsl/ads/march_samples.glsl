@@ -18,17 +18,17 @@ struct SampleMarch {
     float t_end;
     uint resolution;
     uint count;           // samples
-    float offset;         // where in its step a sample looks, a share of it
+    float offset;         // of a sample within its step, as a fraction of the step
 };
 
-// A share of a step that is a ray's own: a function of its bits.
+// The jitter of a ray, a fraction of a step in [0, 1): a hash of its bits.
 float samples_jitter(vec3 origin, vec3 direction) {
     uvec3 words = random_words(uvec4(floatBitsToUint(origin), 0u)).xyz;
     return random_unit(random_words(uvec4(words ^ floatBitsToUint(direction), 1u)).x);
 }
 
-// origin and direction are in face space; the segment lies in the face's pyramid. `jitter` is where samples look where
-// their steps are longer than a cell; else they look at the middle.
+// origin and direction are in face space; the segment lies in the face's pyramid. `jitter` places the samples within
+// steps that are longer than a cell; in shorter ones they are in the middle.
 SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_begin, float t_end, uint samples, float jitter) {
     SampleMarch m;
     vec3 p = origin + t_begin * direction;
@@ -42,14 +42,14 @@ SampleMarch samples_begin(vec3 origin, vec3 direction, uint resolution, float t_
     m.t_end = t_end;
     m.resolution = resolution;
     vec2 span = abs(m.place_end - m.place_begin);
-    // A step is a cell of the longer axis, or more where the samples would not suffice.
+    // A step is one cell along the longer axis, or longer where the number of samples would not suffice.
     float cells = ceil(max(span.x, span.y));
     m.count = uint(clamp(cells, 1.0, float(samples)));
     m.offset = cells > float(samples) ? jitter : 0.5;
     return m;
 }
 
-// t at a share of the way on the screen.
+// t at a fraction of the segment's length on the screen.
 float samples_t(SampleMarch m, float share) {
     float near_weight = (1.0 - share) * m.z_end;
     float far_weight = share * m.z_begin;

@@ -27,7 +27,7 @@ vec3 overlap_edge(vec3 p, vec3 q, out float slack) {
     return edge;
 }
 
-// What of a triangle decides which cells of a face it reaches into, the same for all cells.
+// Values of a triangle that the tests against all cells of a face share.
 struct Overlap {
     vec3 x;               // of the corners, face space
     vec3 y;
@@ -72,8 +72,8 @@ float overlap_edge_at(vec3 edge, vec3 center, float half_side, float rounding, o
     return value;
 }
 
-// True where the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1) and half a
-// side; depths holds the smallest and largest depth it has there but for the rounding of its corners, no less than half
+// True where the triangle reaches, in front of the eye, into the square of cells with this centre (x/z, y/z, 1) and
+// half side. depths holds its smallest and largest depth there, without the rounding of its corners, and at least half
 // of near_size. Every step is precise: passes that count and passes that store must decide alike.
 bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out vec2 depths) {
     depths = vec2(0.0);
@@ -116,7 +116,8 @@ bool overlap_at(float near_size, Overlap o, vec3 center, float half_side, out ve
             depths.y = min(depths.y, farthest_depth);
         }
     }
-    // What is nearer than the near box is met there, and positive depths order like their bits.
+    // What is nearer than the near region is tested with the near-region list, and positive depths order like their
+    // bits.
     depths.x = max(depths.x, 0.5 * near_size);
     depths.y = max(depths.y, depths.x);
     return true;

@@ -1,9 +1,9 @@
 // What: lists of pages: how an entry gets a slot in the page at the head of its list, or in a new one,
-// without locks; and how a list is read. Included once for each structure that has pages: its reference type
+// without locks; and how a list is read. Included once per structure that has pages: its reference type
 // tells the functions apart.
 // Reads, writes: through what the including file defines before, all of it undefined again at the end:
-//   PageRef                  the type that names the structure
-//   PAGE_SIZE                slots a page, 1 to 8
+//   PageRef                  reference type of the structure
+//   PAGE_SIZE                slots per page, 1 to 8
 //   PAGE_LIST(s, list)       the word of a list, 0 where it is empty
 //   PAGE_NEXT(s, page)       the word that leads from a page to the next one
 //   PAGE_DEMAND(s)           pages taken, also those past the end
@@ -11,11 +11,11 @@
 // Source: Crassin 2010; Frid Kastrati and Goswami 2017, section 3.2. Both guard a list with a spin lock.
 // A word is (page + 1) << 4 | used: the word that leads to a page says how many of its slots are used, so one
 // compare-exchange takes a slot. Slots are used from the last to the first: a page is read from the first used slot to
-// its end. A thread that loses too often begins a page of its own and leaves the other partly used; nothing waits.
+// its end. A thread that loses too often begins a new page and the old one stays partly used; no thread waits.
 
 #ifndef ADS_PAGES_GLSL
 #define ADS_PAGES_GLSL
-// How often a thread tries to get a slot of the page at the head before it begins one.
+// Number of attempts of a thread to get a slot of the page at the head before it begins a new page.
 #define PAGE_TRIES 64u
 #endif
 

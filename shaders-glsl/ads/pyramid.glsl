@@ -7,23 +7,23 @@
 //   uvec2 x_pyramid_read(XRef s, uint word)                    words of a block
 //   void x_pyramid_write(XRef s, uint word, uvec2 words)
 // Reads, writes: nothing.
-// Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so
-// that skipping passes by no cell that the march would have touched within rounding.
+// Source: DIRT sections 4.1.1 and 4.2.1. Here the bounds of a block are also those of the cells around it, so that no
+// cell is skipped that the march would have touched within rounding.
 #ifndef ADS_PYRAMID_GLSL
 #define ADS_PYRAMID_GLSL
 
 // Words of a block: the complement of the smallest depth's bits, and those of the largest; both 0 where nothing is.
 #define PYRAMID_WORDS 2u
 
-// Level k has blocks of 2^k cells a side, those of the border included.
+// Level k has blocks of 2^k cells along a side, the border included.
 struct PyramidLevel {
     uint level;
-    uint side;            // blocks a side of a view
+    uint side;            // blocks along a side of a view
     uint views;
     uint base;            // word of its first block
 };
 
-// Level 1 over views of `cells` cells a side, border included.
+// Level 1 over views of `cells` cells along a side, border included.
 PyramidLevel pyramid_first(uint cells, uint views, uint base) {
     return PyramidLevel(1u, (cells + 1u) >> 1, views, base);
 }

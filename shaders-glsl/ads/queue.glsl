@@ -1,4 +1,4 @@
-// What: a queue of rays and what became of them, slot by slot.
+// What: a queue of rays with their hits and traversal states, one per slot.
 // Reads, writes: the buffers of QUEUE_SET.
 // A slot whose ray has t_max < 0 is inactive and answers a miss at once. Rays that pause are listed
 // and traced again in the next round. A shader selects the slots that later passes work on (queue_select); they
@@ -35,7 +35,7 @@ struct QueueHeader {
     uint selected_z;      // always 1
     uint selected;        // slots selected when they were last taken
     uint takes;           // times they were taken; its parity says which list holds them
-    uint corrupted;       // list entries that named nothing, in the structure last traced since it was built
+    uint corrupted;       // list entries with an invalid index, in the structure last traced, since it was built
 };
 
 // One step of a logged traversal; contract/constants.glsl says what a STEP_* kind means by its words. 28 bytes.
@@ -69,11 +69,11 @@ layout(set = QUEUE_SET, binding = 4, scalar) buffer QueueListBuffer {
 layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
     Surface queue_surfaces[];
 };
-// As many as there are slots where work is counted per ray, else a placeholder.
+// One per slot where work is counted per ray, else a placeholder.
 layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
     RayWork queue_work[];
 };
-// The steps of one slot; a placeholder without room for any unless asked for.
+// The steps of one slot; a placeholder with capacity 0 unless asked for.
 layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     uint queue_logged_slot;
     uint queue_step_demand;   // steps taken, also those that did not fit
@@ -94,7 +94,7 @@ bool queue_slot(uint domain, uint invocation, out uint slot) {
     return slot < queue_header.capacity;
 }
 
-// Selects a slot for the passes after the next take. A slot is selected once; the order is nobody's.
+// Selects a slot for the passes after the next take. A slot may be selected once; the order is unspecified.
 void queue_select(uint slot) {
     uint place = atomicAdd(queue_header.selecting, 1u);
     if (place < queue_header.capacity) {

@@ -7,7 +7,7 @@
 #include "ads/queue.glsl"
 #include "contract/trace_state.glsl"
 
-// Whether this invocation's slot is the logged one. Asked once a ray: structures log in many places.
+// Whether this invocation's slot is the logged one. Evaluated once per ray, since structures log in many places.
 bool trace_log_on = false;
 
 void trace_log_begin(uint slot) {

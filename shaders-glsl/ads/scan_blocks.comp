@@ -17,7 +17,7 @@ const uint SHARE = SCAN_BLOCK / SCAN_THREADS;
 void main() {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     uint count = scan_count(scanned, scan_step);
-    // Structures whose count only the device knows dispatch for all that there is room for.
+    // Structures whose count is known only on the device dispatch for the whole capacity.
     if (block * SCAN_BLOCK >= count) {
         return;
     }

@@ -1,6 +1,6 @@
 // What: sorts a linked list in place by merging the ascending runs it consists of, two and two, until one is left.
 // Reads, writes: through what the including file defines before; links are numbers of nodes, 0 ends a list:
-//   SortRef                                                         names the structure
+//   SortRef                                                         reference type of the structure
 //   LINKED_DOUBLY                                                   whether nodes know the one before
 //   uint linked_next(SortRef s, uint link)
 //   void linked_set_next(SortRef s, uint link, uint next)
@@ -149,7 +149,7 @@ uint linked_sort(SortRef s, uint list, uint limit, uint steps) {
 
 // Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. The set of
 // those that stay as they are, by bits: they are longer than NODE_SORT_LIMIT, or NODE_SORT_STEPS do not
-// suffice for them beside those before. That follows from the numbers of nodes alone, in whatever order they
+// suffice for them in addition to those before. That follows from the numbers of nodes alone, in whatever order they
 // stand.
 uint linked_sort_several(SortRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;

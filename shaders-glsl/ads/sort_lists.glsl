@@ -1,7 +1,7 @@
-// What: sorts lists of any length, one thread each: short ones in one dispatch, which names the others; of those every
-// dispatch of LONG_LIST_ROUNDS sorts a share.
-// Reads, writes: through what the including file defines before, beside the functions of ads/heap_sort.glsl:
-//   SortRef                                                    names the structure
+// What: sorts lists of any length, one thread each: short ones in one dispatch, which stores the others in a table;
+// LONG_LIST_ROUNDS further dispatches each sort a part of those.
+// Reads, writes: through what the including file defines before, in addition to the functions of ads/heap_sort.glsl:
+//   SortRef                                                    reference type of the structure
 //   uint sort_begin(SortRef s, uint list)                      from now on elements are those of a list; its length
 //   uint sort_long_take(SortRef s)                             the place of a long list, counted past the end
 //   uint sort_long_count(SortRef s)                            long lists that have a place
@@ -15,7 +15,7 @@
 #include "ads/constants.glsl"
 #include "ads/heap_sort.glsl"
 
-// Names a list that is too long for a dispatch.
+// Stores a list that is too long for one dispatch in the table of long lists.
 void sort_name_long(SortRef s, uint list) {
     uint place = sort_long_take(s);
     if (place < sort_long_count(s)) {
@@ -23,7 +23,7 @@ void sort_name_long(SortRef s, uint list) {
     }
 }
 
-// Sorts a list, or names it where it is too long for a dispatch.
+// Sorts a list, or stores it in the table where it is too long for one dispatch.
 void sort_list(SortRef s, uint list) {
     uint length = sort_begin(s, list);
     if (length < 2u) {
@@ -36,7 +36,7 @@ void sort_list(SortRef s, uint list) {
     sort_name_long(s, list);
 }
 
-// Sorts a share of the long list at a place.
+// Sorts a part of the long list at a place of the table.
 void sort_long_list(SortRef s, uint place, uint round) {
     if (place >= sort_long_count(s)) {
         return;

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 struct Visit {
-    uint face;            // SEGMENT_NEAR for the near box
+    uint face;            // SEGMENT_NEAR for the near region
     int x;
     int y;
     float t_low;
@@ -23,7 +23,7 @@ layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 layout(push_constant, scalar) uniform Constants {
     uint ray_count;
     uint resolution;
-    uint limit;           // visits a ray
+    uint limit;           // visits per ray
     float near_size;
 };
 

@@ -14,7 +14,7 @@ layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 layout(push_constant, scalar) uniform Constants {
     uint ray_count;
     uint size;
-    uint limit;           // visits a ray
+    uint limit;           // visits per ray
 };
 
 void add(uint ray, ivec3 cell) {

@@ -1,5 +1,5 @@
-// What: traces every ray through two structures in one shader and stores both answers, for tests. FIRST and
-// SECOND name their folders.
+// What: traces every ray through two structures in one shader and stores both answers, for tests. FIRST and SECOND are
+// their folders.
 // Reads: geometry, both structures, rays. Writes: hits (two per ray).
 #version 460
 #include "contract/extensions.glsl"
@@ -32,7 +32,7 @@ layout(push_constant, scalar) uniform Constants {
     uint count;
 };
 
-// Far more pauses than a ray of a test takes. A ray that is still paused after them files no answer at all.
+// Far more pauses than a ray of a test takes. A ray that is still paused after them stores no answer.
 const uint MOST_PAUSES = 64u;
 
 void main() {

@@ -1,4 +1,4 @@
-// What: counts the turns that invocations of one workgroup make of a loop, each of as many as it is told;
+// What: counts the iterations of a loop by the invocations of one workgroup, each with its own number of iterations;
 // with BARRIER a memory barrier ends each turn. For tests.
 // Reads: turns wanted. Writes: turns made.
 #version 460

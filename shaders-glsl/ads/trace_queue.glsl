@@ -35,7 +35,7 @@ void queue_add_work(uint cells, uint entries, uint tests) {
     }
 }
 
-// Files what a ray has spent so far, where the queue has room for it.
+// Stores the work of a ray so far, where the queue has a buffer for it.
 void queue_file_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;

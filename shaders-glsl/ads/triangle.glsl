@@ -38,7 +38,7 @@ bool triangle_has_area(vec3 a, vec3 b, vec3 c) {
     return any(notEqual(along, against));
 }
 
-// The t at which a ray meets a triangle's plane, and a bound of its error: infinite where rounding decides,
+// The t at which a ray intersects a triangle's plane, and a bound of its error: infinite where rounding decides,
 // or where numbers are too small or too large for one. `along`, `against`: of the normal; `p`: a corner
 // relative to the origin; `d`: the direction; all with the axes in the same order. Of the axes the last one
 // is added last, so that turning the others changes no bit.
@@ -112,8 +112,9 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     precise float by = pb.y - sy * pb.z;
     precise float cx = pc.x - sx * pc.z;
     precise float cy = pc.y - sy * pc.z;
-    // The ray passes at (0, 0). Beside a triangle that is small for its distance from there all products round to the
-    // same, and edges alone would accept it. A triangle whose sheared corners hold (0, 0) stays.
+    // The ray passes at (0, 0). For a triangle that is small compared with its distance from there, all products may
+    // round to the same value, and the edge tests alone would accept it. A triangle whose sheared corners hold (0, 0)
+    // stays.
     if (min(ax, min(bx, cx)) > 0.0 || max(ax, max(bx, cx)) < 0.0
         || min(ay, min(by, cy)) > 0.0 || max(ay, max(by, cy)) < 0.0) {
         return false;
@@ -132,7 +133,7 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     if (det == 0.0) {
         return false;
     }
-    // Rounding gives a triangle without area some.
+    // By rounding, a triangle without area may appear to have one.
     vec3 along;
     vec3 against;
     triangle_normal_terms(a, b, c, along, against);
@@ -144,7 +145,7 @@ bool triangle_intersect(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out
     precise vec3 depths = relative / d.z;
     precise float scaled = edges.x * depths.x + edges.y * depths.y + edges.z * depths.z;
     barycentrics = edges.yz * inverse;
-    // The exact value never leaves the corners' own range.
+    // The exact value lies within the range of the corners.
     float nearest = min(depths.x, min(depths.y, depths.z));
     float farthest = max(depths.x, max(depths.y, depths.z));
     float max_depth = max(abs(nearest), abs(farthest));
@@ -182,7 +183,7 @@ vec2 triangle_barycentrics(vec3 p, vec3 a, vec3 b, vec3 c) {
     return squared > 0.0 ? weights / squared : vec2(0.0);
 }
 
-// Where a ray meets the plane of a triangle: t, and the barycentrics of b and c there, which may lie
+// Where a ray intersects the plane of a triangle: t, and the barycentrics of b and c there, which may lie
 // outside [0, 1]. False where the ray runs in or parallel to the plane, or the triangle has no area.
 bool triangle_plane(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c, out float t, out vec2 barycentrics) {
     vec3 normal = cross(b - a, c - a);

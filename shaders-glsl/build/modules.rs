@@ -1,6 +1,6 @@
 //! Compiled modules in a folder: `prebuilt`, as packages have it.
 //!
-//! `modules.txt` beside the modules says of which GLSL and with which features they were made, and names each with a
+//! `modules.txt` next to the modules says of which GLSL and with which features they were made, and lists each with a
 //! hash of its bytes.
 
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! Modules as packages hold them: a form of SPIR-V that compression, which knows bytes alone, makes a quarter smaller.
 //!
 //! Opcodes and lengths of instructions come first, then their operands, all as numbers of one to five bytes. Most
-//! operands are ids of what came just before, and are kept as their distance to the highest id that was met.
+//! operands are ids of what came just before, and are kept as their distance to the highest id so far.
 
 /// Words of a module before its instructions.
 const HEADER: usize = 5;
@@ -61,7 +61,7 @@ pub(crate) fn unpack(mut packed: &[u8]) -> Option<Vec<u32>> {
     operands.is_empty().then_some(words)
 }
 
-/// The highest id met so far.
+/// The highest id so far.
 #[derive(Default)]
 struct Ids {
     highest: u32,

@@ -9,7 +9,7 @@
 // What a trace function returns.
 #define TRACE_MISS 0u
 #define TRACE_HIT 1u
-// The work budget of this dispatch is used up; the state holds enough to go on.
+// The work budget of this dispatch is used up; the state holds what is needed to resume.
 #define TRACE_PAUSED 2u
 // The structure was not complete when it was traced; no answer was given.
 #define TRACE_NOT_READY 3u
@@ -24,14 +24,14 @@
 // Draw flags.
 #define DRAW_ALPHA_MASKED 1u
 
-// Which fields of a Surface carry what the structure knows; the others hold documented defaults.
+// Which fields of a Surface the structure fills; the others hold documented defaults.
 #define SURFACE_POSITION 1u
 #define SURFACE_NORMAL 2u
 #define SURFACE_MATERIAL 4u
 #define SURFACE_PRIMITIVE 8u
 #define SURFACE_EMISSION 16u
 
-// How much of their work rays record; each value includes those below it.
+// What is recorded of the work of rays; each value includes those below it.
 #define COUNTERS_OFF 0u
 // Sums over all rays, in the queue's header.
 #define COUNTERS_SUMS 1u
@@ -43,22 +43,22 @@
 // Kinds of steps that a traversal logs, with the meaning of a, b, c, t_low and t_high.
 // A dispatch begins for the ray; a: the round.
 #define STEP_ROUND 1u
-// A view (or the near box) is entered; a: the view, t: its stretch of the ray.
+// A view (or the near region) is entered; a: the view, t: its interval along the ray.
 #define STEP_VIEW 2u
-// A cell is come to, to be searched or passed over; a: the view, b and c: column and row (signed), t: its stretch of
+// A cell is visited, to be searched or skipped; a: the view, b and c: column and row (signed), t: its interval along
 // the ray, widened.
 #define STEP_CELL 3u
-// A node of a hierarchy is visited; a: the node, b: its first child or entry, t: its stretch of the ray.
+// A node of a hierarchy is visited; a: the node, b: its first child or entry, t: its interval along the ray.
 #define STEP_NODE 4u
-// A bucket or list is searched; a: the bucket, b: its first entry, t: the depths looked for, metres.
+// A bucket or list is searched; a: the bucket, b: its first entry, t: the depth interval searched, metres.
 #define STEP_LIST 5u
-// Something is passed over; a: why (SKIP_*), t: what was looked for.
+// Something is skipped; a: why (SKIP_*), t: the interval searched, in t or in depth.
 #define STEP_SKIP 6u
 // An entry of a list is read; a: the entry, t_low: its depth, metres.
 #define STEP_ENTRY 7u
 // A primitive is tested; a: the primitive, b: the verdict (TEST_*), t_low: t, t_high: the bound of its error.
 #define STEP_TEST 8u
-// A fragment is judged by its depth; a: the primitive, b: the verdict (TEST_*), t_low: t, t_high: depth, metres.
+// A fragment is compared by its depth; a: the primitive, b: the verdict (TEST_*), t_low: t, t_high: depth, metres.
 #define STEP_FRAGMENT 9u
 // The best hit is replaced; a: the primitive, t_low: t.
 #define STEP_BEST 10u
@@ -71,7 +71,7 @@
 #define TEST_ACCEPTED 0u
 // The ray excludes this primitive.
 #define TEST_EXCLUDED 1u
-// The ray passes beside the triangle.
+// The ray passes outside of the triangle.
 #define TEST_BESIDE 2u
 // The ray runs along the triangle's plane, or the triangle has no area.
 #define TEST_PARALLEL 3u
@@ -79,7 +79,7 @@
 #define TEST_BEFORE 4u
 // At or beyond t_max.
 #define TEST_BEYOND 5u
-// Outside the cell's or segment's stretch of the ray, or of the depths looked for.
+// Outside of the t interval of the cell or segment, or of the depth interval searched.
 #define TEST_OUTSIDE_CELL 6u
 // On the triangle's plane, too far from the triangle.
 #define TEST_OUT_OF_REACH 7u
@@ -90,19 +90,19 @@
 // Refused by the alpha test.
 #define TEST_TRANSPARENT 10u
 
-// Why something is passed over.
+// Why something is skipped.
 // The cell or list is empty.
 #define SKIP_EMPTY 0u
-// The depths looked for are not in the cell, or the ray passes beside the node.
+// Nothing in the cell is within the depth interval searched, or the ray misses the node.
 #define SKIP_OUTSIDE 1u
 // It lies behind the best hit.
 #define SKIP_BEHIND 2u
-// The rest of a sorted list lies past the depths looked for.
+// The rest of a sorted list lies beyond the depth interval searched.
 #define SKIP_PAST 3u
-// Nothing is left of the ray's range within the bounds of the geometry.
+// The rest of the ray's range is outside of the bounds of the geometry.
 #define SKIP_BOUNDS 4u
 
-// In place of a number of first slots: those that were selected.
+// In place of a number of slots: those that were selected.
 #define DOMAIN_SELECTED 0xFFFFFFFFu
 
 // Threads in a workgroup of a queue kernel.

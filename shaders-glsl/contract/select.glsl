@@ -1,5 +1,5 @@
-// What: forwards the contract's plain names to the structure for which a shader is compiled: `structure/...` is its folder,
-// which the permutation list names in STRUCTURE.
+// What: forwards the contract's plain names to the structure for which a shader is compiled. `structure/...` is its
+// folder, given as STRUCTURE in the permutation list.
 // Reads, writes: see the structure.
 #ifndef CONTRACT_SELECT_GLSL
 #define CONTRACT_SELECT_GLSL

@@ -1,5 +1,5 @@
-// What: the contract's trace functions of a structure, around what it says itself: a ray that asks nothing is a miss, and
-// a structure that is not complete gives no answer, in queues and in shaders of a host alike.
+// What: the contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
+// structure that is not complete gives no answer, in queues and in shaders of a host alike.
 // Reads, writes: see the structure.
 #ifndef CONTRACT_TRACE_FUNCTIONS_GLSL
 #define CONTRACT_TRACE_FUNCTIONS_GLSL
@@ -9,7 +9,8 @@
 // Defines <prefix>_trace_closest and <prefix>_trace_occluded from
 //     uint <prefix>_status(Ref s)                                                       bits STATUS_* of the last build
 //     uint <prefix>_trace(Ref s, Ray ray, inout TraceState state, bool any_hit)         TRACE_*
-//     Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that a best one stands for
+// Hit  <prefix>_hit(Ref s, Hit best)                                                the hit that the best one
+// represents
 #define TRACE_FUNCTIONS(Ref, prefix) \
     uint prefix##_trace_checked(Ref s, Ray ray, inout TraceState state, bool any_hit) { \
         if (!ray_is_valid(ray)) { \

@@ -8,7 +8,7 @@
 #include "scene/random.glsl"
 #include "scene/spawn.glsl"
 
-// The ray of one sample, to be tested for occlusion: the sample is 1 if nothing is met. `range` in
+// The ray of one sample, to be tested for occlusion: the sample is 1 if nothing is hit. `range` in
 // metres, +infinity for all. Inactive where the camera ray missed; the sample is 1 then.
 Ray ambient_occlusion_ray(Surface s, float range, uint pixel, uint sample_index) {
     if (s.valid == 0u) return ray_inactive();

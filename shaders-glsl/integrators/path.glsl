@@ -1,4 +1,4 @@
-// What: path tracing with light sampling, one step a closest hit.
+// What: path tracing with light sampling, one step per closest hit.
 // Reads: scene tables through scene/*.glsl. Writes: nothing but its state argument.
 // Source: docs/shading.md, "Paths"; Veach 1997 for the power heuristic.
 #ifndef INTEGRATORS_PATH_GLSL
@@ -12,14 +12,14 @@ PathState path_begin(uint pixel, uint sample_index) {
     return PathState(vec3(1.0), pixel, vec3(0.0), sample_index, 0.0, MATERIAL_NONE, 0u, 0u, 0u);
 }
 
-// Weight of the technique with density `used` beside one with density `other`.
+// Multiple-importance-sampling weight of a technique with density `used`, combined with one of density `other`.
 float path_power_heuristic(float used, float other) {
     if (!(other > 0.0)) return 1.0;
     float ratio = other / used;
     return 1.0 / (1.0 + ratio * ratio);
 }
 
-// Share of light left after `distance` metres inside a material.
+// Transmittance of `distance` metres of a material.
 vec3 path_transmittance(uint material_index, float distance) {
     Material material = scene_material(material_index);
     if (!(material.attenuation_distance < 3.0e38) || !(material.attenuation_distance > 0.0)) return vec3(1.0);
@@ -27,7 +27,7 @@ vec3 path_transmittance(uint material_index, float distance) {
     return pow(color, vec3(distance / material.attenuation_distance));
 }
 
-// Weight of emission met by the last scattering.
+// Weight of emission hit by the ray of the last scattering.
 float path_emission_weight(PathState state, float light_pdf) {
     return state.bsdf_pdf > 0.0 ? path_power_heuristic(state.bsdf_pdf, light_pdf) : 1.0;
 }
@@ -45,17 +45,17 @@ void path_sample_light(PathState state, Surface s, vec3 o, inout PathStep asked)
     asked.shadow_ray = light_shadow_ray(s, light);
 }
 
-// Goes on straight behind a blended surface.
+// Continues in the same direction behind a blended surface.
 void path_pass(inout PathState state, Ray ray, Surface s, vec3 direction, float footprint, inout PathStep asked) {
     state.layers += 1u;
-    // Shadow rays end here, so light sampling cannot have found what is met next.
+    // Shadow rays end here, so light sampling cannot have found the emitter hit next.
     state.bsdf_pdf = 0.0;
     asked.next_ray = spawn_ray(s, direction, uintBitsToFloat(0x7F800000u));
     asked.next_ray.cone_width = footprint;
     asked.next_ray.cone_spread = ray.cone_spread;
 }
 
-// Scatters; leaves next_ray inactive where the path ends.
+// Scatters; next_ray stays inactive where the path ends.
 void path_scatter(inout PathState state, Ray ray, Surface s, vec3 o, float footprint, inout PathStep asked) {
     vec4 random = random_vec4(state.pixel, state.sample_index, random_dimension(state.bounce, RANDOM_BSDF_LOBE));
     BsdfSample chosen = bsdf_sample(s, o, random);
@@ -79,7 +79,7 @@ void path_scatter(inout PathState state, Ray ray, Surface s, vec3 o, float footp
                                        : max(ray.cone_spread, 0.5 * s.roughness * s.roughness);
 }
 
-// One step: `ray` was traced, `s` is what it met (valid 0: nothing). Adds emission to the state and
+// One step: `ray` was traced, `s` is the surface it hit (valid 0: none). Adds emission to the state and
 // asks for a shadow ray and a next ray; the path has ended where next_ray.t_max < 0.
 PathStep path_step(inout PathState state, Ray ray, Surface s, uint max_bounces) {
     PathStep asked = PathStep(ray_inactive(), ray_inactive(), vec3(0.0));

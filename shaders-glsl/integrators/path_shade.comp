@@ -1,4 +1,4 @@
-// What: one step of every path that goes on: emission, light sample, scattering.
+// What: one step of every path that continues: emission, light sample, scattering.
 // Reads: rays and surfaces of the queue, path states, scene, geometry. Writes: path states, shadow rays, pending
 // radiance, rays of the queue (the next closest-hit round); selects the slots that have a ray to trace, in both queues.
 // Source: docs/shading.md, "Paths".

@@ -1,5 +1,5 @@
-// What: what integrators keep for every slot of a wave and every pixel of the image, and the functions
-// that reach it. Slot i of a wave holds pixel first_pixel + i.
+// What: data of integrators per slot of a wave and per pixel of the image, and the functions that access it. Slot i of
+// a wave holds pixel first_pixel + i.
 // Reads, writes: the buffers of INTEGRATOR_SET.
 // Source: wavefront path tracing as in pbrt-v4, section 15.
 #ifndef INTEGRATORS_STORAGE_GLSL
@@ -18,12 +18,12 @@ struct FilmPixel {
     uint samples;             // samples in the sum
 };
 
-// What the film refused. 4 bytes.
+// Samples that were not added to the film. 4 bytes.
 struct FilmFaults {
-    uint non_finite;      // samples with a channel that is not finite, left out of their pixel
+    uint non_finite;      // samples with a channel that is not finite, which are not added to their pixel
 };
 
-// What the ray through a pixel's centre meets. 20 bytes.
+// What the ray through a pixel's centre hits. 20 bytes.
 struct AovPixel {
     float distance;       // metres from the ray's origin (the eye in perspective); 0: nothing
     vec3 normal;          // unit geometric normal, world axes, facing the ray; 0: nothing
@@ -35,7 +35,7 @@ layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer FilmPixelBuffer { FilmP
 layout(set = INTEGRATOR_SET, binding = 1, scalar) buffer FilmFaultBuffer { FilmFaults film_faults; };
 layout(set = INTEGRATOR_SET, binding = 2, scalar) buffer PathStateBuffer { PathState path_states[]; };
 layout(set = INTEGRATOR_SET, binding = 3, scalar) buffer PendingBuffer { vec3 pending_radiance[]; };
-// The second queue, which only asks for occlusion, as those see it who fill it. Passes over its slots bind it as queue.
+// The second queue, for occlusion only, as the passes that fill it access it. Passes over its slots bind it as queue.
 layout(set = INTEGRATOR_SET, binding = 4, scalar) buffer ShadowRayBuffer { Ray shadow_rays[]; };
 layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { QueueHeader shadow_header; };
 layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
@@ -47,7 +47,7 @@ layout(push_constant, scalar) uniform WaveConstants {
     uint wave_pixel_count;
     uint wave_sample;
     uint wave_round;      // closest-hit rounds before this one
-    uint wave_bounces;    // most scatterings of a path
+    uint wave_bounces;    // maximum number of scatterings of a path
     float wave_range;     // metres, of ambient occlusion
     uint wave_domain;     // of the queue that is bound: wave_pixel_count, or DOMAIN_SELECTED
 };
@@ -66,7 +66,7 @@ bool is_finite(vec3 v) {
     return all(notEqual(exponent, uvec3(0x7F800000u)));
 }
 
-// Adds one sample to its pixel. A pixel is in one slot of a wave only, so nobody else writes it.
+// Adds one sample to its pixel. A pixel is in one slot of a wave only, so no other invocation writes it.
 void film_add(uint pixel, vec3 radiance) {
     if (!is_finite(radiance)) {
         atomicAdd(film_faults.non_finite, 1u);

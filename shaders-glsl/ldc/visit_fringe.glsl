@@ -1,6 +1,6 @@
-// What: keeps a triangle in a cell that it reaches into without covering its centre, where no fragment stands
-// for it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a cell.
-// The same for every builder.
+// What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, where no
+// fragment represents it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a
+// cell. The same for every builder.
 // Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand.
 // Source: not in the paper, whose rays pass between the views' cells there.
 #ifndef LDC_VISIT_FRINGE_GLSL
@@ -10,7 +10,7 @@
 #include "ldc/covered.glsl"
 #include "ldc/fringe.glsl"
 
-// Whether a fragment of the cell stands for a triangle there: one of the same draw, whose plane passes within `close`
+// Whether a fragment of the cell represents a triangle there: one of the same draw, whose plane passes within `close`
 // metres of this point of the triangle, in the view. Another draw may be of another material: a lamp let into a ceiling
 // is not the ceiling.
 bool ldc_is_stood_for(
@@ -19,7 +19,7 @@ bool ldc_is_stood_for(
     if (list.y - list.x > FRINGE_LIMIT) {
         return false;
     }
-    // Both planes lean by at most a cell each between point and centre.
+    // The depth of each plane changes by at most one cell between point and centre.
     float window = 2.0 * view.cell + close + ldc_depth_rounding(ldc_built);
     uint draw = geometry_draw(primitive);
     for (uint place = list.x; place < list.y; place++) {
@@ -63,7 +63,7 @@ void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
     float z_center = axis_plane_depth(a, b, c, center);
     uint cell = ldc_cell(ldc_built, view.axis, place);
-    // What is far smaller than a cell is not taken for a surface that is near for a cell only.
+    // A triangle far smaller than a cell is not represented by a surface that is near only in units of the cell.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
     if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, FRINGE_DEPTH * size)) {

@@ -113,7 +113,7 @@ bool ldc_block_is_met(LdcRef s, LdcWalk walk, uint level, ivec2 block, vec2 stre
     LdcBlock held = ldc_block_depths(s, place);
     float margin = walk.sizes.margin;
     vec2 depths = ldc_depths_between(walk.z_origin, walk.z_direction, stretch.x, stretch.y);
-    // The depths of a cell round differently.
+    // Depths computed for a cell round differently.
     float rounding = 4.8e-7 * (abs(walk.z_origin) + max(abs(stretch.x), abs(stretch.y)) * abs(walk.z_direction));
     float low = depths.x - margin - rounding;
     float high = depths.y + margin + rounding;

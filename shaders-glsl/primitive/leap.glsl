@@ -1,4 +1,4 @@
-// What: how far a ray may go on without hitting what any tile lists at its depths.
+// What: the largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
 // Reads: bounds. Writes: nothing.
 // Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
 // triangles is so.

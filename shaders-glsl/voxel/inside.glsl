@@ -76,7 +76,7 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     return held;
 }
 
-// Counts the fragments of a point's cell that lie before it, or looks for the one nearest to it: walk.odd,
+// Counts the fragments of a point's cell that lie before it, or finds the nearest one: walk.odd,
 // walk.held. True if the work budget ended first.
 bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk walk, inout TraceState state,
     inout uint work) {

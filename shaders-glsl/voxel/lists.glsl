@@ -23,7 +23,7 @@ void voxel_list_count_one(VoxelRef s, uint list) {
     atomicAdd(VOXEL_LISTS(s)[list], 1u);
 }
 
-// Takes a place for a fragment of a list; VOXEL_NO_PLACE where there is no room, which is counted.
+// Takes a place for a fragment of a list; VOXEL_NO_PLACE beyond the capacity, which is counted.
 uint voxel_allocate(VoxelRef s, uint list) {
     uint capacity = VOXEL_HEADER(s).capacity;
     if (voxel_paged()) {

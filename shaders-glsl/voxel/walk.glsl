@@ -1,4 +1,4 @@
-// What: a ray's way through the voxels, and through the cells of a view within a voxel, able to stop and go on.
+// What: a ray's traversal of the voxels, and of the cells of a view within a voxel, which can pause and resume.
 // Reads: header. Writes: nothing.
 // Source: Hu et al. section 3.2, 3D-DDA and 2D-DDA; closed form, superset of the exact cells
 // (ads/march_grid.glsl).
@@ -114,7 +114,7 @@ bool voxel_next_cell(inout VoxelWalk walk) {
     return more;
 }
 
-// The 3x3x3 place of a cell next to another one, and back.
+// Index of a cell among the 3x3x3 around another one, and back.
 uint voxel_beside(ivec3 cell, ivec3 center) {
     ivec3 offset = cell - center + 1;
     return uint(offset.x + 3 * offset.y + 9 * offset.z);

@@ -79,7 +79,7 @@ impl Modules {
         requirements.storage_buffers = requirements.storage_buffers.max(self.storage_buffers());
     }
 
-    /// Storage buffers that the one of its modules uses that uses most.
+    /// Maximum number of storage buffers that one of its modules uses.
     fn storage_buffers(&self) -> u32 {
         type Known = BTreeMap<(&'static str, bool), u32>;
         // Modules are read once, each in some milliseconds.
@@ -95,7 +95,7 @@ impl Modules {
         })
     }
 
-    /// The module of a name, as the folder of the structure's shaders lists it.
+    /// The module of that name in the folder of the structure's shaders.
     ///
     /// # Errors
     /// It is not compiled in, which only modules that read a scene may be.
@@ -116,8 +116,8 @@ impl Modules {
         self.trace_variant("", scene)
     }
 
-    /// The same of a structure whose traces are compiled once for each of several options: `variant` is the ending of
-    /// the modules' names that tells them apart, such as `.cells`.
+    /// The same for a structure whose trace modules are compiled once per option value: `variant` is the suffix of
+    /// their names, such as `.cells`.
     ///
     /// # Errors
     /// As [`Modules::trace`].

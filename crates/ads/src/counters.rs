@@ -8,7 +8,7 @@ pub enum Counters {
     Off,
     /// Sums over all rays, in [`crate::QueueHeader`].
     Sums,
-    /// A [`crate::RayWork`] per slot, where the queue has room for it.
+    /// A [`crate::RayWork`] per slot, where the queue has a buffer for it.
     PerRay,
     /// Every step of the logged slot of a queue that was made with [`crate::QueueParts::steps`].
     Steps,

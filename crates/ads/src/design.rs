@@ -22,8 +22,8 @@ pub struct Common {
     pub work_budget: Option<u32>,
 }
 
-/// Work units that a ray may spend in a dispatch where the device is no processor: nearly every ray needs one dispatch
-/// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
+/// Work units that a ray may spend per dispatch where the device is not a software driver: nearly every ray needs one
+/// dispatch then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
 const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 
 /// The work budget that structures have on a device unless told otherwise. Software drivers end all loops of a group after
@@ -39,16 +39,16 @@ pub struct Outcome {
     pub status: u32,
     /// Lists too long to be sorted.
     pub unsorted: u32,
-    /// List entries that named nothing.
+    /// List entries with an invalid index.
     pub corrupted: u32,
 }
 
 /// Pools with their bytes.
 pub type PoolBytes<'a, P> = Vec<(P, &'a [u8])>;
 
-/// Numbers of elements that only a build counts, and what else planning depends on.
+/// Numbers of elements that only a build counts, and other inputs of planning.
 pub trait Demand: Copy {
-    /// Calls `with` for each counted number: its name in statuses, this number and that of `other`. The result has what
+    /// Calls `with` per counted number: its name in statuses, this number and that of `other`. The result has what
     /// `with` returns in their place.
     #[must_use]
     fn zip(self, other: Self, with: impl FnMut(&'static str, u64, u64) -> u64) -> Self;
@@ -63,7 +63,7 @@ pub struct Parts<C> {
     pub geometry: Geometry,
     /// The pools.
     pub pools: Pools,
-    /// Work units that a ray may spend in a dispatch.
+    /// Work units that a ray may spend per dispatch.
     pub work_budget: u32,
     /// The pass that works out what of the header follows from bounds and eye.
     pub header_pass: ComputePipeline,
@@ -80,8 +80,8 @@ impl<C> Parts<C> {
         units.div_ceil(self.work_budget)
     }
 
-    /// Dispatches that nearly every ray is finished in which reads no list longer than most: 16 with the budget of
-    /// software drivers, 2 with that of others.
+    /// Dispatches in which nearly every ray finishes, long lists apart: 16 with the budget of software drivers, 2 with
+    /// that of others.
     pub fn usual_rounds(&self) -> u32 {
         usual_rounds(self.work_budget)
     }
@@ -92,15 +92,15 @@ impl<C> Parts<C> {
     }
 }
 
-/// 16 dispatches of the smaller budget; with a larger one those in which as much is done, and one for the rays that pause
-/// at the end of the last.
+/// 16 dispatches of the smaller budget. With a larger budget: as many as do the same work, and one more for rays that
+/// pause at the end of the last.
 fn usual_rounds(work_budget: u32) -> u32 {
     const SMALL: u32 = 16;
     ((SMALL * TRACE_WORK_BUDGET).div_ceil(work_budget) + 1).min(SMALL)
 }
 
-/// What one structure says of itself; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
-/// and what a build leaves on the host.
+/// What one structure defines; [`Pooled`](crate::Pooled) does the rest. A value holds the pipelines of the build,
+/// and data that a build keeps on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: fmt::Debug + Copy;
@@ -121,7 +121,7 @@ pub trait Design: fmt::Debug + Sized {
     const TITLE: &'static str;
     /// Whether passes of the build read the scene.
     const BUILD_READS_SCENE: bool;
-    /// Byte of the header at which list entries that named nothing are counted.
+    /// Byte of the header at which list entries with an invalid index are counted.
     const CORRUPTED: usize;
     /// What it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
@@ -132,16 +132,16 @@ pub trait Design: fmt::Debug + Sized {
     /// What its hits are.
     fn kind(config: &Self::Config) -> StructureKind;
 
-    /// What makes a build stale, beside the triangles.
+    /// What makes a build stale, in addition to the triangles.
     fn depends_on(config: &Self::Config) -> Dependencies;
 
-    /// What it needs of a device beside what its modules do.
+    /// What it requires of a device in addition to what its modules require.
     fn requirements(config: &Self::Config) -> Requirements;
 
     /// Specialisation constants: id and bits.
     fn constants(config: &Self::Config) -> Vec<(u32, u32)>;
 
-    /// Ending of the names of the modules that trace.
+    /// Suffix of the names of the modules that trace.
     fn trace_variant(_config: &Self::Config) -> String {
         String::new()
     }
@@ -149,16 +149,17 @@ pub trait Design: fmt::Debug + Sized {
     /// The sizes to begin with, before anything has been counted.
     ///
     /// # Errors
-    /// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+    /// An option is out of range, or a pool has more elements than 32-bit indices can address.
     fn first_plan(config: &Self::Config, geometry: &Geometry) -> Result<Sizes, AdsError>;
 
-    /// The sizes that hold what a build may ask for.
+    /// The sizes for a demand.
     ///
     /// # Errors
     /// As [`Design::first_plan`].
     fn plan(config: &Self::Config, demand: &Self::Demand) -> Result<Sizes, AdsError>;
 
-    /// The sizes that other triangles need at once, where a build could not ask for them; `None` to leave all as it is.
+    /// The sizes that new triangles require before the first build, where a build cannot count them itself; `None`: no
+    /// change.
     ///
     /// # Errors
     /// As [`Design::first_plan`].
@@ -220,23 +221,23 @@ pub trait Design: fmt::Debug + Sized {
     /// What the last build asked for.
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
 
-    /// What there is room for.
+    /// The capacity of the pools, in the terms of the demand.
     fn room(parts: &Parts<Self::Config>) -> Self::Demand;
 
-    /// Whether the demand of that name depends a little on which threads meet.
+    /// Whether the demand of that name varies slightly with the order in which threads run.
     fn varies(_config: &Self::Config, _name: &str) -> bool {
         false
     }
 
-    /// Rounds that nearly every ray is finished in; `header` is that of the last build, and zeros before the first.
+    /// Rounds in which nearly every ray finishes; `header` is that of the last build, and zeros before the first.
     fn first_rounds(parts: &Parts<Self::Config>, header: &Self::Header) -> u32;
 
-    /// Rounds that every ray is finished in; absent where that takes reading all that is stored.
+    /// Rounds in which every ray finishes; absent where a ray may have to read everything that is stored.
     fn most_rounds(_parts: &Parts<Self::Config>) -> Option<u32> {
         None
     }
 
-    /// Elements of a pool that hold something; absent where all do.
+    /// Elements of a pool that are in use; absent where all are.
     fn used(parts: &Parts<Self::Config>, asked: &Self::Demand, pool: Self::Pool) -> Option<u64>;
 
     /// The report, but for [`StructureReport::bytes_by_part`].
@@ -253,7 +254,7 @@ pub trait Design: fmt::Debug + Sized {
         header: Self::Header,
     ) -> Result<Self::Contents, GpuError>;
 
-    /// What is wrong with pools that a build over so many triangles left.
+    /// What is wrong with the pools after a build over that number of triangles.
     fn fault(contents: &Self::Contents, triangles: u32) -> Option<String>;
 
     /// Header and other pools to write back, with their bytes.

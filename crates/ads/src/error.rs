@@ -9,14 +9,14 @@ pub enum AdsError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build was recorded for a slot that there is not.
+    /// A build was recorded for a slot that does not exist.
     #[error("{structure}: slot {slot} of {slots} was asked for; `set_slots` says how many there are")]
     Slot {
         /// The structure.
         structure: &'static str,
         /// What was asked for, from 0.
         slot: u32,
-        /// How many there are.
+        /// Number of slots.
         slots: u32,
     },
     /// An option has a value outside its range.
@@ -29,7 +29,7 @@ pub enum AdsError {
         /// What is possible.
         expected: &'static str,
     },
-    /// A pool needs more elements than its indices can name.
+    /// A pool needs more elements than its indices can address.
     #[error(
         "{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can name; lower the resolution or split the scene"
     )]
@@ -53,13 +53,13 @@ pub enum AdsError {
         /// What is wrong, and with which numbers.
         reason: String,
     },
-    /// A build met triangles that its geometry does not allow for.
+    /// A build found triangles that its geometry does not allow.
     #[error(
         "{triangles} triangles have a corner outside of the bounds that the geometry states, or name a vertex that \
          it does not have: state bounds that hold all positions, and indices below the number of vertices"
     )]
     OutsideBounds {
-        /// How many.
+        /// Number of such triangles.
         triangles: u32,
     },
     /// A build was recorded without the host's part.

@@ -1,4 +1,4 @@
-//! The queue kernels: one set of pipelines a structure, recorded the same way for all.
+//! The queue kernels: one set of pipelines per structure, recorded the same way for all.
 
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
@@ -15,7 +15,8 @@ pub struct SceneBinding {
     pub set: BindingSet,
     /// Whether any draw is alpha-masked.
     pub alpha_masked: bool,
-    /// Specialisation constants of modules that read the scene: id and bits. They leave out what it does not have.
+    /// Specialisation constants of modules that read the scene: id and bits. They disable code for features that the
+    /// scene does not have.
     pub constants: Vec<(u32, u32)>,
 }
 
@@ -44,7 +45,7 @@ pub struct TraceKernelsDesc<'a> {
     pub constants: &'a [(u32, u32)],
     /// How much of their work rays record.
     pub counters: Counters,
-    /// Work units that a ray may spend in a dispatch.
+    /// Work units that a ray may spend per dispatch.
     pub work_budget: u32,
     /// The scene, where surfaces or alpha masks are needed.
     pub scene: Option<&'a SceneBinding>,
@@ -68,7 +69,7 @@ struct Kernel {
     pipeline: ComputePipeline,
 }
 
-/// Address of the structure (zero with descriptors), [`Domain::word`], and work units a dispatch.
+/// Address of the structure (zero with descriptors), [`Domain::word`], and work units per dispatch.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct TraceConstants {

@@ -8,10 +8,11 @@ use rasray_gpu::{
 
 use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
 
-/// Most workgroups along the first dimension; more go to the second, which shaders fold back.
+/// Maximum number of workgroups along the first dimension; more go to the second, and shaders compute one index from
+/// both.
 const MOST_GROUPS: u64 = 32_768;
 
-/// That many workgroups in two dimensions; none for none.
+/// That number of workgroups in two dimensions; 0 gives none.
 pub(crate) fn folded(groups: u64) -> Option<[u32; 3]> {
     let rows = groups.div_ceil(MOST_GROUPS);
     (groups > 0).then(|| [groups.div_ceil(rows) as u32, rows as u32, 1])
@@ -52,7 +53,7 @@ impl<'a> BuildPipelines<'a> {
         Self { device, modules, sets, constants }
     }
 
-    /// The label of the pass that a module of that name makes.
+    /// The label of the pass of the module of that name.
     pub fn label(&self, name: &str) -> String {
         format!("{}/{name}", self.modules.prefix)
     }
@@ -92,9 +93,9 @@ impl<'a> BuildPipelines<'a> {
 /// Views of one size that are drawn at once, one instance each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewDraw {
-    /// Cells a side, border counted.
+    /// Cells along a side, border included.
     pub side: u32,
-    /// How many.
+    /// Number of views.
     pub views: u32,
     /// Number of the first: instance 0.
     pub first: u32,
@@ -144,7 +145,7 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Runs that many workgroups; nothing for none.
+    /// Dispatches that number of workgroups; nothing for 0.
     pub fn dispatch(&self, recorder: &mut Recorder<'_>, pipeline: &ComputePipeline, groups: u64, step: u32) {
         let Some(groups) = folded(groups) else { return };
         recorder.bind_compute(pipeline);
@@ -152,7 +153,7 @@ impl BuildTarget<'_> {
         recorder.dispatch(groups);
     }
 
-    /// A labelled pass of as many workgroups as three u32 of the header say, at a byte of it that is a multiple of 4.
+    /// A labelled indirect pass: its workgroups are three u32 of the header, at a byte that is a multiple of 4.
     /// The pass before made the header visible to [`Access::INDIRECT_READ`].
     pub fn indirect_pass(
         &self,
@@ -208,7 +209,7 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// Draws every triangle once a view onto a square of `side` cells; nothing where there is none.
+    /// Draws every triangle once per view onto a square of `side` cells; nothing where there are no triangles.
     pub fn draw(
         &self,
         recorder: &mut Recorder<'_>,
@@ -228,9 +229,9 @@ impl BuildTarget<'_> {
         recorder.end_rendering();
     }
 
-    /// A labelled pass that draws every triangle once a view, onto squares of several sizes, visible to compute
-    /// and fragment shaders after it. Passes learn the number of a draw's first view where others learn their
-    /// step.
+    /// A labelled pass that draws every triangle once per view, onto squares of several sizes, visible to compute and
+    /// fragment shaders after it. The push constant that is the step in other passes is the number of a draw's first
+    /// view.
     pub fn raster_views(
         &self,
         recorder: &mut Recorder<'_>,
@@ -246,8 +247,8 @@ impl BuildTarget<'_> {
         recorder.end_pass();
     }
 
-    /// The last pass of every build: one workgroup judges whether all was stored, and the header goes to the
-    /// host.
+    /// The last pass of every build: one workgroup checks whether everything was stored, and the header is copied to
+    /// the host.
     pub fn status_pass(&self, recorder: &mut Recorder<'_>, label: &str, pipeline: &ComputePipeline) {
         recorder.begin_pass(label);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);

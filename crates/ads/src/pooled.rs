@@ -97,7 +97,7 @@ impl<D: Design> Pooled<D> {
         &self.parts.config
     }
 
-    /// The header as the last build of slot 0 left it. The caller has waited for the submission.
+    /// The header after the last build of slot 0. The caller has waited for the submission.
     ///
     /// # Errors
     /// Host-visible memory could not be read.

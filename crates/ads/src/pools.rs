@@ -16,14 +16,14 @@ use crate::{
 /// The header's name among the pools; it is the first.
 const HEADER: &str = "header";
 
-/// How many times as many rounds are allowed where rays were left unfinished.
+/// Factor by which the number of rounds grows where rays did not finish.
 const MORE_ROUNDS: u32 = 4;
 
-/// Rounds beyond which no more are allowed: 2^26 units of work a ray, and 2^15 dispatches a trace.
+/// Maximum number of rounds: 2^26 units of work per ray, and 2^15 dispatches per trace.
 const MOST_ROUNDS: u32 = 1 << 14;
 
-/// Buffers of one size, one a pool, in the order of [`Sizes::pools`]. The first is the header, of one element.
-/// Its first word is the status that traces look at before anything else.
+/// Buffers of one size, one per pool, in the order of [`Sizes::pools`]. The first is the header, of one element.
+/// Its first word is the status, which traces read before anything else.
 #[derive(Debug)]
 pub struct Pools {
     structure: &'static str,
@@ -32,7 +32,7 @@ pub struct Pools {
     sizes: Sizes,
     /// What the next build's header begins as.
     header: Vec<u8>,
-    /// For each slot the header as its build left it, and behind it [`Pools::outside`]; once more for what no slot keeps.
+    /// Per slot the header after its build, and behind it [`Pools::outside`]; one more entry for builds without a slot.
     header_readback: Buffer,
     /// Builds whose outcome is kept apart: frames that the device works on at a time.
     slots: u32,
@@ -40,13 +40,13 @@ pub struct Pools {
     slot: u32,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
-    /// Rounds that were asked for beyond those that a trace has at first. Traces learn it, so it changes behind a
+    /// Rounds that were allowed in addition to those that a trace has at first. Traces raise it, so it changes behind a
     /// shared reference.
     rounds: AtomicU32,
 }
 
 impl Pools {
-    /// Allocates. The set has a binding a pool in the order of `sizes`, and none by address.
+    /// Allocates. The set has one binding per pool in the order of `sizes`, and none by address.
     ///
     /// # Errors
     /// Out of memory; a pool exceeds what one binding can hold (then use device addresses).
@@ -121,7 +121,7 @@ impl Pools {
         Ok(())
     }
 
-    /// Keeps the outcome of `slots` builds apart from now on, at least 1; what the last ones left is lost.
+    /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are lost.
     ///
     /// # Errors
     /// Out of memory; then all is as it was.
@@ -269,7 +269,7 @@ impl Pools {
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
-    /// The header as the last build of a slot left it, zeros before the first. The caller has waited for the submission.
+    /// The header after the last build of a slot, zeros before the first. The caller has waited for the submission.
     ///
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
@@ -286,7 +286,7 @@ impl Pools {
         device.download_as::<u32>(self.pool(pool), 0, (bytes(&self.sizes, pool.name()) / 4) as usize)
     }
 
-    /// Bytes by part for a report: `used` gives the elements of a pool that hold something, all others are
+    /// Bytes by part for a report: `used` gives the elements of a pool that are in use, all others are
     /// "slack".
     pub fn bytes_by_part(&self, used: impl Fn(&PoolSize) -> u64) -> Vec<(&'static str, u64)> {
         let mut slack = 0;
@@ -305,13 +305,13 @@ impl Pools {
         InlineTrace { layout: &self.layout, set: self.set(), address: self.address(), constants }
     }
 
-    /// The rounds of a structure that gives rays `first` of them until more are asked for.
+    /// The rounds of a structure: `first`, until more are allowed.
     pub fn rounds(&self, first: u32) -> u32 {
         self.rounds.load(Ordering::Relaxed).max(first)
     }
 
-    /// Allows several times as many rounds as [`Pools::rounds`] of `first` are now, but not more than `most`, in which
-    /// every ray would be finished. False where that changes nothing, and beyond 2^14 rounds.
+    /// Multiplies [`Pools::rounds`] of `first`, up to `most`, in which every ray finishes, and up to 2^14 rounds. False
+    /// where that changes nothing.
     pub fn allow_more_rounds(&self, first: u32, most: u32) -> bool {
         let now = self.rounds(first);
         let more = now.saturating_mul(MORE_ROUNDS).min(most).min(MOST_ROUNDS);
@@ -319,16 +319,16 @@ impl Pools {
         more > now
     }
 
-    /// The same up to `first` rounds and those in which a ray reads everything that is stored. More than that is no work
-    /// but a list without an end, such as damage makes.
+    /// The same up to `first` rounds plus those in which a ray reads everything that is stored. A ray that needs more
+    /// is in a list without an end, which only damaged memory has.
     pub fn allow_rounds_to_read_all(&self, first: u32, work_budget: u32) -> bool {
         let elements: u64 = self.sizes.pools.iter().map(|pool| pool.elements).sum();
         let most = u64::from(first) + elements.div_ceil(work_budget.into());
         self.allow_more_rounds(first, most.min(u32::MAX.into()) as u32)
     }
 
-    /// Records a trace of the slots of `domain`. Traces count list entries that name nothing in the word of the header at
-    /// byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
+    /// Records a trace of the slots of `domain`. Traces count list entries with an invalid index in the word of the
+    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -376,7 +376,7 @@ impl Pools {
     }
 }
 
-/// Bytes of what a slot keeps of its build: the header, and the count of triangles outside.
+/// Bytes that a slot keeps of its build: the header, and the count of triangles outside.
 fn entry_bytes(header_bytes: u64) -> u64 {
     header_bytes + 4
 }

@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::ads::PYRAMID_THREADS;
 
 use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
 
-/// Builds blocks of 2x2, 4x4 ... cells up to one a view: the pipeline of `ads/build_pyramid.comp` as compiled for a
+/// Builds blocks of 2x2, 4x4 ... cells up to one per view: the pipeline of `ads/build_pyramid.comp` as compiled for a
 /// structure, whose `pyramid.glsl` says where the cells and the blocks are. A dispatch a level.
 #[derive(Debug)]
 pub struct Pyramid {
@@ -48,7 +48,7 @@ impl Pyramid {
     }
 }
 
-/// Levels up to one block a view.
+/// Levels up to one block per view.
 fn levels(view: &ViewDraw) -> u32 {
     view.side.next_power_of_two().trailing_zeros()
 }

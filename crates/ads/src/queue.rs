@@ -19,7 +19,7 @@ const STEP_HEADER: u64 = 8;
 /// Which slots of a queue a pass works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Domain {
-    /// So many of the first.
+    /// The first n slots.
     First(u32),
     /// Those that shaders selected (`queue_select` of `ads/queue.glsl`) before the last [`RayQueue::record_take`], in no
     /// particular order: as many as the device counted, so that the pass costs nothing for the others.
@@ -36,14 +36,14 @@ impl Domain {
     }
 }
 
-/// What a queue holds beside rays, hits and states. What is not asked for is a placeholder of 16 bytes.
+/// What a queue holds in addition to rays, hits and states. A part that is not requested is a placeholder of 16 bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct QueueParts {
     /// A [`Surface`] per slot.
     pub surfaces: bool,
     /// A [`RayWork`] per slot, written by structures that count per ray.
     pub work: bool,
-    /// Room for this many [`TraceStep`]s of slot 0, written by structures that log steps.
+    /// Capacity for [`TraceStep`]s of slot 0, written by structures that log steps.
     pub steps: u32,
 }
 
@@ -70,9 +70,9 @@ pub struct RayQueue {
 pub struct QueueCounters {
     /// Rays given up after their last round.
     pub unfinished: u32,
-    /// Rays that met an incomplete structure.
+    /// Rays traced while the structure was incomplete.
     pub not_ready: u32,
-    /// List entries that named nothing, met in the structure last traced since it was built; anything but 0 is a fault.
+    /// List entries with an invalid index in the structure last traced, since it was built; anything but 0 is a fault.
     pub corrupted: u32,
     /// Cells stepped; zero unless counters are enabled.
     pub cells: u64,
@@ -118,7 +118,7 @@ impl RayQueue {
         let list = buffer("list", size_of::<u32>(), 4 * slots)?;
         let surfaces = buffer("surfaces", size_of::<Surface>(), if parts.surfaces { slots } else { 0 })?;
         let work = buffer("work", size_of::<RayWork>(), if parts.work { slots } else { 0 })?;
-        // Less than the placeholder's 16 bytes would have room for no step either.
+        // The placeholder's 16 bytes hold no step.
         let step_bytes = u64::from(parts.steps) * size_of::<TraceStep>() as u64;
         let steps = buffer("steps", 1, if parts.steps > 0 { STEP_HEADER + step_bytes } else { 0 })?;
         let layout = Self::layout(device)?;
@@ -168,7 +168,7 @@ impl RayQueue {
         recorder.fill(&self.header, 0, size, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, offset_of!(QueueHeader, capacity) as u64, 4, self.capacity);
-        // Slot 0 is logged; no slot where there is no room.
+        // Slot 0 is logged; no slot where the capacity is 0.
         let logged = if self.step_capacity > 0 { 0 } else { u32::MAX };
         recorder.fill(&self.steps, 0, 4, logged);
         recorder.fill(&self.steps, 4, 4, 0);
@@ -184,7 +184,7 @@ impl RayQueue {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }
 
-    /// Records that no slot is selected for the passes after the next take, whatever shaders left behind.
+    /// Records that no slot is selected for the passes after the next take, whatever shaders selected before.
     pub fn record_select_none(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
         recorder.fill(&self.header, offset_of!(QueueHeader, selecting) as u64, 4, 0);
@@ -245,13 +245,13 @@ impl RayQueue {
         &self.surfaces
     }
 
-    /// [`RayWork`] per slot, as the last trace through a structure that counts per ray left it; a placeholder
+    /// [`RayWork`] per slot, after the last trace through a structure that counts per ray; a placeholder
     /// unless the queue was made with [`QueueParts::work`].
     pub fn work(&self) -> &Buffer {
         &self.work
     }
 
-    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has room
+    /// The steps of slot 0 since the reset, and how many there were, which may be more than the queue has capacity
     /// for. Submits and waits: for tests and tools.
     ///
     /// # Errors
@@ -283,7 +283,7 @@ impl RayQueue {
         .sum()
     }
 
-    /// What all traces since the reset came to. Submits and waits: for after a trace, tests and tools.
+    /// Sums over all traces since the reset. Submits and waits: for use after a trace, in tests and tools.
     ///
     /// # Errors
     /// The device failed.

@@ -1,4 +1,4 @@
-//! What a logged step says, in words.
+//! Logged steps, in words.
 
 use std::fmt;
 use std::ops::Deref;
@@ -8,10 +8,10 @@ use rasray_shaders_glsl::{constants::contract as numbers, records};
 
 use crate::{PRIMITIVE_NONE, PRIMITIVE_UNKNOWN};
 
-/// The number that stands for the near box among the views of a cube.
+/// The number of the near region among the views of a cube.
 const VIEW_NEAR: u32 = 6;
 
-/// The number that stands for the view of a camera.
+/// The number of the view of a camera.
 const VIEW_CAMERA: u32 = 7;
 
 /// What a traversal did.
@@ -22,19 +22,19 @@ pub enum StepKind {
     Round,
     /// A view was entered.
     View,
-    /// A cell was come to, to be searched or passed over.
+    /// A cell was visited, to be searched or skipped.
     Cell,
     /// A node of a hierarchy was visited.
     Node,
     /// A bucket or list was searched.
     List,
-    /// Something was passed over.
+    /// Something was skipped.
     Skip,
     /// An entry of a list was read.
     Entry,
     /// A primitive was tested.
     Test,
-    /// A fragment was judged by its depth.
+    /// A fragment was compared by its depth.
     Fragment,
     /// The best hit was replaced.
     Best,
@@ -46,7 +46,7 @@ pub enum StepKind {
     Unknown,
 }
 
-/// What came of a test.
+/// The result of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TestVerdict {
@@ -54,7 +54,7 @@ pub enum TestVerdict {
     Accepted,
     /// The ray excludes this primitive.
     Excluded,
-    /// The ray passes beside the triangle.
+    /// The ray passes outside of the triangle.
     Beside,
     /// The ray runs along the triangle's plane, or the triangle has no area.
     Parallel,
@@ -62,7 +62,7 @@ pub enum TestVerdict {
     Before,
     /// At or beyond `t_max`.
     Beyond,
-    /// Outside the cell's stretch of the ray, or of the depths looked for.
+    /// Outside of the cell's t interval, or of the depth interval searched.
     OutsideCell,
     /// On the triangle's plane, too far from the triangle.
     OutOfReach,
@@ -76,19 +76,19 @@ pub enum TestVerdict {
     Unknown,
 }
 
-/// Why something was passed over.
+/// Why something was skipped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SkipReason {
     /// The cell or list is empty.
     Empty,
-    /// What is looked for is not in it.
+    /// Nothing in it is within the interval searched.
     Outside,
     /// It lies behind the best hit.
     Behind,
-    /// The rest of a sorted list lies past the depths looked for.
+    /// The rest of a sorted list lies beyond the depth interval searched.
     Past,
-    /// Nothing is left of the ray's range within the bounds of the geometry.
+    /// The rest of the ray's range is outside of the bounds of the geometry.
     Bounds,
     /// A number that has no meaning here.
     Unknown,
@@ -127,7 +127,7 @@ impl TraceStep {
         }
     }
 
-    /// What came of a test or of judging a fragment; `None` for other steps.
+    /// The result of a test or of comparing a fragment; `None` for other steps.
     pub fn verdict(&self) -> Option<TestVerdict> {
         if !matches!(self.kind(), StepKind::Test | StepKind::Fragment) {
             return None;
@@ -148,7 +148,7 @@ impl TraceStep {
         })
     }
 
-    /// Why something was passed over; `None` for other steps.
+    /// Why something was skipped; `None` for other steps.
     pub fn skip_reason(&self) -> Option<SkipReason> {
         if self.kind() != StepKind::Skip {
             return None;
@@ -195,7 +195,7 @@ impl fmt::Display for TraceStep {
         let records::TraceStep { a, b, t_low, t_high, .. } = self.0;
         match self.kind() {
             StepKind::Round => write!(f, "round {a}"),
-            StepKind::View if a == VIEW_NEAR => write!(f, "near box, t {t_low} to {t_high}"),
+            StepKind::View if a == VIEW_NEAR => write!(f, "near region, t {t_low} to {t_high}"),
             StepKind::View if a == VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),
             StepKind::View => write!(f, "view {a}, t {t_low} to {t_high}"),
             StepKind::Cell => {
@@ -206,12 +206,12 @@ impl fmt::Display for TraceStep {
             StepKind::List if b == 0 => write!(f, "bucket {a}: empty"),
             StepKind::List => write!(f, "bucket {a} from entry {b}, depths {t_low} to {t_high}"),
             StepKind::Skip => match self.skip_reason().unwrap_or(SkipReason::Unknown) {
-                SkipReason::Empty => write!(f, "passed over: empty"),
-                SkipReason::Outside => write!(f, "passed over: nothing within {t_low} to {t_high}"),
+                SkipReason::Empty => write!(f, "skipped: empty"),
+                SkipReason::Outside => write!(f, "skipped: nothing within {t_low} to {t_high}"),
                 SkipReason::Behind => write!(f, "ended: t {t_low} lies behind the best hit"),
-                SkipReason::Past => write!(f, "rest of the list passed over: past {t_low} to {t_high}"),
+                SkipReason::Past => write!(f, "rest of the list skipped: beyond {t_low} to {t_high}"),
                 SkipReason::Bounds => write!(f, "ended: nothing of the geometry after t {t_low}"),
-                SkipReason::Unknown => write!(f, "passed over: reason {a}"),
+                SkipReason::Unknown => write!(f, "skipped: reason {a}"),
             },
             StepKind::Entry => write!(f, "entry {a}, depth {t_low}"),
             StepKind::Test => write!(f, "{}: {}", name_of(a), Words(self)),
@@ -234,15 +234,15 @@ impl fmt::Display for Words<'_> {
         match self.0.verdict().unwrap_or(TestVerdict::Unknown) {
             TestVerdict::Accepted => write!(f, "accepted, t {t}"),
             TestVerdict::Excluded => write!(f, "excluded by the ray"),
-            TestVerdict::Beside => write!(f, "passed beside"),
+            TestVerdict::Beside => write!(f, "passed outside"),
             TestVerdict::Parallel => write!(f, "parallel to the ray, or without area"),
             TestVerdict::Before => write!(f, "refused, t {t} is before the range"),
             TestVerdict::Beyond => write!(f, "refused, t {t} is beyond the range"),
             TestVerdict::OutsideCell if self.0.kind() == StepKind::Fragment => {
-                write!(f, "refused, not among the depths looked for")
+                write!(f, "refused, outside of the depths searched")
             }
             TestVerdict::OutsideCell => write!(f, "refused, t {t} is outside of the cell"),
-            TestVerdict::OutOfReach => write!(f, "refused, t {t} is too far beside the triangle"),
+            TestVerdict::OutOfReach => write!(f, "refused, t {t} is too far from the triangle"),
             TestVerdict::Leaving => write!(f, "refused, the ray starts on the plane"),
             TestVerdict::NotBetter => write!(f, "t {t} is no better than the best hit"),
             TestVerdict::Transparent => write!(f, "transparent at t {t}"),

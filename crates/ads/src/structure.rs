@@ -54,7 +54,7 @@ impl Sizes {
     /// Pools of a structure with their elements and the bytes of one, in the order of their bindings.
     ///
     /// # Errors
-    /// A pool has so many words that 32 bits do not number them and one value that means "none" or "more".
+    /// A pool has more words than 32-bit indices can address with one value reserved for "none" or "more".
     pub fn of<P: PoolName>(
         structure: &'static str,
         pools: impl IntoIterator<Item = (P, u64, u64)>,
@@ -73,7 +73,7 @@ impl Sizes {
         }
     }
 
-    /// Whether a pool is larger than that of its name in `other`.
+    /// Whether a pool is larger than the pool of the same name in `other`.
     pub fn exceed(&self, other: &Self) -> bool {
         self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
     }
@@ -88,25 +88,25 @@ impl Sizes {
         self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()
     }
 
-    /// Elements of a pool; 0 where there is none of that name.
+    /// Elements of a pool; 0 where none has that name.
     pub fn elements(&self, name: &str) -> u64 {
         self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
     }
 }
 
-/// How a pool fared in a build.
+/// Demand and capacity of a pool in a build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PoolStatus {
     /// Name of the pool.
     pub name: &'static str,
-    /// Elements the build asked for; exact also beyond the capacity. Of pages it is what this build began, or
-    /// would have begun: that depends a little on which threads meet, and `check` leaves room for it.
+    /// Elements the build asked for; exact also beyond the capacity. For pages it is the number that this build began
+    /// or would have begun, which varies slightly with the order of threads; `check` adds a margin for it.
     pub demand: u64,
     /// Elements the pool holds.
     pub capacity: u64,
 }
 
-/// What a build left behind, read by the caller after its own wait.
+/// The outcome of a build, read by the caller after its own wait.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildStatus {
     /// Whether traces will answer.
@@ -118,13 +118,13 @@ pub struct BuildStatus {
     /// Triangles with a corner outside of the bounds that their geometry states, or with a vertex that it does not have;
     /// with any of them the build is not complete.
     pub outside: u32,
-    /// List entries that named no node, met by the build; anything but 0 is a fault. What traces meet is in
-    /// [`crate::QueueCounters::corrupted`].
+    /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces find are
+    /// in [`crate::QueueCounters::corrupted`].
     pub corrupted: u64,
 }
 
 impl BuildStatus {
-    /// What the build asked of a pool; absent where there is none of that name.
+    /// The demand for a pool; absent where none has that name.
     pub fn demand(&self, name: &str) -> Option<u64> {
         self.pools.iter().find(|pool| pool.name == name).map(|pool| pool.demand)
     }
@@ -140,7 +140,7 @@ pub enum Check {
 }
 
 impl BuildStatus {
-    /// What [`Structure::check`] answers: `plan` works out the sizes for demands that grow by so many percent.
+    /// The result of [`Structure::check`]: `plan` computes the sizes for demands with the given growth.
     ///
     /// # Errors
     /// As [`Structure::check`].
@@ -155,19 +155,19 @@ impl BuildStatus {
         if self.complete {
             return Ok(Check::Complete);
         }
-        // Less headroom is better than no room.
+        // Without headroom is better than not at all.
         plan(Growth { percent: headroom }).or_else(|_| plan(Growth { percent: 0 })).map(Check::Grow)
     }
 }
 
-/// How much more than what was asked for a pool gets that has to grow.
+/// How far beyond its demand a pool grows.
 #[derive(Clone, Copy, Debug)]
 pub struct Growth {
     percent: u32,
 }
 
 impl Growth {
-    /// Elements for a pool that was asked for `demand` and holds `capacity`: never less than it holds.
+    /// Elements for a pool of this demand and capacity: never less than its capacity.
     pub fn of(self, demand: u64, capacity: u64) -> u64 {
         if demand <= capacity {
             return capacity;
@@ -209,7 +209,7 @@ impl StructureReport {
 }
 
 /// What a shader of one's own needs to call the structure's GLSL functions (`x_trace_closest`, `x_trace_occluded`,
-/// `x_surface_at` of the structure's folder) beside its own work.
+/// `x_surface_at` of the structure's folder).
 #[derive(Clone, Debug)]
 pub struct InlineTrace<'a> {
     /// Layout of the structure's set, which the shader finds at `STRUCTURE_SET`; empty by address.
@@ -222,8 +222,8 @@ pub struct InlineTrace<'a> {
     pub constants: Vec<(u32, u32)>,
 }
 
-/// What makes a build stale beside the triangles, which always do: where none of it changed, the last build is as good as
-/// a new one.
+/// What makes a build stale, in addition to the triangles, which always do. Where none of it changed, a new build would
+/// be the same as the last.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dependencies {
     /// Where the eye is.
@@ -233,7 +233,7 @@ pub struct Dependencies {
 }
 
 impl Dependencies {
-    /// Whether a build as seen from `built` would be another one as seen from `wanted`.
+    /// Whether a build for `built` differs from one for `wanted`.
     pub fn are_stale(self, built: Viewpoint, wanted: Viewpoint) -> bool {
         (self.eye && built.eye != wanted.eye) || (self.camera && built.camera != wanted.camera)
     }
@@ -241,8 +241,8 @@ impl Dependencies {
 
 /// A structure that rays are traced through.
 ///
-/// One value is one set of pools, whose builds and traces follow each other on the device's queue. What the host reads of
-/// a build is kept once per slot ([`Structure::set_slots`]): a host that has n frames in flight records the build of
+/// One value is one set of pools, whose builds and traces follow each other on the device's queue. What the host reads
+/// of a build is kept per slot ([`Structure::set_slots`]): a host that has n frames in flight records the build of
 /// frame k for slot k mod n, and reads the status of a slot after that frame's fence.
 pub trait Structure {
     /// Name, the same as in shaders, pages and reports.
@@ -287,21 +287,22 @@ pub trait Structure {
     /// Builds whose outcome is kept apart; 1 unless [`Structure::set_slots`] was called.
     fn slots(&self) -> u32;
 
-    /// Keeps the outcome of so many builds apart from now on (at least 1): as many as there are frames in flight. What
-    /// earlier builds left for the host is lost; the pools stay as they are.
+    /// Keeps the outcomes of this number of builds separately from now on (at least 1): one per frame in flight.
+    /// Outcomes of earlier builds are lost; the pools stay as they are.
     ///
     /// # Errors
     /// Out of memory; then all is as it was.
     fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError>;
 
-    /// What makes a build stale, beside the triangles.
+    /// What makes a build stale, in addition to the triangles.
     fn depends_on(&self) -> Dependencies;
 
-    /// Records a build as seen from there, whose status is that of `slot` once the device is done. Structures without
+    /// Records a build for a viewpoint, whose status is that of `slot` once the device is done. Structures without
     /// views ignore the viewpoint.
     ///
     /// # Errors
-    /// There is no such slot ([`AdsError::Slot`]), or the structure has a view of the camera and there is none.
+    /// The slot does not exist ([`AdsError::Slot`]), or the structure has a view of the camera and the viewpoint has
+    /// none.
     fn record_build(
         &mut self,
         recorder: &mut Recorder<'_>,
@@ -309,28 +310,28 @@ pub trait Structure {
         viewpoint: Viewpoint,
     ) -> Result<(), AdsError>;
 
-    /// Reads what the last build of a slot left behind; [`Structure::report`] and [`Structure::rounds`] are of this build
+    /// Reads the outcome of the last build of a slot; [`Structure::report`] and [`Structure::rounds`] are of this build
     /// from then on. The caller has waited for the submission.
     ///
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError>;
 
-    /// Whether the build is complete, or the sizes it needs. What has to grow gets `headroom` percent more than was
-    /// asked for, where there are indices for it: 0 for a scene that stands still; 50 where frames follow each other,
-    /// so that the next one that asks for a little more is complete at once.
+    /// Whether the build is complete, or the sizes it needs. Pools that grow get `headroom` percent more than their
+    /// demand, as far as indices allow: 0 for a static scene; 50 for a sequence of frames, so that the next frame with
+    /// a slightly larger demand is complete at once.
     ///
     /// # Errors
-    /// No sizes would do: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
+    /// No sizes suffice: [`AdsError::PoolTooLarge`], or [`AdsError::OutsideBounds`].
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError>;
 
     /// Rounds after which any ray through this structure should be finished, unless
     /// [`Structure::allow_more_rounds`] says otherwise.
     fn rounds(&self) -> u32;
 
-    /// Raises [`Structure::rounds`] where a ray might need more of them than nearly every ray does: a round costs two
-    /// dispatches, also where no ray is left. Who finds rays unfinished asks this and traces them again; false where
-    /// more rounds would change nothing.
+    /// Raises [`Structure::rounds`] where a ray might need more than nearly all rays do: a round costs two dispatches,
+    /// also when no ray is paused. A caller that finds unfinished rays calls this and traces again; false where more
+    /// rounds would change nothing.
     fn allow_more_rounds(&self) -> bool {
         false
     }

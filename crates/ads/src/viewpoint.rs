@@ -38,7 +38,8 @@ impl CameraView {
     }
 }
 
-/// Where a build is seen from. Structures without views ignore it, those without a view of the camera ignore that.
+/// The eye and the camera that a build is made for. Structures without views ignore both, those without a view of the
+/// camera ignore the camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {
     /// Metres relative to the frame origin.

@@ -10,7 +10,7 @@ use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
 pub enum Builder {
     /// The rasterizer proposes cells, and the shared function decides.
     Raster,
-    /// A compute pass goes through all cells that a triangle may reach into; the same function decides.
+    /// A compute pass visits all cells that a triangle may reach into; the same function decides.
     Binning,
 }
 
@@ -49,9 +49,9 @@ enum Passes {
     Binning {
         /// Triangles.
         bin: ComputePipeline,
-        /// Those with many cells of a view.
+        /// Those of the large-triangle queue.
         many: ComputePipeline,
-        /// Byte of the header that says how many workgroups those get.
+        /// Byte of the header with the number of workgroups for those.
         groups: u64,
     },
 }
@@ -70,9 +70,8 @@ impl Visit {
         Ok(Self { label: label.to_owned(), passes: Passes::Raster(pipelines.raster(vertex, fragment)?) })
     }
 
-    /// Computes with `bin`, one invocation a triangle, and `many`, workgroups for those with many cells of a
-    /// view, whose number is three u32 at this byte of the header. The label gets the endings `_bin` and
-    /// `_bin_many`.
+    /// Computes with `bin`, one invocation per triangle, and `many`, for the large-triangle queue, whose workgroups are
+    /// three u32 at this byte of the header. The label gets the suffixes `_bin` and `_bin_many`.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -110,7 +109,7 @@ fn triangle_groups(target: BuildTarget<'_>) -> u64 {
     u64::from(target.geometry.triangle_count()).div_ceil(BIN_GROUP_SIZE.into())
 }
 
-/// The pass before all visits by computing: finds the triangles with many cells of a view.
+/// The pass before all visits by computing: fills the large-triangle queue.
 #[derive(Debug)]
 pub struct PairsPass {
     label: String,
@@ -127,19 +126,19 @@ impl PairsPass {
 
 /// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
 /// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_many.alpha`
-/// beside it.
+/// with it.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
     /// What makes pipelines.
     pub pipelines: &'a BuildPipelines<'a>,
     /// Who builds.
     pub builder: Builder,
-    /// Byte of the header that says how many workgroups triangles with many cells of a view get: three u32.
+    /// Byte of the header with the workgroups for the large-triangle queue: three u32.
     pub groups: usize,
 }
 
 impl Visits<'_> {
-    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader.
+    /// The visit of that name and variant (`.alpha`, or nothing). Drawing uses this vertex shader.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
@@ -166,8 +165,8 @@ impl Visits<'_> {
     }
 }
 
-/// Workgroups for a triangle with many cells of a view: so many that the loops of no invocation turn more
-/// than `BIN_TURNS` times. `turns`: cells of the largest view, times those of a loop within each.
+/// Workgroups per triangle of the large-triangle queue: enough that no loop of an invocation has more than `BIN_TURNS`
+/// iterations. `turns`: cells of the largest view, times the iterations of a loop within each.
 pub fn bin_groups(turns: u64) -> u32 {
     turns.div_ceil(u64::from(BIN_GROUP_SIZE) * BIN_TURNS as u64) as u32
 }

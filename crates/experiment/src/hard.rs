@@ -1,4 +1,4 @@
-//! A hard case through all systems, judged by the oracle and by what is stated of the case.
+//! A hard case through all systems, compared with the oracle and with the target of the case.
 
 use glam::DVec3;
 use rasray_ads::{Hit, StructureKind};

@@ -115,7 +115,7 @@ impl Frame {
     }
 }
 
-/// Images beside the colours, from rays through pixel centres.
+/// Images in addition to the colours, from rays through pixel centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AovSelection {
     /// Distance along the ray.
@@ -322,11 +322,11 @@ pub struct RenderOutput {
     pub height: u32,
     /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
     pub beauty: Vec<[f32; 3]>,
-    /// Metres from the eye along the ray; 0 where nothing was met.
+    /// Metres from the eye along the ray; 0 where nothing was hit.
     pub depth: Option<Vec<f32>>,
-    /// Unit geometric normal in the world, facing the eye; zero where nothing was met.
+    /// Unit geometric normal in the world, facing the eye; zero where nothing was hit.
     pub normal: Option<Vec<[f32; 3]>>,
-    /// Global triangle id in scene order; `u32::MAX` where nothing was met.
+    /// Global triangle id in scene order; `u32::MAX` where nothing was hit.
     pub primitive: Option<Vec<u32>>,
     /// Samples per pixel in `beauty`; fewer than asked for after an early end.
     pub samples_done: u32,

@@ -9,7 +9,7 @@ use crate::stage::device_error;
 use rasray_report::Accuracy;
 use rasray_report::figures::DepthErrors;
 
-/// |dt| / t up to which a fragment structure may name another triangle: hits on one plane.
+/// |dt| / t up to which a fragment structure may report another triangle: hits on one plane.
 const FRAGMENT_TOLERANCE: f64 = 1.0e-5;
 
 /// Hits as the metrics know them; a miss is absent.

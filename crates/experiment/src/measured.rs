@@ -55,7 +55,7 @@ pub struct Measured {
     pub out_of_range: usize,
     /// Rays that a stated answer says hit and that got no hit although a watertight test finds one.
     pub lost: usize,
-    /// Unambiguous and ambiguous rays that are not judged: what they meet lies outside of what the camera sees.
+    /// Unambiguous and ambiguous rays that are not evaluated: their hits lie outside of what the camera sees.
     pub unseen: usize,
     /// |dt| / t of the hits on the right triangle.
     pub dt_right: Option<Percentiles>,

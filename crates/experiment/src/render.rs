@@ -141,7 +141,7 @@ fn use_once(
     Ok(started.elapsed().as_secs_f64() * 1.0e3)
 }
 
-/// Refuses a picture whose rays met list entries that name nothing.
+/// Refuses a picture whose rays found list entries with an invalid index.
 fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), ExperimentError> {
     for queue in queues {
         let entries = queue.download_counters(device).map_err(device_error)?.corrupted;
@@ -153,7 +153,7 @@ fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Res
     Ok(())
 }
 
-/// Rays without an answer in any queue; rays that met an unbuilt structure count as well.
+/// Rays without an answer in any queue; rays traced through an unbuilt structure count as well.
 fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
     let mut unfinished = 0;
     for queue in queues {
@@ -163,7 +163,7 @@ fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, Experi
     Ok(unfinished)
 }
 
-/// Renders an image with everything that was asked for beside it.
+/// Renders an image with all requested additional images.
 pub(super) fn render(
     device: &Device,
     job: &RenderJob<'_>,
@@ -217,7 +217,7 @@ pub(super) fn render(
     built.write_times(&mut output.times);
     output.spread = built.spread().collect();
     if job.aovs != AovSelection::default() {
-        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "images beside the colours" });
+        _ = progress(Progress { task: "render", done: 0, total: 0, unit: "additional images" });
         add_aovs(device, &stage, &built, job, &mut output)?;
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);

@@ -93,14 +93,14 @@ pub(super) fn replay_case(
     replay_sets(&setting, systems, std::iter::once((name.to_owned(), rays)), index)
 }
 
-/// Where a system met the triangle that is truly hit.
+/// Where a system tested the triangle that is truly hit.
 fn met(replay: &Replay, truth: &OracleReplay) -> String {
     let Some((primitive, _)) = truth.verdict.outcome.hit() else { return String::new() };
     let met = replay.steps_of(primitive);
     if met.is_empty() {
-        return format!("triangle {primitive}, which is truly hit, was not met\n");
+        return format!("triangle {primitive}, which is truly hit, was not tested\n");
     }
-    let mut text = format!("triangle {primitive}, which is truly hit, was met here:\n");
+    let mut text = format!("triangle {primitive}, which is truly hit, was tested here:\n");
     for (place, step) in met {
         let place = place.map_or_else(String::new, |place| format!(" in {place}"));
         let _ = writeln!(text, "  {step}{place}");

@@ -70,7 +70,7 @@ pub struct SystemConfig {
 impl SystemConfig {
     /// The same for renders of a workload: published fragments carry what their paper keeps for occlusion
     /// where nothing else is asked for, unless a payload was given. Comparisons keep the preset's, since rays
-    /// are compared beside the image.
+    /// are compared in addition to the image.
     #[must_use]
     pub fn serving(mut self, workload: Workload) -> Self {
         let occlusion = workload.integrator == Integrator::AmbientOcclusion;

@@ -1,4 +1,4 @@
-//! One set of rays: traced through all systems in turns, judged against the truth, and kept where
+//! One set of rays: traced through all systems in turns, compared with the truth, and kept where
 //! wanted.
 
 use rasray_ads::{Hit, QueueCounters, Ray, StructureKind, TraceMode};
@@ -39,7 +39,7 @@ pub(super) struct Wanted<'a> {
     pub(super) figures: bool,
     /// Whether rays, truth and hits are kept.
     pub(super) keep: bool,
-    /// Hits found elsewhere, judged like a system's.
+    /// Hits found elsewhere, evaluated like a system's.
     pub(super) given_hits: &'a [HitsFile],
 }
 

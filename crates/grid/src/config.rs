@@ -16,7 +16,7 @@ pub struct Config {
     pub cells: Option<u32>,
     /// How pools are reached.
     pub addressing: Addressing,
-    /// Entries to make room for before the first build; 8 per triangle where absent.
+    /// Capacity for entries before the first build; 8 per triangle where absent.
     pub entries: Option<u64>,
     /// How much of their work rays record.
     pub counters: Counters,

@@ -20,7 +20,7 @@ pub type Grid = Pooled<Passes>;
 #[derive(Debug)]
 pub struct Passes(Build);
 
-/// Cells along each axis, one where there is no room for those that the geometry asks for; and whether there is.
+/// Cells along each axis, one where the capacity does not suffice for the geometry; and whether it suffices.
 fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     let wanted = parts.config.cells_over(&parts.geometry);
     let fits = cell_count(wanted) <= parts.elements(Pool::Lists);

@@ -12,7 +12,7 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
 };
 
-/// One occlusion ray a sample from what the camera ray meets; the background is 1. Two traces a wave.
+/// One occlusion ray per sample from the surface that the camera ray hits; the background is 1. Two traces per wave.
 #[derive(Debug)]
 pub struct AmbientOcclusion {
     range: f32,

@@ -25,7 +25,7 @@ pub struct AovPass {
 }
 
 impl AovPass {
-    /// Makes queue, image and kernels for the scene's view, with at most `wave_capacity` rays a wave.
+    /// Makes queue, image and kernels for the scene's view, with at most `wave_capacity` rays per wave.
     ///
     /// # Errors
     /// Sizes that do not fit, out of memory, or the device refuses a pipeline.

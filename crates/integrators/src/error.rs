@@ -27,7 +27,7 @@ pub enum IntegratorError {
         "an image of {width} x {height} pixels cannot be rendered; choose from 1 to {limit} pixels in all"
     )]
     ImageSize {
-        /// Pixels a row.
+        /// Pixels per row.
         width: u32,
         /// Rows.
         height: u32,

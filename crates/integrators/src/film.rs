@@ -5,7 +5,7 @@ use rasray_shaders_glsl::records::{FilmFaults, FilmPixel};
 
 use crate::IntegratorError;
 
-/// Most pixels of an image: their numbers, and those of three channels each, fit in 32 bits.
+/// Maximum number of pixels of an image: indices of pixels, and of their three channels, fit in 32 bits.
 pub const PIXEL_LIMIT: u32 = 1 << 30;
 
 /// The image that integrators add to. Cheap to clone; clones share the image.
@@ -48,7 +48,7 @@ impl Film {
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE | Access::TRANSFER);
     }
 
-    /// Pixels a row.
+    /// Pixels per row.
     pub fn width(&self) -> u32 {
         self.width
     }
@@ -94,7 +94,7 @@ impl Film {
         Ok(device.download_as(&self.pixels, 0, self.pixel_count() as usize)?)
     }
 
-    /// Downloads what was refused: submits and waits.
+    /// Downloads the count of samples that were not added: submits and waits.
     ///
     /// # Errors
     /// The device is lost or out of memory.

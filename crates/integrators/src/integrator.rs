@@ -16,7 +16,7 @@ pub struct IntegratorDesc<'a> {
     /// Where samples are added; as large as the scene's view.
     pub film: &'a Film,
     /// Slots of the queues, from 1 to [`WAVE_LIMIT`]. Fewer than the image has pixels means
-    /// several waves a sample.
+    /// several waves per sample.
     pub wave_capacity: u32,
     /// Shading code that is compiled in: [`GpuScene::features`], or [`ShadingFeatures::ALL`].
     pub features: ShadingFeatures,
@@ -55,12 +55,12 @@ pub(crate) fn check_capacity(wave_capacity: u32) -> Result<u32, IntegratorError>
     }
 }
 
-/// Turns rays through a structure into radiance on a film, wave by wave. It names no structure.
+/// Turns rays through a structure into radiance on a film, wave by wave. It depends on no particular structure.
 ///
 /// Recording only records: it never submits, waits or allocates. What is traced must be complete and
 /// built from the scene's geometry; film and queues must have been reset once with
-/// [`Integrator::record_reset`]. What a wave leaves is visible to compute shaders and transfers
-/// recorded after it. Passes carry the paths of their shaders.
+/// [`Integrator::record_reset`]. The results of a wave are visible to compute shaders and transfers
+/// recorded after it. The labels of passes are the paths of their shaders.
 pub trait Integrator {
     /// Name, as the command and reports use it.
     fn name(&self) -> &'static str;
@@ -83,20 +83,20 @@ pub trait Integrator {
     /// the picture is not what was asked for.
     fn queues(&self) -> Vec<&RayQueue>;
 
-    /// Most rays in a wave: slots of the smallest queue.
+    /// Maximum number of rays in a wave: slots of the smallest queue.
     fn wave_capacity(&self) -> u32 {
         self.queues().iter().map(|queue| queue.capacity()).min().unwrap_or(0)
     }
 
-    /// Most traces that a wave records.
+    /// Maximum number of traces that a wave records.
     fn traces_per_wave(&self) -> u32;
 
-    /// Bytes of what is kept for every slot beside the queues.
+    /// Bytes per slot in addition to the queues.
     fn state_bytes(&self) -> u64 {
         0
     }
 
-    /// Bytes of queues and states; the film is apart.
+    /// Bytes of queues and states, without the film.
     fn bytes(&self) -> u64 {
         self.queues().iter().map(|queue| queue.bytes()).sum::<u64>() + self.state_bytes()
     }

@@ -67,7 +67,7 @@ pub(crate) struct Bindings {
 }
 
 impl Bindings {
-    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is named when a pass is recorded.
+    /// Sets 0 to 3: geometry, storage, queue, scene. The queue is given when a pass is recorded.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.

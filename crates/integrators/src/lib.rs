@@ -2,11 +2,11 @@
 //!
 //! An [`Integrator`] records waves: runs of pixels of which one sample is taken. Each wave fills a
 //! ray queue, has it traced by whatever [`rasray_ads::Structure`] it is handed, shades what was hit,
-//! and adds to a [`Film`]. Integrators name no structure, and structures know nothing of them.
+//! and adds to a [`Film`]. Integrators depend on no particular structure, and structures not on integrators.
 //!
 //! What is shaded and which random numbers are drawn is written in `docs/shading.md`; random numbers
-//! depend on the pixel's number in the whole image, the sample and the use, never on the wave, so the
-//! picture does not depend on how the image is cut.
+//! depend on the pixel's number in the whole image, the sample and the use, never on the wave, so the picture does not
+//! depend on how the image is cut into waves.
 //!
 //! Shaders bind four sets: geometry, the integrator's own buffers, the queue, the scene.
 //!

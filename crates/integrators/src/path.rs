@@ -13,7 +13,7 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
-/// Most scatterings of a path. A wave records up to this many rounds.
+/// Maximum number of scatterings of a path. A wave records up to this number of rounds.
 pub const BOUNCE_LIMIT: u32 = 1024;
 
 /// Paths of at most `bounces` scatterings. In every round each path that goes on traces one
@@ -82,8 +82,8 @@ impl Path {
     }
 }
 
-/// Closest-hit rounds that a path can need: one a scattering, one for what the last scattered ray
-/// meets, and one for every blended surface that it passes.
+/// Closest-hit rounds that a path can need: one per scattering, one for what the last scattered ray hits, and one for
+/// every blended surface that it passes.
 fn rounds(bounces: u32, blend: bool) -> u32 {
     bounces + 1 + if blend { PATH_LAYER_LIMIT } else { 0 }
 }
@@ -102,7 +102,7 @@ impl Integrator for Path {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let (paths, shadows) = (&self.queue, &self.shadow_queue);
         let all = Domain::First(wave.pixel_count);
-        // Of the first round these are all slots; from then on those whose paths go on.
+        // In the first round these are all slots, later those whose paths continue.
         let mut live = all;
         let mut constants = WaveConstants { bounces: self.bounces, ..WaveConstants::from(wave) };
         self.bindings.record(recorder, &self.primary, paths, all, &constants);
@@ -112,7 +112,7 @@ impl Integrator for Path {
             constants.round = round;
             traced.record_closest(recorder, paths, live)?;
             self.bindings.record(recorder, &self.shade, paths, live, &constants);
-            // In the last round every path has scattered as often as it may: it asks for no light.
+            // In the last round every path has reached the maximum number of scatterings and samples no light.
             if round + 1 < self.rounds {
                 paths.record_take(recorder);
                 shadows.record_take(recorder);

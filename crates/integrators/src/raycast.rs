@@ -10,8 +10,8 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants},
 };
 
-/// Emission plus base colour times the cosine between shading normal and ray; the environment where
-/// nothing is met. One trace a wave.
+/// Emission plus base colour times the cosine between shading normal and ray; the environment where nothing is hit. One
+/// trace per wave.
 #[derive(Debug)]
 pub struct Raycast {
     film: Film,

@@ -3,13 +3,12 @@
 use rasray_ads::{AdsError, Domain, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
-/// A structure for each question that a ray may ask: usually the same for both. A second one may be cheaper where it only
-/// has to say whether anything is in the way.
+/// A structure for nearest hits and one for occlusion: usually the same. A different one for occlusion may be cheaper.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
     /// Finds the nearest hit and its surface.
     pub closest: &'a dyn Structure,
-    /// Says whether there is any hit.
+    /// Tests for occlusion.
     pub occluded: &'a dyn Structure,
 }
 
@@ -45,7 +44,7 @@ impl Traced<'_> {
         self.occluded.record_trace(recorder, queue, domain, TraceMode::Occluded, self.occluded.rounds());
     }
 
-    /// Allows more rounds where a structure does not give rays all that they may need; false where that changes nothing.
+    /// Allows more rounds where a structure gives rays fewer than they may need; false where that changes nothing.
     pub fn allow_more_rounds(self) -> bool {
         let closest = self.closest.allow_more_rounds();
         self.occluded.allow_more_rounds() || closest

@@ -9,10 +9,10 @@ pub const WAVE_LIMIT: u32 = 1 << 20;
 /// Rays in a wave on software drivers, whose dispatches take long, and on devices with little memory.
 const SMALL_WAVE: u32 = 131_072;
 
-/// Bytes per slot of the integrator that keeps the most, rounded up: two queues and a path's state.
+/// Bytes per slot of the integrator with the largest, rounded up: two queues and a path's state.
 const SLOT_BYTES: u64 = 512;
 
-/// Rays in a wave that suit a device: 131,072 on software drivers; on others as many as fit into a sixteenth of the
+/// Number of rays in a wave, by device: 131,072 on software drivers; on others as many as fit into a sixteenth of the
 /// device's memory and into one binding, at most [`WAVE_LIMIT`]. No picture depends on it.
 pub fn wave_capacity(device: &Device) -> u32 {
     let limits = device.limits();
@@ -27,7 +27,7 @@ fn suitable(software: bool, memory: u64, binding: u64) -> u32 {
     slots.clamp(SMALL_WAVE.into(), WAVE_LIMIT.into()) as u32
 }
 
-/// A run of pixels of which one sample is taken. Pixels are numbered row by row from the top left;
+/// A range of pixels of which one sample is taken. Pixels are numbered row by row from the top left;
 /// slot `i` of the queues holds the ray of pixel `first_pixel + i`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wave {
@@ -41,7 +41,7 @@ pub struct Wave {
 }
 
 /// Cuts every sample of `pixels` pixels into waves of at most `capacity`: all pixels of a sample
-/// before the next sample starts, so that stopping early leaves an even picture.
+/// before the next sample starts, so that a picture stopped early has the same number of samples everywhere.
 pub fn waves(pixels: u32, samples: u32, capacity: u32) -> impl Iterator<Item = Wave> {
     let capacity = capacity.clamp(1, WAVE_LIMIT);
     (0..samples).flat_map(move |sample| {

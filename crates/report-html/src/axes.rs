@@ -50,7 +50,7 @@ pub(super) fn linear(title: &str) -> Value {
     json!({"title": {"text": title}, "rangemode": "tozero", "automargin": true})
 }
 
-/// A linear axis with some room below zero, so that symbols at zero are whole.
+/// A linear axis with a margin below zero, so that symbols at zero are whole.
 pub(super) fn around_zero(title: &str, values: impl Iterator<Item = f64>) -> Value {
     let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };

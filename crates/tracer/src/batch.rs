@@ -52,7 +52,7 @@ impl BatchTracer {
     }
 
     /// Traces all rays, one submission after another, in at most [`Structure::rounds`] rounds; all of them again where
-    /// some did not finish and the structure allows more. What is measured is the last time.
+    /// some did not finish and the structure allows more. Measurements are of the last time.
     ///
     /// # Errors
     /// The device fails, rays do not finish, or the structure is not built.
@@ -115,7 +115,7 @@ impl BatchTracer {
         Ok(outcome)
     }
 
-    /// Traces one ray and returns everything that the structure did for it, in at most
+    /// Traces one ray and returns every logged step, in at most
     /// [`Structure::rounds`] rounds. The structure was made with [`Counters::Steps`].
     ///
     /// # Errors

@@ -8,8 +8,8 @@ use rasray_gpu::{Device, PassTiming, Timing};
 use crate::TracerError;
 
 /// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a later
-/// pool's demand may only be known once an earlier pool sufficed, and that for pages differs a little from build to
-/// build, for which [`Structure::check`] leaves room.
+/// pool's demand may only be known once an earlier pool sufficed, and the demand for pages differs slightly from build
+/// to build, for which [`Structure::check`] adds a margin.
 const REBUILDS: u32 = 4;
 
 /// What a build cost.
@@ -23,11 +23,11 @@ pub struct BuildOutcome {
     pub host_milliseconds: f64,
     /// Milliseconds of [`Structure::prepare_build`] within that: what the host did before it recorded.
     pub prepare_milliseconds: f64,
-    /// What the last build left behind.
+    /// The outcome of the last build.
     pub status: BuildStatus,
 }
 
-/// Builds as seen from there (an eye alone will do: metres relative to the frame origin) and grows until complete.
+/// Builds for a viewpoint (or an eye alone, metres relative to the frame origin) and grows until complete.
 ///
 /// # Errors
 /// The device fails, memory does not suffice, or the demand does not settle.

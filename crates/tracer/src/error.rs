@@ -13,7 +13,7 @@ pub enum TracerError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
-    /// A build still asked for more after it had been given what earlier ones asked for.
+    /// A build still needed more capacity after growing to the demand of earlier ones.
     #[error("{structure} is still incomplete after {rebuilds} rebuilds; its demand is not stable")]
     Unstable {
         /// Name of the structure.
@@ -27,23 +27,25 @@ pub enum TracerError {
         /// Name of the structure.
         structure: &'static str,
     },
-    /// Rays were given up.
+    /// Rays did not finish within the rounds allowed.
     #[error("{unfinished} rays did not finish within {rounds} rounds; allow more rounds")]
     Unfinished {
-        /// Rays given up.
+        /// Number of such rays.
         unfinished: u32,
         /// Rounds allowed.
         rounds: u32,
     },
-    /// Traces met entries that name nothing: what is in the structure's memory is not what was built.
-    #[error("{entries} entries of {structure} named nothing while rays were traced: build it again")]
+    /// Traces found entries with an invalid index: the structure's memory was damaged since the build.
+    #[error(
+        "{entries} list entries of {structure} had an invalid index while rays were traced: build it again"
+    )]
     Corrupted {
         /// Name of the structure.
         structure: &'static str,
-        /// Entries met since the last build.
+        /// Number of such entries since the last build.
         entries: u64,
     },
-    /// Rays met an incomplete structure.
+    /// Rays were traced while the structure was incomplete.
     #[error("{rays} rays were traced through a structure that is not built")]
     NotReady {
         /// Rays without an answer.

@@ -1,6 +1,5 @@
-//! Drives structures from the host: the loop that builds until complete, and batches of rays traced
-//! through a queue. This is the side that submits and waits; embedders with a frame of their own use
-//! [`rasray_ads`] alone.
+//! Runs structures from the host: the loop that builds until complete, and batches of rays traced through a queue. This
+//! crate submits and waits; embedders with their own frame use [`rasray_ads`] alone.
 
 mod batch;
 mod build;

@@ -1,4 +1,4 @@
-//! Everything a traversal does for one ray.
+//! The logged steps of one ray's traversal.
 
 use std::fmt;
 
@@ -9,10 +9,10 @@ use rasray_gpu::Device;
 
 use crate::TracerError;
 
-/// Steps there is room for at first; a longer traversal is traced again with room for all.
+/// Capacity for steps at first; a longer traversal is traced again with capacity for all.
 const FIRST_STEPS: u32 = 4096;
 
-/// Most steps that are kept: 28 MiB. What goes beyond is counted.
+/// Maximum number of steps that are kept: 28 MiB. Further ones are counted.
 const MOST_STEPS: u32 = 1 << 20;
 
 /// One ray's traversal, step by step.
@@ -22,15 +22,15 @@ pub struct Replay {
     pub structure: &'static str,
     /// The ray.
     pub ray: Ray,
-    /// What was asked.
+    /// Whether the nearest hit or occlusion was traced.
     pub mode: TraceMode,
-    /// What was done, in order.
+    /// The steps, in order.
     pub steps: Vec<TraceStep>,
     /// Steps after those kept.
     pub omitted: u32,
     /// The answer; `None` where the ray did not finish or the structure is not built.
     pub hit: Option<Hit>,
-    /// What the ray spent.
+    /// The work of the ray.
     pub work: RayWork,
     /// Dispatches it took part in.
     pub rounds: u32,
@@ -102,7 +102,7 @@ impl Replay {
         }
     }
 
-    /// The steps that concern a primitive, each with the cell, view or node it was met in.
+    /// The steps that concern a primitive, each with the cell, view or node in which it occurred.
     pub fn steps_of(&self, primitive: u32) -> Vec<(Option<&TraceStep>, &TraceStep)> {
         let mut place = None;
         let mut found = Vec::new();
@@ -118,7 +118,7 @@ impl Replay {
 }
 
 impl fmt::Display for Replay {
-    /// The ray, then one step a line, indented by what it is part of.
+    /// The ray, then one step per line, indented by the step that contains it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Ray { origin, direction, t_min, t_max, .. } = self.ray;
         let asked = match self.mode {
@@ -140,7 +140,7 @@ impl fmt::Display for Replay {
             writeln!(f, "{:width$}{step}", "", width = 2 * depth)?;
         }
         if self.omitted > 0 {
-            writeln!(f, "  … and {} steps more, for which there is no room", self.omitted)?;
+            writeln!(f, "  … and {} further steps, beyond the capacity", self.omitted)?;
         }
         match &self.hit {
             None => writeln!(f, "no answer: the ray did not finish, or the structure is not built"),

@@ -17,13 +17,14 @@ const SECONDS: f64 = 1.0;
 /// By how much a submission may exceed the one before.
 const GROWTH: u32 = 8;
 
-/// What submissions to each structure may hold, learned from how long the last one took: a million triangles tested one
-/// by one take a million times as long as one, and a submission that takes a minute is ended by a driver or a timeout.
+/// Maximum number of rays of a submission per structure, adapted to the time of the last one: a million triangles
+/// tested one by one take a million times as long as one, and a submission that takes a minute is ended by a driver or
+/// a timeout.
 #[derive(Debug, Default)]
 pub(crate) struct Shares(Mutex<HashMap<Contestant, u32>>);
 
-/// One value of a structure, by where it lies: two of one kind may be of different scenes and options. Another that lies
-/// there later starts from what its predecessor taught, and corrects it.
+/// One value of a structure, by its address: two of one kind may have different scenes and options. A later value at
+/// the same address starts from its predecessor's share and corrects it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Contestant(usize);
 
@@ -40,7 +41,7 @@ impl Shares {
         shares.get(&structure).copied().unwrap_or(FIRST).min(capacity)
     }
 
-    /// Takes note of a submission.
+    /// Records the time of a submission.
     pub(crate) fn learn(&self, structure: Contestant, rays: u32, seconds: f64) {
         let mut shares = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let share = shares.entry(structure).or_insert(FIRST);
@@ -48,11 +49,11 @@ impl Shares {
     }
 }
 
-/// The share after a submission of `rays`, at most `share`, took that long.
+/// The share after a submission of `rays`, at most `share`, with this duration.
 fn next(share: u32, rays: u32, seconds: f64) -> u32 {
     // The conversion saturates.
     let fitting = (f64::from(rays) * SECONDS / seconds.max(1e-6)) as u32;
-    // The rest of a set says little about larger ones, unless it took too long.
+    // The time of a small rest does not predict that of larger submissions, unless it was too long.
     let most = if rays < share { share } else { share.saturating_mul(GROWTH) };
     let least = if rays < share { share.min(fitting) } else { LEAST };
     fitting.clamp(least.max(LEAST).min(most), most)
@@ -64,14 +65,14 @@ mod tests {
 
     #[test]
     fn shares_follow_the_time_that_rays_take() {
-        // Fast ones grow step by step, slow ones shrink at once.
+        // The share grows step by step after fast submissions and shrinks at once after slow ones.
         assert_eq!(next(1024, 1024, 0.001), 8192);
         assert_eq!(next(1024, 1024, 0.5), 2048);
         assert_eq!(next(1024, 1024, 1.0), 1024);
         assert_eq!(next(1024, 1024, 8.0), 128);
         assert_eq!(next(1024, 1024, 1e6), LEAST);
         assert_eq!(next(u32::MAX, u32::MAX, 0.0), u32::MAX);
-        // A small rest lets nothing grow.
+        // A small rest does not raise the share.
         assert_eq!(next(1024, 10, 0.0), 1024);
         assert_eq!(next(1024, 100, 1.0), 100);
         assert_eq!(next(LEAST, 1, 60.0), LEAST);

@@ -80,7 +80,12 @@ const fn within(largest_dt: f64, row: CatalogueRow) -> CatalogueRow {
 /// All rows by theme.
 pub const CATALOGUE: &[CatalogueRow] = &[
     // Shape of triangles.
-    row("G1", "missed rays; of fragments the share that the height in pixels leaves", NoneMissed, Law),
+    row(
+        "G1",
+        "missed rays; for fragments at the rate that follows from the height in pixels",
+        NoneMissed,
+        Law,
+    ),
     within(1e-5, row("G2", "missed rays, |dt| / t", NoneMissed, Law)),
     row("G3", "false hits, NaN", Exact, Exact),
     row("G4", "false hits, NaN", Exact, Exact),
@@ -172,10 +177,10 @@ pub const CATALOGUE: &[CatalogueRow] = &[
     row("P1", "wrong interfaces", NoneMissed, Law),
     row("P2", "triangles other than the lowest", Exact, Law),
     row("P3", "missed rays, |dt| / t", NoneMissed, Law),
-    row("P4", "hits of what a ray leaves", Exact, Law),
-    row("P5", "hits of what a ray leaves", Exact, Law),
+    row("P4", "hits on the surface that a ray starts on", Exact, Law),
+    row("P5", "hits on the surface that a ray starts on", Exact, Law),
     row("P6", "rays that leave a closed box", NoneMissed, Law),
-    row("P7", "hits of what a ray leaves, NaN", Exact, Law),
+    row("P7", "hits on the surface that a ray starts on, NaN", Exact, Law),
     row("P8", "wrong interfaces", NoneMissed, Law),
     row("P9", "missed rays, NaN", NoneMissed, Law),
 ];

@@ -26,10 +26,10 @@ pub(super) const CASES: &[Entry] = &[
         parameter: 0.0,
         build: terminator,
     },
-    Entry { id: "P8-1", title: "one sheet met head-on", parameter: 1.0, build: sheets },
-    Entry { id: "P8-2", title: "two sheets met head-on", parameter: 2.0, build: sheets },
-    Entry { id: "P8-4", title: "four sheets met head-on", parameter: 4.0, build: sheets },
-    Entry { id: "P8-8", title: "eight sheets met head-on", parameter: 8.0, build: sheets },
+    Entry { id: "P8-1", title: "one sheet hit head-on", parameter: 1.0, build: sheets },
+    Entry { id: "P8-2", title: "two sheets hit head-on", parameter: 2.0, build: sheets },
+    Entry { id: "P8-4", title: "four sheets hit head-on", parameter: 4.0, build: sheets },
+    Entry { id: "P8-8", title: "eight sheets hit head-on", parameter: 8.0, build: sheets },
     Entry { id: "P9", title: "critical angle give or take rounding", parameter: 0.0, build: critical_angle },
 ];
 

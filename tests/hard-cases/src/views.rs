@@ -20,7 +20,7 @@ pub(super) const CASES: &[Entry] = &[
     Entry { id: "V3", title: "rays parallel to the image plane", parameter: 0.0, build: parallel_to_image },
     Entry {
         id: "V4",
-        title: "45-degree wall met head-on: slopes of ray and wall are opposite",
+        title: "45-degree wall hit head-on: slopes of ray and wall are opposite",
         parameter: 0.0,
         build: head_on,
     },

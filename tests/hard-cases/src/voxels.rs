@@ -23,7 +23,12 @@ pub(super) const CASES: &[Entry] = &[
         parameter: 0.0,
         build: ends_of_grid,
     },
-    Entry { id: "X7", title: "published ray whose walk did not end", parameter: 0.0, build: endless_walk },
+    Entry {
+        id: "X7",
+        title: "published ray whose traversal did not end",
+        parameter: 0.0,
+        build: endless_walk,
+    },
     Entry { id: "X8", title: "rays without end through an empty grid", parameter: 0.0, build: empty_grid },
 ];
 

@@ -1,12 +1,12 @@
-//! A structure in the command buffers of the host, the same for every one: built, traced, and grown where a build asks for
-//! more room.
+//! A structure in the command buffers of the host, the same for every one: built, traced, and resized where a build
+//! needs more capacity.
 
 use rasray_ads::{Check, Domain, Hit, RayQueue, Structure, TraceMode};
 use rasray_gpu::{Device, Recorder};
 
 use super::{Host, Result, rays};
 
-/// Builds and traces in one command buffer of the host; once more where a build asks for more room.
+/// Builds and traces in one command buffer of the host, and again where a build needs more capacity.
 pub fn hits(host: &Host, device: &Device, structure: &mut dyn Structure) -> Result<Vec<Hit>> {
     let rays = rays();
     let queue = RayQueue::new(device, "rays", rays.len() as u32, false)?;

@@ -376,7 +376,7 @@ pub fn staircase(steps: u32) -> Mesh {
     Mesh { positions, indices, bounds: [[0.0; 3], [1.0, 1.001, 1.0]] }
 }
 
-/// Rays of which many meet stairs.
+/// Rays of which many hit the stairs.
 pub fn rays() -> Vec<Ray> {
     let origin = |k: u32| [0.1 + 0.0007 * k as f32, 0.0003 + 0.00099 * k as f32, -1.0];
     (0..1000).map(|k| Ray::new(origin(k), [0.05, 0.01, 1.0])).collect()

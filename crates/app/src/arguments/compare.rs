@@ -22,7 +22,7 @@ Examples:
   rasray compare hard:all --systems mmrt,brute-force --check
   rasray compare cornell --systems mmrt --presets published --ray-set incoherent --replay 17
 
-Every system traces the same rays and is judged by an oracle in double precision. Rays that no f32
+Every system traces the same rays and is compared with an oracle in double precision. Rays that no f32
 program can decide are counted apart. Systems take turns, so that what slows the machine slows all of
 them. An option goes to the systems that have it; SYSTEM.OPTION=VALUE addresses one, and
 SYSTEM-PRESET.OPTION=VALUE one preset of it; mmrt.buckets=1,4,8 takes part once with each value.

@@ -23,7 +23,7 @@ Examples:
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
 Z (metres along the ray, 0: miss), N.X N.Y N.Z (geometric normal, world) and id (triangle, 4294967295:
-miss). Files are written beside their place and renamed, so a file there is always whole; of a link it is
+miss). Files are written next to their place and renamed, so a file there is always whole; of a link it is
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command

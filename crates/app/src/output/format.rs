@@ -8,7 +8,7 @@ use std::path::Path;
 pub enum ImageFormat {
     /// 8-bit sRGB
     Png,
-    /// Linear 32-bit floats, with further images beside the colours
+    /// Linear 32-bit floats, with further images in addition to the colours
     Exr,
 }
 

@@ -78,7 +78,7 @@ fn a_recorder_says_what_each_pass_is_made_of() {
     finish(device);
 }
 
-/// A set has what a pipeline uses, whichever was made first, and beside it what others use.
+/// A set has what a pipeline uses, whichever was made first, and in addition what others use.
 #[test]
 fn a_pipeline_has_the_bindings_that_its_shader_uses() {
     let device = device();

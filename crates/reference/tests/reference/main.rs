@@ -1,4 +1,4 @@
-//! The reference on its own and beside the device.
+//! The reference on its own and compared with the device.
 
 mod device_scattering;
 mod glass_tables;

@@ -16,7 +16,7 @@ fn ahead(x: f32, y: f32) -> Ray {
     Ray::new([x, y, 0.0], [0.0, 0.0, 1.0])
 }
 
-/// The class of the only triangle, how many of its edges the ray meets exactly, and what is admissible.
+/// The class of the only triangle, how many of its edges the ray intersects exactly, and what is admissible.
 fn judge(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
     let replay = replay(&[triangle], ray);
     let (class, zeros) = replay.tests.first().map_or((TestClass::Beside, 0), |tested| {
@@ -25,7 +25,7 @@ fn judge(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
     (class, zeros, replay.verdict.ambiguous, replay.verdict.miss_allowed)
 }
 
-/// (ray, class, edges met exactly, ambiguous, a miss is admissible)
+/// (ray, class, edges intersected exactly, ambiguous, a miss is admissible)
 fn table() -> Vec<(&'static str, Ray, TestClass, usize, bool, bool)> {
     // Head-on nothing is rounded, so that a unit in the last place decides. At a slant it does not.
     let slanted = |y: f32| Ray::new([0.3, 0.1, 0.0], [-0.3, y, 5.0]);

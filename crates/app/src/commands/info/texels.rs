@@ -18,7 +18,8 @@ pub(super) struct TexelInfo {
 }
 
 impl TexelInfo {
-    /// Counts the texels that `needs` asks for. `room` opens the device: it is called only where the answer depends on it.
+    /// Counts the texels that `needs` asks for. `room` opens the device: it is called only where the result depends on
+    /// it.
     pub(super) fn of(
         scene: &Scene,
         needs: &Needs,

@@ -13,9 +13,9 @@ const SEED: u32 = 11;
 
 /// What is rendered.
 pub enum Kind {
-    /// With this many bounces.
+    /// With this number of bounces.
     Path(u32),
-    /// Within this many metres.
+    /// Within this number of metres.
     Occlusion(f32),
 }
 
