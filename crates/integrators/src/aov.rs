@@ -12,7 +12,7 @@ use crate::{
     kernels::{Bindings, Kernel, Storage, WaveConstants, camera_constants, device_buffer},
 };
 
-/// Traces the rays of pixel centres and keeps what they meet. One trace a wave; `Wave::sample` is
+/// Traces the rays of pixel centres and keeps what they hit. One trace per wave; `Wave::sample` is
 /// not used.
 #[derive(Debug)]
 pub struct AovPass {
