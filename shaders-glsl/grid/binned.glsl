@@ -5,6 +5,7 @@
 #ifndef GRID_BINNED_GLSL
 #define GRID_BINNED_GLSL
 
+#include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "ads/box_clip.glsl"
 #include "grid/accessors.glsl"
@@ -64,11 +65,11 @@ void bin_visit(Bin bin, ivec2 column) {
     ivec2 slices = clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.cells.z) - 1);
     uint first = grid_list(ivec3(column, 0), bin.cells);
     for (int slice = slices.x; slice <= slices.y; slice++) {
-        uint place = atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
 #if BIN_VISIT == BIN_VISIT_STORE
-        if (place < GRID_HEADER(grid_built).capacity) {
-            GRID_ENTRIES(grid_built)[place] = bin.primitive;
-        }
+        LIST_APPEND(GRID_LISTS(grid_built)[first + uint(slice)], GRID_HEADER(grid_built).capacity, GRID_ENTRIES(grid_built), 0u,
+            bin.primitive)
+#else
+        atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
 #endif
     }
 }
