@@ -6,9 +6,9 @@
 #ifndef ADS_BIN_PAIRS_GLSL
 #define ADS_BIN_PAIRS_GLSL
 
-// Leaves a pair to the pass for many cells: the view times the number of triangles, and the triangle. Those beyond the
+// Enqueues a pair for the pass for many cells: the view times the number of triangles, and the triangle. Those beyond the
 // capacity are counted only.
-void bin_leave(PairRef s, uint pair) {
+void bin_enqueue(PairRef s, uint pair) {
     uint place = atomicAdd(PAIR_HEADER(s).pairs, 1u);
     if (place >= PAIR_CAPACITY(s)) {
         return;
@@ -19,10 +19,10 @@ void bin_leave(PairRef s, uint pair) {
 }
 
 // The pair of a workgroup. False where there are not so many.
-bool bin_left(PairRef s, uint place, out uint pair) {
-    bool left = place < min(PAIR_HEADER(s).pairs, PAIR_CAPACITY(s));
-    pair = left ? PAIR_WORD(s, place) : 0u;
-    return left;
+bool bin_enqueued(PairRef s, uint place, out uint pair) {
+    bool is_one = place < min(PAIR_HEADER(s).pairs, PAIR_CAPACITY(s));
+    pair = is_one ? PAIR_WORD(s, place) : 0u;
+    return is_one;
 }
 
 #endif

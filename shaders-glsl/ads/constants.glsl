@@ -61,6 +61,9 @@
 
 // Most cells of a view that one invocation of a binning builder looks at; triangles with more in it get workgroups.
 #define BIN_CELLS 64
+// Columns along a side of the blocks that an invocation of those looks at in turn, where a structure can tell whether a
+// triangle reaches into one.
+#define BIN_BLOCK 4
 // Threads of those, and how often the loops of one turn at most.
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000

@@ -37,16 +37,14 @@ struct Bin {
     bool many;
 };
 
-bool bin_begin(uint primitive, uint view, out Bin bin) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    if (!bin_corners(GRID_HEADER(grid_built).centre, primitive, a, b, c)) {
-        return false;
-    }
-    bin.primitive = primitive;
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    return bin_centred(GRID_HEADER(grid_built).centre, primitive, triangle);
+}
+
+bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
+    bin.primitive = triangle.primitive;
     bin.cells = grid_cells(grid_built);
-    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, a, b, c);
+    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, triangle.a, triangle.b, triangle.c);
     ivec3 last = ivec3(bin.cells) - 1;
     ivec3 lower = clamp(ivec3(floor(bin.clip.lower - bin.clip.margin)), ivec3(0), last);
     ivec3 upper = clamp(ivec3(floor(bin.clip.upper + bin.clip.margin)), ivec3(0), last);
