@@ -6,6 +6,9 @@
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
 
+// Threads in a workgroup of the passes that sort lists.
+#define SORT_GROUP_SIZE 64u
+
 // Longest list that is sorted in one dispatch: a heap of so many takes 27,000 steps at most.
 #define SHORT_LIST_LIMIT 2048u
 
