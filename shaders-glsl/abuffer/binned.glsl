@@ -41,12 +41,20 @@ struct Bin {
     bool many;
 };
 
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    triangle = bin_posed(primitive);
+    return true;
+}
+
 // False where no cell of the view keeps the triangle.
-bool bin_begin(uint primitive, uint place, out Bin bin) {
-    bin.primitive = primitive;
+bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
+    bin.primitive = triangle.primitive;
     bin.view = bin_view(place);
     bin.resolution = abuffer_resolution(abuffer_built, bin.view);
-    abuffer_view_vertices(abuffer_built, primitive, bin.view, bin.a, bin.b, bin.c);
+    bin.a = triangle.a;
+    bin.b = triangle.b;
+    bin.c = triangle.c;
+    abuffer_view_corners(abuffer_built, bin.view, bin.a, bin.b, bin.c);
     float margin = 0.0;
     if (ABUFFER_HAS_FRINGE) {
         margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);

@@ -3,6 +3,7 @@
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "abuffer/accessors.glsl"
 
@@ -21,11 +22,7 @@ void main() {
     vec3 upper;
     bin_box(ABUFFER_HEADER(abuffer_built).eye, primitive, lower, upper);
     float size = ABUFFER_HEADER(abuffer_built).near_size;
-    if (!bin_box_is_near(lower, upper, size)) {
-        return;
-    }
-    uint place = atomicAdd(ABUFFER_HEADER(abuffer_built).near_demand, 1u);
-    if (place < ABUFFER_HEADER(abuffer_built).near_capacity) {
-        ABUFFER_NEAR(abuffer_built)[place] = primitive;
+    if (bin_box_is_near(lower, upper, size)) {
+        LIST_APPEND(ABUFFER_HEADER(abuffer_built).near_demand, ABUFFER_HEADER(abuffer_built).near_capacity, ABUFFER_NEAR(abuffer_built), 0u, primitive)
     }
 }

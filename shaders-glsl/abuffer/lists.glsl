@@ -23,11 +23,6 @@ uint abuffer_scan_words(AbufferRef s) {
     return ABUFFER_CONTIGUOUS ? (abuffer_list_count(s) + SCAN_BLOCK - 1u) / SCAN_BLOCK : 0u;
 }
 
-// Word of the scratch pool at which a long list stands: list and progress, behind the sums of the scan.
-uint abuffer_long_word(AbufferRef s, uint place) {
-    return abuffer_scan_words(s) + 2u * place;
-}
-
 // Word of a linked list's head; a tail is the next word.
 uint abuffer_head_word(uint list) {
     return ABUFFER_DOUBLY ? 2u * list : list;

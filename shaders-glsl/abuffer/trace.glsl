@@ -28,8 +28,8 @@ uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) 
     uint work = 0u;
     bool paused = false;
     walk.stretch = abuffer_stretch_begin(clip);
-    bool restored = (state.cursor[0] & ABUFFER_CURSOR_STARTED) != 0u;
-    bool searching = (state.cursor[0] & ABUFFER_CURSOR_SEARCHING) != 0u;
+    bool restored = bits_are_set(state.cursor[0], ABUFFER_CURSOR_STARTED);
+    bool searching = bits_are_set(state.cursor[0], ABUFFER_CURSOR_SEARCHING);
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
         vec2 ends;
         uint view;

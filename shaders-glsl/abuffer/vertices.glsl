@@ -6,12 +6,17 @@
 #include "ads/geometry.glsl"
 #include "abuffer/views.glsl"
 
-void abuffer_view_vertices(AbufferRef s, uint primitive, uint view, out vec3 a, out vec3 b, out vec3 c) {
-    geometry_vertices(primitive, a, b, c);
+// Takes the corners of a triangle into a view.
+void abuffer_view_corners(AbufferRef s, uint view, inout vec3 a, inout vec3 b, inout vec3 c) {
     vec3 eye = abuffer_eye(s);
     a = abuffer_view_from_world(s, a - eye, view);
     b = abuffer_view_from_world(s, b - eye, view);
     c = abuffer_view_from_world(s, c - eye, view);
+}
+
+void abuffer_view_vertices(AbufferRef s, uint primitive, uint view, out vec3 a, out vec3 b, out vec3 c) {
+    geometry_vertices(primitive, a, b, c);
+    abuffer_view_corners(s, view, a, b, c);
 }
 
 float abuffer_near_size(AbufferRef s) {

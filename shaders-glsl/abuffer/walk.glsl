@@ -5,14 +5,21 @@
 #ifndef ABUFFER_WALK_GLSL
 #define ABUFFER_WALK_GLSL
 
+#include "contract/bits.glsl"
 #include "ads/march_cells.glsl"
 #include "ads/march_samples.glsl"
 #include "abuffer/search.glsl"
 #include "abuffer/segments.glsl"
 
-#define ABUFFER_CURSOR_STARTED 1u
-#define ABUFFER_CURSOR_SEARCHING 2u
-#define ABUFFER_CURSOR_IN_FRINGE 0x8000u
+// Fields of the flags.
+#define ABUFFER_CURSOR_STARTED 0, 1
+#define ABUFFER_CURSOR_SEARCHING 1, 1
+#define ABUFFER_CURSOR_VIEW 2, 3
+#define ABUFFER_CURSOR_IN_BUCKET 5, 1
+#define ABUFFER_CURSOR_NEIGHBOURS 6, 9
+#define ABUFFER_CURSOR_IN_FRINGE 15, 1
+#define ABUFFER_CURSOR_BUCKET 16, 5
+#define ABUFFER_CURSOR_STAGE 21, 2
 
 // A ray within one view or the near region.
 struct AbufferWalk {
@@ -67,27 +74,28 @@ void abuffer_begin_walk(AbufferRef s, vec3 origin, vec3 direction, inout Abuffer
 }
 
 void abuffer_save(AbufferWalk walk, AbufferSearch search, bool searching, inout TraceState state) {
-    state.cursor[0] = ABUFFER_CURSOR_STARTED | (searching ? ABUFFER_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (search.in_bucket ? 32u : 0u) | (search.in_fringe ? ABUFFER_CURSOR_IN_FRINGE : 0u) | walk.cells.neighbours << 6 | search.bucket << 16
-        | walk.stretch.stage << 21;
+    state.cursor[0] = bits_put(true, ABUFFER_CURSOR_STARTED) | bits_put(searching, ABUFFER_CURSOR_SEARCHING)
+        | bits_put(walk.segment.face, ABUFFER_CURSOR_VIEW) | bits_put(search.in_bucket, ABUFFER_CURSOR_IN_BUCKET)
+        | bits_put(walk.cells.neighbours, ABUFFER_CURSOR_NEIGHBOURS) | bits_put(search.in_fringe, ABUFFER_CURSOR_IN_FRINGE)
+        | bits_put(search.bucket, ABUFFER_CURSOR_BUCKET) | bits_put(walk.stretch.stage, ABUFFER_CURSOR_STAGE);
     state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
     state.cursor[2] = floatBitsToUint(walk.segment.t_end);
-    state.cursor[3] = uint(walk.cells.cell.x + 1) | uint(walk.cells.cell.y + 1) << 16;
+    state.cursor[3] = bits_of_cell(walk.cells.cell);
     state.cursor[4] = floatBitsToUint(walk.cells.t_in);
     state.cursor[5] = floatBitsToUint(walk.cells.error_in);
     state.cursor[6] = search.link;
-    state.cursor[7] = ABUFFER_FOLLOWS_CELLS && walk.segment.face != SEGMENT_NEAR
-        ? uint(walk.searched.x + 1) | uint(walk.searched.y + 1) << 16 : walk.place;
+    bool in_cells = ABUFFER_FOLLOWS_CELLS && walk.segment.face != SEGMENT_NEAR;
+    state.cursor[7] = in_cells ? bits_of_cell(walk.searched) : walk.place;
 }
 
 // Restores the segment that a paused ray was in.
 void abuffer_restore_stretch(TraceState state, vec2 clip, out AbufferStretch stretch, out vec2 ends, out uint view) {
     uint flags = state.cursor[0];
-    view = (flags >> 2) & 7u;
+    view = bits_get(flags, ABUFFER_CURSOR_VIEW);
     ends = vec2(uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]));
     // Before the faces none of them has been followed.
     bool in_faces = view != ABUFFER_CAMERA && ABUFFER_HAS_CUBE;
-    stretch = AbufferStretch((flags >> 21) & 3u, in_faces ? ends.y : clip.x);
+    stretch = AbufferStretch(bits_get(flags, ABUFFER_CURSOR_STAGE), in_faces ? ends.y : clip.x);
 }
 
 // Where the ray was in that segment, whose traversal has been begun.
@@ -95,17 +103,17 @@ void abuffer_restore(TraceState state, inout AbufferWalk walk, out AbufferSearch
     uint flags = state.cursor[0];
     walk.place = state.cursor[7];
     if (ABUFFER_FOLLOWS_CELLS && walk.segment.face != SEGMENT_NEAR) {
-        walk.cells.cell = ivec2(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16) - 1;
+        walk.cells.cell = cell_of_bits(state.cursor[3]);
         walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
         walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
-        walk.cells.neighbours = (flags >> 6) & 511u;
+        walk.cells.neighbours = bits_get(flags, ABUFFER_CURSOR_NEIGHBOURS);
         walk.came = true;
         walk.resumed = true;
-        walk.searched = ivec2(state.cursor[7] & 0xFFFFu, state.cursor[7] >> 16) - 1;
+        walk.searched = cell_of_bits(state.cursor[7]);
     }
-    search.in_bucket = (flags & 32u) != 0u;
-    search.in_fringe = (flags & ABUFFER_CURSOR_IN_FRINGE) != 0u;
-    search.bucket = search.in_bucket ? (flags >> 16) & 31u : 0u;
+    search.in_bucket = bits_are_set(flags, ABUFFER_CURSOR_IN_BUCKET);
+    search.in_fringe = bits_are_set(flags, ABUFFER_CURSOR_IN_FRINGE);
+    search.bucket = search.in_bucket ? bits_get(flags, ABUFFER_CURSOR_BUCKET) : 0u;
     search.link = state.cursor[6];
 }
 

@@ -5,9 +5,9 @@
 #ifndef ADS_BIN_PAIRS_GLSL
 #define ADS_BIN_PAIRS_GLSL
 
-// Enqueues view * triangle count + triangle for the pass for large triangles. Entries beyond the capacity are only
-// counted.
-void bin_leave(PairRef s, uint pair) {
+// Enqueues a pair for the pass for many cells: the view times the number of triangles, and the triangle. Those beyond the
+// capacity are counted only.
+void bin_enqueue(PairRef s, uint pair) {
     uint place = atomicAdd(PAIR_HEADER(s).pairs, 1u);
     if (place >= PAIR_CAPACITY(s)) {
         return;
@@ -17,11 +17,11 @@ void bin_leave(PairRef s, uint pair) {
     atomicMax(PAIR_HEADER(s).groups[1], place / BIN_PAIR_ROW + 1u);
 }
 
-// The entry that a workgroup works on. False where the queue has fewer.
-bool bin_left(PairRef s, uint place, out uint pair) {
-    bool left = place < min(PAIR_HEADER(s).pairs, PAIR_CAPACITY(s));
-    pair = left ? PAIR_WORD(s, place) : 0u;
-    return left;
+// The pair of a workgroup. False where there are not so many.
+bool bin_enqueued(PairRef s, uint place, out uint pair) {
+    bool is_one = place < min(PAIR_HEADER(s).pairs, PAIR_CAPACITY(s));
+    pair = is_one ? PAIR_WORD(s, place) : 0u;
+    return is_one;
 }
 
 #endif

@@ -6,6 +6,22 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 
+// A triangle that is binned, with its corners as the structure wants them.
+struct BinTriangle {
+    uint primitive;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+};
+
+// One with its corners as the geometry has them.
+BinTriangle bin_posed(uint primitive) {
+    BinTriangle triangle;
+    triangle.primitive = primitive;
+    geometry_vertices(primitive, triangle.a, triangle.b, triangle.c);
+    return triangle;
+}
+
 // The corners of a triangle relative to a centre; false for one without area, which is in no list.
 bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     geometry_vertices(primitive, a, b, c);
@@ -14,6 +30,12 @@ bool bin_corners(vec3 centre, uint primitive, out vec3 a, out vec3 b, out vec3 c
     b -= centre;
     c -= centre;
     return listed;
+}
+
+// A triangle with its corners relative to a centre; false for one without area.
+bool bin_centred(vec3 centre, uint primitive, out BinTriangle triangle) {
+    triangle.primitive = primitive;
+    return bin_corners(centre, primitive, triangle.a, triangle.b, triangle.c);
 }
 
 // The bounds of a triangle relative to a centre.

@@ -1,24 +1,40 @@
-// What: the same for the triangles of the large-triangle queue. Each gets groups[2] workgroups (in the header), which
-// take its cells in turn. The host chooses groups[2] so that no invocation visits more than BIN_TURNS cells.
-// Reads, writes: see the structure's binned.glsl; reads the large-triangle queue.
+// What: the same for triangles with many cells of a view: as many workgroups for each as the header says (groups[2]), cells
+// or blocks of cells in turn. The host gives so many that the loops of an invocation turn BIN_TURNS times at most.
+// Reads, writes: see the structure's binned.glsl; reads pairs.
 #version 460
 #include "contract/extensions.glsl"
-#include "ads/bin_visits.glsl"
-#include "structure/binned.glsl"
+#include "ads/bin_cells.glsl"
 
 layout(local_size_x = BIN_GROUP_SIZE) in;
+
+#ifdef BIN_TELLS_BLOCKS
+const int block_side = BIN_BLOCK;
+#else
+const int block_side = 1;
+#endif
 
 void main() {
     uint pair;
     uint triangles = geometry_triangle_count();
+    BinTriangle triangle;
     Bin bin;
-    if (!bin_left(bin_built, gl_WorkGroupID.y * BIN_PAIR_ROW + gl_WorkGroupID.x, pair)
-        || !bin_begin(pair % triangles, pair / triangles, bin)) {
+    if (!bin_enqueued(bin_built, gl_WorkGroupID.y * BIN_PAIR_ROW + gl_WorkGroupID.x, pair)
+        || !bin_load(pair % triangles, triangle) || !bin_begin(triangle, pair / triangles, bin)) {
         return;
     }
-    ivec2 size = bin.upper - bin.lower + 1;
+    ivec2 blocks = (bin.upper - bin.lower) / block_side + 1;
     int first = int(gl_WorkGroupID.z * BIN_GROUP_SIZE + gl_LocalInvocationID.x);
-    for (int place = first; place < size.x * size.y; place += int(gl_NumWorkGroups.z * BIN_GROUP_SIZE)) {
-        bin_visit(bin, bin.lower + ivec2(place % size.x, place / size.x));
+    for (int block = first; block < blocks.x * blocks.y; block += int(gl_NumWorkGroups.z * BIN_GROUP_SIZE)) {
+        ivec2 lower = bin.lower + block_side * ivec2(block % blocks.x, block / blocks.x);
+#ifdef BIN_TELLS_BLOCKS
+        if (bin_reaches(bin, lower)) {
+            bin_visit_cells(bin, lower, min(lower + block_side - 1, bin.upper));
+        }
+#else
+        bin_visit(bin, lower);
+#endif
     }
+#ifdef BIN_ENDS
+    bin_end();
+#endif
 }

@@ -6,7 +6,10 @@
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u
 
-// Longest list that is sorted in one dispatch: a heap of this size takes at most 27,000 steps.
+// Threads in a workgroup of the passes that sort lists.
+#define SORT_GROUP_SIZE 64u
+
+// Longest list that is sorted in one dispatch: a heap of so many takes 27,000 steps at most.
 #define SHORT_LIST_LIMIT 2048u
 
 // Dispatches that sort longer lists, and the steps of a list in each: drivers may end all loops of an invocation after
@@ -83,7 +86,10 @@
 
 // Maximum number of cells per view that one invocation of a binning builder visits; triangles with more are large.
 #define BIN_CELLS 64
-// Threads per workgroup for large triangles, and the maximum number of iterations of their loops.
+// Columns along a side of the blocks that an invocation of those looks at in turn, where a structure can tell whether a
+// triangle reaches into one.
+#define BIN_BLOCK 4
+// Threads of those, and how often the loops of one turn at most.
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000
 // Workgroups per row of their dispatch.

@@ -6,40 +6,11 @@
 #ifndef ADS_HEAP_SORT_GLSL
 #define ADS_HEAP_SORT_GLSL
 
-// Lets the element at `root` sink until none below it belongs behind it.
-void heap_sink(uint root, uint length) {
-    // A path from the root is no longer than the bits of a length.
-    for (uint depth = 0u; depth < 32u; depth++) {
-        uint child = 2u * root + 1u;
-        if (child >= length) {
-            return;
-        }
-        if (child + 1u < length && sort_before(child, child + 1u)) {
-            child++;
-        }
-        if (!sort_before(root, child)) {
-            return;
-        }
-        sort_swap(root, child);
-        root = child;
-    }
-}
-
-void heap_sort(uint length) {
-    for (uint root = length / 2u; root > 0u; root--) {
-        heap_sink(root - 1u, length);
-    }
-    for (uint last = length - 1u; last > 0u; last--) {
-        sort_swap(0u, last);
-        heap_sink(0u, last);
-    }
-}
-
 // Levels of a heap of 32-bit places, and a step to begin: what one sift takes at most.
 #define HEAP_SIFT_STEPS 33u
 
-// A share of the same: sorts as far as `steps` go, in one loop, because drivers may end all loops of an
-// invocation after 65,535 iterations, and invocations that run in lockstep pay for the longest of each loop.
+// Sorts as far as `steps` go, in one loop, because drivers may end all loops of an
+// invocation after 65,535 iterations, and invocations that run side by side pay for the longest of each loop.
 // `progress` counts sifts and begins at 0: length / 2 make the heap, then length - 1 take its last element to
 // the end of what is left. True once all are done; in between the elements are whole. length is at least 2.
 bool heap_sort_share(uint length, uint steps, inout uint progress) {

@@ -7,6 +7,7 @@
 #define ADS_QUEUE_GLSL
 
 #include "contract/types.glsl"
+#include "ads/append.glsl"
 
 #ifndef QUEUE_SET
 #define QUEUE_SET 2
@@ -80,6 +81,15 @@ layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     TraceStep queue_steps[];
 };
 
+// Where in the lists of a queue a list of paused rays begins, and one of selected slots; each alternates between two.
+uint queue_paused_at(uint round, uint capacity) {
+    return (round & 1u) * capacity;
+}
+
+uint queue_selected_at(uint take, uint capacity) {
+    return (2u + (take & 1u)) * capacity;
+}
+
 // The slot of one invocation of a pass over `domain`: the number of first slots, or DOMAIN_SELECTED. False where there is
 // none.
 bool queue_slot(uint domain, uint invocation, out uint slot) {
@@ -90,16 +100,17 @@ bool queue_slot(uint domain, uint invocation, out uint slot) {
     if (invocation >= queue_header.selected) {
         return false;
     }
-    slot = queue_list[(2u + (queue_header.takes & 1u)) * queue_header.capacity + invocation];
+    slot = queue_list[queue_selected_at(queue_header.takes, queue_header.capacity) + invocation];
     return slot < queue_header.capacity;
 }
 
-// Selects a slot for the passes after the next take. A slot may be selected once; the order is unspecified.
+// Selects a slot of the queue with this header and these lists for the passes after the next take. A slot is selected once;
+// the order is nobody's.
+#define QUEUE_SELECT(header, lists, slot) \
+    LIST_APPEND(header.selecting, header.capacity, lists, queue_selected_at(header.takes + 1u, header.capacity), slot)
+
 void queue_select(uint slot) {
-    uint place = atomicAdd(queue_header.selecting, 1u);
-    if (place < queue_header.capacity) {
-        queue_list[(2u + ((queue_header.takes + 1u) & 1u)) * queue_header.capacity + place] = slot;
-    }
+    QUEUE_SELECT(queue_header, queue_list, slot)
 }
 
 Ray queue_ray(uint slot) {

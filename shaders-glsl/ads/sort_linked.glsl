@@ -16,7 +16,11 @@
 #define ADS_SORT_LINKED_GLSL
 
 #include "ads/constants.glsl"
-#include "ads/sort.glsl"
+
+// What a step says of the sorting of a list: it is done, it goes on, or a pass over the list has ended and another is needed.
+#define SORT_DONE 0u
+#define SORT_MORE 1u
+#define SORT_PASSED 2u
 
 // One pass over a list that merges neighbouring runs.
 struct LinkedMerge {
@@ -123,28 +127,25 @@ uint linked_sort_step(SortRef s, uint list, inout LinkedMerge merge) {
 }
 
 // Sorts as far as `steps` go, with those that count the nodes, whole passes at a time. Lists of more than
-// `limit` nodes stay as they are.
-uint linked_sort(SortRef s, uint list, uint limit, uint steps) {
+// `limit` nodes stay as they are. True once the list is sorted.
+bool linked_sort(SortRef s, uint list, uint limit, uint steps) {
     uint count = linked_sort_count(s, list, limit);
-    if (count > limit) {
-        return SORT_TOO_LONG;
-    }
-    if (count < 2u) {
-        return SORT_DONE;
+    if (count > limit || count < 2u) {
+        return count < 2u;
     }
     LinkedMerge merge;
     linked_sort_begin(s, list, merge);
     for (uint i = count; i < steps; i++) {
         uint result = linked_sort_step(s, list, merge);
         if (result == SORT_DONE) {
-            return SORT_DONE;
+            return true;
         }
         // A pass finds the end of every other run and moves every node.
         if (result == SORT_PASSED && i + 1u + 2u * count + 2u > steps) {
-            return SORT_MORE;
+            return false;
         }
     }
-    return SORT_MORE;
+    return false;
 }
 
 // Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. The set of

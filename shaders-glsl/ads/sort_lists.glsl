@@ -1,55 +1,79 @@
-// What: sorts lists of any length, one thread each: short ones in one dispatch, which stores the others in a table;
-// LONG_LIST_ROUNDS further dispatches each sort a part of those.
-// Reads, writes: through what the including file defines before, in addition to the functions of ads/heap_sort.glsl:
-//   SortRef                                                    reference type of the structure
-//   uint sort_begin(SortRef s, uint list)                      from now on elements are those of a list; its length
-//   uint sort_long_take(SortRef s)                             the place of a long list, counted past the end
-//   uint sort_long_count(SortRef s)                            long lists that have a place
-//   uvec2 sort_long(SortRef s, uint place)                     a long list, and how far it is sorted
-//   void sort_set_long(SortRef s, uint place, uvec2 long_list)
-//   void sort_count_unsorted(SortRef s)                        counts a list that stays as it is
+// What: sorts lists of any length, one thread each: short ones in one dispatch, which names the others; of those every
+// dispatch of LONG_LIST_ROUNDS sorts a share. The passes include structure/sorted.glsl, in which a structure says what
+// its lists are.
+// Reads, writes: through what that file defines before it includes this one, beside the functions of ads/heap_sort.glsl:
+//   SortRef                                    names the structure
+//   sort_built, sort_round                     the one whose lists are sorted, and which dispatch for long lists it is
+//   SORT_HEADER(s)                             has long_demand, long_capacity and unsorted
+//   SORT_WORD(s, place)                        two words for each long list: which, and how far it is sorted
+//   SORT_LIMIT, SORT_LONG_LIMIT                longest list that one dispatch sorts, and that all of them do; not of links
+//   bool sort_is_possible(SortRef s)           whether everything was stored
+//   uint sort_list_count(SortRef s)
+//   uint sort_begin(SortRef s, uint list)      from now on elements are those of a list; its length
+// and, of a structure whose lists may be linked, SORT_LINKED, whether they are, with what ads/sort_linked.glsl asks for.
 // Source: not in the papers, which cut lists that are longer than a private array.
 #ifndef ADS_SORT_LISTS_GLSL
 #define ADS_SORT_LISTS_GLSL
 
 #include "ads/constants.glsl"
 #include "ads/heap_sort.glsl"
+#ifdef SORT_LINKED
+#include "ads/sort_linked.glsl"
+#endif
+
+void sort_set_long(SortRef s, uint place, uint list, uint progress) {
+    SORT_WORD(s, 2u * place) = list;
+    SORT_WORD(s, 2u * place + 1u) = progress;
+}
 
 // Stores a list that is too long for one dispatch in the table of long lists.
 void sort_name_long(SortRef s, uint list) {
-    uint place = sort_long_take(s);
-    if (place < sort_long_count(s)) {
-        sort_set_long(s, place, uvec2(list, 0u));
+    uint place = atomicAdd(SORT_HEADER(s).long_demand, 1u);
+    if (place < SORT_HEADER(s).long_capacity) {
+        sort_set_long(s, place, list, 0u);
     }
 }
 
 // Sorts a list, or stores it in the table where it is too long for one dispatch.
 void sort_list(SortRef s, uint list) {
     uint length = sort_begin(s, list);
-    if (length < 2u) {
-        return;
+    uint progress = 0u;
+    if (length >= 2u && (length > SORT_LIMIT || !heap_sort_share(length, LONG_LIST_STEPS, progress))) {
+        sort_name_long(s, list);
     }
-    if (length <= SHORT_LIST_LIMIT) {
-        heap_sort(length);
-        return;
-    }
-    sort_name_long(s, list);
 }
 
-// Sorts a part of the long list at a place of the table.
+#ifdef SORT_LINKED
+// Sorts the linked lists of a thread, or names them. Threads side by side have lists side by side.
+void sort_linked_lists(SortRef s, uint first, uint stride) {
+    uint left_over = linked_sort_several(s, first, stride, sort_list_count(s));
+    while (left_over != 0u) {
+        sort_name_long(s, first + uint(findLSB(left_over)) * stride);
+        left_over &= left_over - 1u;
+    }
+}
+#endif
+
+// Sorts a share of the long list at a place.
 void sort_long_list(SortRef s, uint place, uint round) {
-    if (place >= sort_long_count(s)) {
+    uint list = SORT_WORD(s, 2u * place);
+    uint progress = SORT_WORD(s, 2u * place + 1u);
+    if (progress == LONG_LIST_DONE) {
         return;
     }
-    uvec2 long_list = sort_long(s, place);
-    if (long_list.y == LONG_LIST_DONE) {
-        return;
+    bool done = false;
+#ifdef SORT_LINKED
+    if (SORT_LINKED) {
+        done = linked_sort(s, list, NODE_SORT_LONG_LIMIT, LONG_LIST_STEPS);
+    } else
+#endif
+    {
+        uint length = sort_begin(s, list);
+        done = length <= SORT_LONG_LIMIT && heap_sort_share(length, LONG_LIST_STEPS, progress);
     }
-    uint length = sort_begin(s, long_list.x);
-    bool done = length <= LONG_LIST_LIMIT && heap_sort_share(length, LONG_LIST_STEPS, long_list.y);
-    sort_set_long(s, place, uvec2(long_list.x, done ? LONG_LIST_DONE : long_list.y));
+    sort_set_long(s, place, list, done ? LONG_LIST_DONE : progress);
     if (!done && round == LONG_LIST_ROUNDS - 1u) {
-        sort_count_unsorted(s);
+        atomicAdd(SORT_HEADER(s).unsorted, 1u);
     }
 }
 

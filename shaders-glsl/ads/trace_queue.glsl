@@ -51,7 +51,7 @@ bool trace_slot(uint invocation, out uint slot) {
             return false;
         }
     } else if (invocation < queue_header.listed) {
-        slot = queue_list[((queue_header.round - 1u) & 1u) * queue_header.capacity + invocation];
+        slot = queue_list[queue_paused_at(queue_header.round - 1u, queue_header.capacity) + invocation];
     } else {
         return false;
     }
@@ -66,8 +66,8 @@ void trace_file(uint slot, uint result, TraceState state, Hit hit) {
     if (result == TRACE_PAUSED) {
         trace_log(STEP_PAUSE, 0u, 0u, 0u, 0.0, 0.0);
         queue_states[slot] = state;
-        uint place = atomicAdd(queue_header.paused, 1u);
-        queue_list[(queue_header.round & 1u) * queue_header.capacity + place] = slot;
+        LIST_APPEND(queue_header.paused, queue_header.capacity, queue_list,
+            queue_paused_at(queue_header.round, queue_header.capacity), slot)
         return;
     }
     if (result == TRACE_NOT_READY) {

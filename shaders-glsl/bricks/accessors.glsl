@@ -5,6 +5,7 @@
 #ifndef BRICKS_ACCESSORS_GLSL
 #define BRICKS_ACCESSORS_GLSL
 
+#include "contract/bits.glsl"
 #include "ads/views.glsl"
 #include "bricks/header.glsl"
 #include "ads/box_cells.glsl"
@@ -40,6 +41,13 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickTrianglesBuffer { v
 
 // Distances are found where the sums of scans were.
 #define BRICK_DISTANCES(s) BRICK_SUMS(s)
+
+// Fields of the second and of the third word of a record.
+#define BRICK_RECORD_X 0, 12
+#define BRICK_RECORD_Y 12, 12
+#define BRICK_RECORD_FACE 24, 8
+#define BRICK_RECORD_FIRST 0, 16
+#define BRICK_RECORD_LAST 16, 16
 
 // A triangle in a column of cells, between two slices.
 struct BrickRecord {
@@ -117,8 +125,9 @@ void brick_store_record(BrickRef s, BrickRecord record) {
     uint place = atomicAdd(BRICK_HEADER(s).record_demand, 1u);
     if (place < BRICK_HEADER(s).record_capacity) {
         BRICK_RECORDS(s)[3u * place] = record.primitive;
-        BRICK_RECORDS(s)[3u * place + 1u] = record.x | record.y << 12 | record.face << 24;
-        BRICK_RECORDS(s)[3u * place + 2u] = record.first | record.last << 16;
+        BRICK_RECORDS(s)[3u * place + 1u] = bits_put(record.x, BRICK_RECORD_X) | bits_put(record.y, BRICK_RECORD_Y)
+            | bits_put(record.face, BRICK_RECORD_FACE);
+        BRICK_RECORDS(s)[3u * place + 2u] = bits_put(record.first, BRICK_RECORD_FIRST) | bits_put(record.last, BRICK_RECORD_LAST);
         brick_mark(s, record);
     }
 }
@@ -126,8 +135,8 @@ void brick_store_record(BrickRef s, BrickRecord record) {
 BrickRecord brick_record(BrickRef s, uint place) {
     uint column = BRICK_RECORDS(s)[3u * place + 1u];
     uint slices = BRICK_RECORDS(s)[3u * place + 2u];
-    return BrickRecord(BRICK_RECORDS(s)[3u * place], column & 0xFFFu, column >> 12 & 0xFFFu, column >> 24,
-        slices & 0xFFFFu, slices >> 16);
+    return BrickRecord(BRICK_RECORDS(s)[3u * place], bits_get(column, BRICK_RECORD_X), bits_get(column, BRICK_RECORD_Y),
+        bits_get(column, BRICK_RECORD_FACE), bits_get(slices, BRICK_RECORD_FIRST), bits_get(slices, BRICK_RECORD_LAST));
 }
 
 // The words of a brick while its own is that of the scan.

@@ -4,7 +4,7 @@
 #ifndef BRICKS_BIN_GLSL
 #define BRICKS_BIN_GLSL
 
-#include "ads/bin_triangle.glsl"
+#include "ads/bin_visits.glsl"
 #include "ads/overlap.glsl"
 #include "bricks/accessors.glsl"
 #include "ads/box_clip.glsl"
@@ -32,23 +32,25 @@ struct BrickBin {
     BoxClip clip;       // of views along axes
     ivec2 lower;          // first and last column and row that may hold any of it
     ivec2 upper;
+    bool many;
 };
 
-// a, b, c relative to the centre. False where the triangle reaches into no column of the view.
-bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b, vec3 c, out BrickBin bin) {
-    bin.primitive = primitive;
+// The triangle is relative to the centre. False where it reaches into no column of the view.
+bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out BrickBin bin) {
+    bin.primitive = triangle.primitive;
     bin.face = face;
     bin.space = space;
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
-        bin.clip = box_clip_begin(space.axes, space.cells, a, b, c);
+        bin.clip = box_clip_begin(space.axes, space.cells, triangle.a, triangle.b, triangle.c);
         ivec2 last = ivec2(space.cells.xy) - 1;
         bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
         bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
+        bin.many = bin_is_many(bin.lower, bin.upper);
         return true;
     }
-    a = face_from_world(a, face);
-    b = face_from_world(b, face);
-    c = face_from_world(c, face);
+    vec3 a = face_from_world(triangle.a, face);
+    vec3 b = face_from_world(triangle.b, face);
+    vec3 c = face_from_world(triangle.c, face);
     if (max(a.z, max(b.z, c.z)) < 0.5 * space.grid.near_size) {
         return false;
     }
@@ -58,6 +60,7 @@ bool brick_bin_begin(BrickSpace space, uint primitive, uint face, vec3 a, vec3 b
         return false;
     }
     bin.overlap = overlap_begin(a, b, c);
+    bin.many = bin_is_many(bin.lower, bin.upper);
     return true;
 }
 
@@ -87,20 +90,21 @@ uvec2 brick_bin_slices(BrickBin bin, vec2 depths) {
     return uvec2(brick_slice_of(depths.x - rounding, bin.space.slices), brick_slice_of(depths.y + rounding, bin.space.slices));
 }
 
-// Stores the triangle in the columns from `lower` to `upper` that it reaches into. Returns how many entries that makes.
-uint brick_bin_columns(BrickRef s, BrickBin bin, ivec2 lower, ivec2 upper) {
-    uint entries = 0u;
-    for (int y = lower.y; y <= upper.y; y++) {
-        for (int x = lower.x; x <= upper.x; x++) {
-            vec2 depths;
-            if (brick_bin_depths(bin, ivec2(x, y), 1, depths)) {
-                uvec2 slices = brick_bin_slices(bin, depths);
-                brick_store_record(s, BrickRecord(bin.primitive, uint(x), uint(y), bin.face, slices.x, slices.y));
-                entries += slices.y - slices.x + 1u;
-            }
-        }
+// Stores the triangle in a column if it reaches into it. Returns how many entries that makes.
+uint brick_bin_column(BrickRef s, BrickBin bin, ivec2 column) {
+    vec2 depths;
+    if (!brick_bin_depths(bin, column, 1, depths)) {
+        return 0u;
     }
-    return entries;
+    uvec2 slices = brick_bin_slices(bin, depths);
+    brick_store_record(s, BrickRecord(bin.primitive, uint(column.x), uint(column.y), bin.face, slices.x, slices.y));
+    return slices.y - slices.x + 1u;
+}
+
+void brick_count_entries(BrickRef s, uint entries) {
+    if (entries > 0u) {
+        atomicAdd(BRICK_HEADER(s).demand, entries);
+    }
 }
 
 #endif

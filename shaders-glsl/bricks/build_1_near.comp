@@ -4,6 +4,7 @@
 // Source: none; see docs/core.md for the near region.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "bricks/accessors.glsl"
 
@@ -26,11 +27,7 @@ void main() {
     int before = (floatBitsToInt(BRICK_HEADER(brick_built).reach) - floatBitsToInt(nearest)) >> 23;
     atomicAdd(BRICK_HEADER(brick_built).octaves[clamp(before, 0, int(BRICK_OCTAVES) - 1)], 1u);
     float size = BRICK_HEADER(brick_built).near_size + BRICK_HEADER(brick_built).rounding;
-    if (!bin_box_is_near(lower, upper, size)) {
-        return;
-    }
-    uint place = atomicAdd(BRICK_HEADER(brick_built).near_demand, 1u);
-    if (place < BRICK_HEADER(brick_built).near_capacity) {
-        BRICK_NEAR_LIST(brick_built)[place] = primitive;
+    if (bin_box_is_near(lower, upper, size)) {
+        LIST_APPEND(BRICK_HEADER(brick_built).near_demand, BRICK_HEADER(brick_built).near_capacity, BRICK_NEAR_LIST(brick_built), 0u, primitive)
     }
 }

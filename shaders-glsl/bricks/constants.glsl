@@ -24,8 +24,6 @@
 #define BRICK_OCTAVES 32u
 #define BRICK_OCTAVE_SHARE 256u
 
-// Columns along a side of the blocks that an invocation of the workgroups for large triangles looks at in turn.
-#define BRICK_BIN_BLOCK 4
 // Words per triangle of the large-triangle queue: one per view.
 #define BRICK_PAIR_LIMIT 6u
 

@@ -16,6 +16,7 @@
 #ifndef BRICKS_TRACE_GLSL
 #define BRICKS_TRACE_GLSL
 
+#include "contract/bits.glsl"
 #include "contract/trace_functions.glsl"
 #include "bricks/cell.glsl"
 #include "bricks/cube.glsl"
@@ -28,8 +29,10 @@
 #define LISTED_NEAR(s) BRICK_NEAR_LIST(s)
 #include "ads/listed.glsl"
 
-#define BRICK_CURSOR_STARTED 1u
-#define BRICK_CURSOR_LISTED 2u
+// Fields of the flags.
+#define BRICK_CURSOR_STARTED 0, 1
+#define BRICK_CURSOR_LISTED 1, 1
+#define BRICK_CURSOR_FACE 2, 3
 // The list of the cell has not been begun.
 #define BRICK_LIST_BEGIN 0xFFFFFFFFu
 
@@ -58,9 +61,9 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     uint entry = BRICK_LIST_BEGIN;
     bool begins = !resumed;
     if (resumed) {
-        face = state.cursor[0] >> 2;
+        face = bits_get(state.cursor[0], BRICK_CURSOR_FACE);
         t = uintBitsToFloat(state.cursor[1]);
-        cell = ivec3(state.cursor[3] & 0xFFFFu, state.cursor[3] >> 16, state.cursor[4]);
+        cell = ivec3(cell_of_bits(state.cursor[3]), state.cursor[4]);
         entry = state.cursor[6];
     } else if (near.x <= t && t <= near.y) {
         t = near.y;
@@ -170,9 +173,9 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         }
     }
     if (paused) {
-        state.cursor[0] = BRICK_CURSOR_STARTED | face << 2;
+        state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(face, BRICK_CURSOR_FACE);
         state.cursor[1] = floatBitsToUint(t);
-        state.cursor[3] = uint(cell.x) | uint(cell.y) << 16;
+        state.cursor[3] = bits_of_cell(cell.xy);
         state.cursor[4] = uint(cell.z);
         state.cursor[6] = entry;
     }
@@ -194,8 +197,8 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     uint work = 0u;
-    bool resumed = (state.cursor[0] & BRICK_CURSOR_STARTED) != 0u;
-    bool listed = (state.cursor[0] & BRICK_CURSOR_LISTED) != 0u;
+    bool resumed = bits_are_set(state.cursor[0], BRICK_CURSOR_STARTED);
+    bool listed = bits_are_set(state.cursor[0], BRICK_CURSOR_LISTED);
     bool meets_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
     if ((!resumed || listed) && (distant || meets_near)) {
         if (!resumed) {
@@ -204,7 +207,7 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
         uint place = state.cursor[7];
         if (listed_test(s, ray, distant, any_hit, place, state, work)) {
             state.cursor[7] = place;
-            state.cursor[0] = BRICK_CURSOR_STARTED | BRICK_CURSOR_LISTED;
+            state.cursor[0] = bits_put(true, BRICK_CURSOR_STARTED) | bits_put(true, BRICK_CURSOR_LISTED);
             return TRACE_PAUSED;
         }
     }

@@ -5,6 +5,7 @@
 #ifndef GRID_BINNED_GLSL
 #define GRID_BINNED_GLSL
 
+#include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "ads/box_clip.glsl"
 #include "grid/accessors.glsl"
@@ -36,16 +37,14 @@ struct Bin {
     bool many;
 };
 
-bool bin_begin(uint primitive, uint view, out Bin bin) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    if (!bin_corners(GRID_HEADER(grid_built).centre, primitive, a, b, c)) {
-        return false;
-    }
-    bin.primitive = primitive;
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    return bin_centred(GRID_HEADER(grid_built).centre, primitive, triangle);
+}
+
+bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
+    bin.primitive = triangle.primitive;
     bin.cells = grid_cells(grid_built);
-    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, a, b, c);
+    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, triangle.a, triangle.b, triangle.c);
     ivec3 last = ivec3(bin.cells) - 1;
     ivec3 lower = clamp(ivec3(floor(bin.clip.lower - bin.clip.margin)), ivec3(0), last);
     ivec3 upper = clamp(ivec3(floor(bin.clip.upper + bin.clip.margin)), ivec3(0), last);
@@ -64,11 +63,11 @@ void bin_visit(Bin bin, ivec2 column) {
     ivec2 slices = clamp(ivec2(floor(depths)), ivec2(0), ivec2(bin.cells.z) - 1);
     uint first = grid_list(ivec3(column, 0), bin.cells);
     for (int slice = slices.x; slice <= slices.y; slice++) {
-        uint place = atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
 #if BIN_VISIT == BIN_VISIT_STORE
-        if (place < GRID_HEADER(grid_built).capacity) {
-            GRID_ENTRIES(grid_built)[place] = bin.primitive;
-        }
+        LIST_APPEND(GRID_LISTS(grid_built)[first + uint(slice)], GRID_HEADER(grid_built).capacity, GRID_ENTRIES(grid_built), 0u,
+            bin.primitive)
+#else
+        atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
 #endif
     }
 }

@@ -11,6 +11,7 @@
 #ifndef GRID_TRACE_GLSL
 #define GRID_TRACE_GLSL
 
+#include "contract/bits.glsl"
 #include "contract/trace_functions.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/judge.glsl"
@@ -20,7 +21,7 @@
 #define ListedRef GridRef
 #include "ads/listed.glsl"
 
-#define GRID_CURSOR_STARTED 1u
+#define GRID_CURSOR_STARTED 0, 1
 // The list of the cell has not been begun.
 #define GRID_LIST_BEGIN 0xFFFFFFFFu
 
@@ -56,9 +57,9 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
     uint entry = GRID_LIST_BEGIN;
     uint work = 0u;
     bool paused = false;
-    if ((state.cursor[0] & GRID_CURSOR_STARTED) != 0u) {
+    if (bits_are_set(state.cursor[0], GRID_CURSOR_STARTED)) {
         t = uintBitsToFloat(state.cursor[1]);
-        cell = ivec3(state.cursor[2] & 1023u, state.cursor[2] >> 10 & 1023u, state.cursor[2] >> 20);
+        cell = grid_cell_of_bits(state.cursor[2]);
         entry = state.cursor[3];
     } else {
         trace_log(STEP_VIEW, 0u, 0u, 0u, t, t_last);
@@ -120,9 +121,9 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         }
     }
     if (paused) {
-        state.cursor[0] = GRID_CURSOR_STARTED;
+        state.cursor[0] = bits_put(true, GRID_CURSOR_STARTED);
         state.cursor[1] = floatBitsToUint(t);
-        state.cursor[2] = uint(cell.x) | uint(cell.y) << 10 | uint(cell.z) << 20;
+        state.cursor[2] = bits_of_grid_cell(cell);
         state.cursor[3] = entry;
     }
     return paused;
@@ -147,7 +148,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
             trace_log(STEP_VIEW, SEGMENT_ALL, 0u, 0u, clip.x, clip.y);
         }
         if (listed_test(s, ray, true, any_hit, place, state, work)) {
-            state.cursor[0] = GRID_CURSOR_STARTED;
+            state.cursor[0] = bits_put(true, GRID_CURSOR_STARTED);
             state.cursor[3] = place;
             return TRACE_PAUSED;
         }

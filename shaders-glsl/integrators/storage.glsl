@@ -76,16 +76,11 @@ void film_add(uint pixel, vec3 radiance) {
     film_pixels[pixel].samples += 1u;
 }
 
-// Stores the shadow ray of a slot; an active one is selected for the next trace of the second queue, as queue_select does
-// for the first.
+// Stores the shadow ray of a slot; an active one is selected for the next trace of the second queue.
 void shadow_ask(uint slot, Ray ray) {
     shadow_rays[slot] = ray;
-    if (ray.t_max < 0.0) {
-        return;
-    }
-    uint place = atomicAdd(shadow_header.selecting, 1u);
-    if (place < shadow_header.capacity) {
-        shadow_list[(2u + ((shadow_header.takes + 1u) & 1u)) * shadow_header.capacity + place] = slot;
+    if (!(ray.t_max < 0.0)) {
+        QUEUE_SELECT(shadow_header, shadow_list, slot)
     }
 }
 

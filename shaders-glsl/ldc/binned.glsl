@@ -34,21 +34,21 @@ struct Bin {
     bool many;
 };
 
-bool bin_begin(uint primitive, uint view, out Bin bin) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    bin.primitive = primitive;
-    bin.axis = axis_of_triangle(a, b, c);
-    bool has_area = triangle_has_area(a, b, c);
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    triangle = bin_posed(primitive);
+    return triangle_has_area(triangle.a, triangle.b, triangle.c);
+}
+
+bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
+    bin.primitive = triangle.primitive;
+    bin.axis = axis_of_triangle(triangle.a, triangle.b, triangle.c);
     AxisView seen = ldc_built_view(bin.axis);
     // Half a cell to its sides, and what the test of overlap adds for rounding.
     float margin = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
-    bool any_cell = axis_cells(seen, axis_from_world(seen, a), axis_from_world(seen, b), axis_from_world(seen, c), margin,
-        bin.lower, bin.upper);
+    bool any_cell = axis_cells(seen, axis_from_world(seen, triangle.a), axis_from_world(seen, triangle.b),
+        axis_from_world(seen, triangle.c), margin, bin.lower, bin.upper);
     bin.many = bin_is_many(bin.lower, bin.upper);
-    return has_area && any_cell;
+    return any_cell;
 }
 
 void bin_visit(Bin bin, ivec2 place) {

@@ -105,18 +105,9 @@ bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     return true;
 }
 
-// The square that a traversal is at.
+// The square that a traversal is at. A column without rows may stand at row -1, or one past the last.
 ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
-}
-
-// A square as one word: 16 bits per axis. A column without rows may stand at row -1, or one past the last.
-uint ldc_march_pack(ivec2 square) {
-    return (uint(square.x) & 0xFFFFu) | uint(square.y) << 16;
-}
-
-ivec2 ldc_march_unpack(uint word) {
-    return ivec2(int(word << 16) >> 16, int(word) >> 16);
 }
 
 // Takes a traversal that has begun to the square where another one of the same ray stood.

@@ -3,6 +3,7 @@
 // Reads: rays in units of cells. Writes: visits (square, rows left), counts.
 #version 460
 #include "contract/extensions.glsl"
+#include "contract/bits.glsl"
 #include "contract/types.glsl"
 #include "ldc/march.glsl"
 
@@ -27,9 +28,9 @@ void walk(uint index, Ray ray, bool stopped) {
     bool more = ldc_march_begin(flat_ray, area, t, march);
     while (more) {
         if (stopped) {
-            uint kept = ldc_march_pack(ldc_march_square(flat_ray, march));
+            uint kept = bits_of_cell(ldc_march_square(flat_ray, march));
             ldc_march_begin(flat_ray, area, t, march);
-            ldc_march_resume(flat_ray, ldc_march_unpack(kept), march);
+            ldc_march_resume(flat_ray, cell_of_bits(kept), march);
         }
         uint place = counts[index]++;
         if (place < limit) {

@@ -141,11 +141,11 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, clip.x, clip.y);
         return TRACE_MISS;
     }
-    bool restored = (state.cursor[0] & LDC_CURSOR_STARTED) != 0u;
+    bool restored = bits_are_set(state.cursor[0], LDC_CURSOR_STARTED);
     uint work = 0u;
     // First the view that the ray crosses the fewest cells of: what is hit there ends it early in the others.
     uint first_axis = triangle_major_axis(ray.direction);
-    for (uint turn = restored ? (state.cursor[0] >> 4) & 3u : 0u; turn < AXIS_VIEWS; turn++) {
+    for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;
         LdcWalk walk = ldc_begin_walk(s, ray, sizes, axis, clip.x, clip.y);
         LdcSearch search;

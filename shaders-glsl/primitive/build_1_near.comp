@@ -3,6 +3,7 @@
 // Source: not in the paper, whose faces start at a near plane; see docs/core.md.
 #version 460
 #include "contract/extensions.glsl"
+#include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "primitive/accessors.glsl"
 
@@ -21,11 +22,7 @@ void main() {
     vec3 upper;
     bin_box(PRIMITIVE_HEADER(primitive_built).centre, primitive, lower, upper);
     float size = PRIMITIVE_HEADER(primitive_built).near_size + PRIMITIVE_HEADER(primitive_built).rounding;
-    if (!bin_box_is_near(lower, upper, size)) {
-        return;
-    }
-    uint place = atomicAdd(PRIMITIVE_HEADER(primitive_built).near_demand, 1u);
-    if (place < PRIMITIVE_HEADER(primitive_built).near_capacity) {
-        PRIMITIVE_NEAR_LIST(primitive_built)[place] = primitive;
+    if (bin_box_is_near(lower, upper, size)) {
+        LIST_APPEND(PRIMITIVE_HEADER(primitive_built).near_demand, PRIMITIVE_HEADER(primitive_built).near_capacity, PRIMITIVE_NEAR_LIST(primitive_built), 0u, primitive)
     }
 }

@@ -26,17 +26,6 @@
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 
-// Where the faces touch: at the eye, or within the geometry.
-#define PRIMITIVE_CENTRE_EYE 0u
-#define PRIMITIVE_CENTRE_SCENE 1u
-
-// What a compute pass of the binning builder does with a triangle in a cell.
-#define PRIMITIVE_VISIT_BOUNDS 1
-#define PRIMITIVE_VISIT_COUNT 2
-#define PRIMITIVE_VISIT_STORE 3
-
-// Columns a side of the blocks that an invocation of the workgroups for large triangles looks at by turns.
-#define PRIMITIVE_BIN_BLOCK 4
 // Words per triangle for large triangles: one per face.
 #define PRIMITIVE_PAIR_LIMIT 6u
 

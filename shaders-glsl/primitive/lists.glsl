@@ -6,6 +6,7 @@
 #ifndef PRIMITIVE_LISTS_GLSL
 #define PRIMITIVE_LISTS_GLSL
 
+#include "ads/append.glsl"
 #include "ads/geometry.glsl"
 #include "primitive/accessors.glsl"
 
@@ -75,10 +76,7 @@ void primitive_list_count_one(PrimitiveRef s, uint list) {
 // Puts a triangle into a list, or counts that the capacity did not suffice.
 void primitive_list_store(PrimitiveRef s, uint list, uint primitive) {
     if (PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_CONTIGUOUS) {
-        uint place = atomicAdd(PRIMITIVE_LISTS(s)[list], 1u);
-        if (place < PRIMITIVE_HEADER(s).capacity) {
-            PRIMITIVE_ENTRIES(s)[place] = primitive;
-        }
+        LIST_APPEND(PRIMITIVE_LISTS(s)[list], PRIMITIVE_HEADER(s).capacity, PRIMITIVE_ENTRIES(s), 0u, primitive)
         return;
     }
     uint node = atomicAdd(PRIMITIVE_HEADER(s).demand, 1u);

@@ -68,7 +68,7 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     PrimitiveWalk walk;
     uint work = 0u;
     float t = clip.x;
-    bool restored = (state.cursor[0] & PRIMITIVE_CURSOR_STARTED) != 0u;
+    bool restored = bits_are_set(state.cursor[0], PRIMITIVE_CURSOR_STARTED);
     if (restored) {
         primitive_restore(s, origin, direction, near, state, walk);
     }

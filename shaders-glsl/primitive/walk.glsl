@@ -5,12 +5,19 @@
 #ifndef PRIMITIVE_WALK_GLSL
 #define PRIMITIVE_WALK_GLSL
 
+#include "contract/bits.glsl"
 #include "ads/march_cube.glsl"
 #include "primitive/jump.glsl"
 #include "primitive/search.glsl"
 
-#define PRIMITIVE_CURSOR_STARTED 1u
-#define PRIMITIVE_CURSOR_SEARCHING 2u
+// Fields of the flags.
+#define PRIMITIVE_CURSOR_STARTED 0, 1
+#define PRIMITIVE_CURSOR_SEARCHING 1, 1
+#define PRIMITIVE_CURSOR_FACE 2, 3
+#define PRIMITIVE_CURSOR_IN_LIST 5, 1
+#define PRIMITIVE_CURSOR_NEIGHBOURS 6, 9
+#define PRIMITIVE_CURSOR_FOUND 15, 1
+#define PRIMITIVE_CURSOR_BUCKET 16, 6
 
 // A ray within one face, within the near region, or among all triangles.
 struct PrimitiveWalk {
@@ -75,49 +82,43 @@ bool primitive_next_cell(PrimitiveRef s, inout PrimitiveWalk walk) {
     return more;
 }
 
-uint primitive_packed_cell(ivec2 cell) {
-    return uint(cell.x + 1) | uint(cell.y + 1) << 16;
-}
-
-ivec2 primitive_unpacked_cell(uint word) {
-    return ivec2(word & 0xFFFFu, word >> 16) - 1;
-}
-
 void primitive_save(PrimitiveWalk walk, inout TraceState state) {
     bool cells = primitive_walks_cells(walk);
-    state.cursor[0] = PRIMITIVE_CURSOR_STARTED | (walk.searching ? PRIMITIVE_CURSOR_SEARCHING : 0u) | walk.segment.face << 2
-        | (walk.search.in_list ? 32u : 0u) | (walk.search.found ? 1u << 15 : 0u)
-        | (cells ? walk.cells.neighbours << 6 | walk.search.bucket << 16 : 0u);
+    state.cursor[0] = bits_put(true, PRIMITIVE_CURSOR_STARTED) | bits_put(walk.searching, PRIMITIVE_CURSOR_SEARCHING)
+        | bits_put(walk.segment.face, PRIMITIVE_CURSOR_FACE) | bits_put(walk.search.in_list, PRIMITIVE_CURSOR_IN_LIST)
+        | bits_put(cells ? walk.cells.neighbours : 0u, PRIMITIVE_CURSOR_NEIGHBOURS)
+        | bits_put(walk.search.found, PRIMITIVE_CURSOR_FOUND)
+        | bits_put(cells ? walk.search.bucket : 0u, PRIMITIVE_CURSOR_BUCKET);
     state.cursor[1] = floatBitsToUint(walk.segment.t_begin);
     state.cursor[2] = floatBitsToUint(walk.segment.t_end);
-    state.cursor[3] = primitive_packed_cell(walk.cells.cell);
+    state.cursor[3] = bits_of_cell(walk.cells.cell);
     state.cursor[4] = floatBitsToUint(walk.cells.t_in);
     state.cursor[5] = floatBitsToUint(walk.cells.error_in);
     state.cursor[6] = walk.search.list.at;
-    state.cursor[7] = cells ? primitive_packed_cell(walk.searched) : walk.place;
+    state.cursor[7] = cells ? bits_of_cell(walk.searched) : walk.place;
 }
 
 void primitive_restore(PrimitiveRef s, vec3 origin, vec3 direction, vec2 near, TraceState state, out PrimitiveWalk walk) {
     uint flags = state.cursor[0];
     walk.segment = segment_at(origin, direction, uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]), near);
-    walk.segment.face = (flags >> 2) & 7u;
+    walk.segment.face = bits_get(flags, PRIMITIVE_CURSOR_FACE);
     walk.segment.t_end = uintBitsToFloat(state.cursor[2]);
     primitive_begin_walk(s, origin, direction, walk);
     walk.place = state.cursor[7];
     if (!primitive_walks_cells(walk)) {
         return;
     }
-    walk.cells.cell = primitive_unpacked_cell(state.cursor[3]);
+    walk.cells.cell = cell_of_bits(state.cursor[3]);
     walk.cells.t_in = uintBitsToFloat(state.cursor[4]);
     walk.cells.error_in = uintBitsToFloat(state.cursor[5]);
     march_find_exit(walk.cells);
-    walk.cells.neighbours = (flags >> 6) & 511u;
-    walk.searched = primitive_unpacked_cell(state.cursor[7]);
-    walk.searching = (flags & PRIMITIVE_CURSOR_SEARCHING) != 0u;
+    walk.cells.neighbours = bits_get(flags, PRIMITIVE_CURSOR_NEIGHBOURS);
+    walk.searched = cell_of_bits(state.cursor[7]);
+    walk.searching = bits_are_set(flags, PRIMITIVE_CURSOR_SEARCHING);
     walk.search.begun = walk.searching;
-    walk.search.in_list = (flags & 32u) != 0u;
-    walk.search.found = (flags & 1u << 15) != 0u;
-    walk.search.bucket = (flags >> 16) & 63u;
+    walk.search.in_list = bits_are_set(flags, PRIMITIVE_CURSOR_IN_LIST);
+    walk.search.found = bits_are_set(flags, PRIMITIVE_CURSOR_FOUND);
+    walk.search.bucket = bits_get(flags, PRIMITIVE_CURSOR_BUCKET);
     if (walk.search.in_list) {
         uint cell = cell_index(walk.segment.face, walk.searched, PRIMITIVE_HEADER(s).tiles);
         walk.search.list = primitive_list_resume(s, primitive_list(cell, walk.search.bucket), state.cursor[6]);

@@ -34,23 +34,25 @@ struct Bin {
     bool many;
 };
 
-bool bin_begin(uint primitive, uint view, out Bin bin) {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    geometry_vertices(primitive, a, b, c);
-    uint faced = axis_of_triangle(a, b, c);
-    bin.primitive = primitive;
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    triangle = bin_posed(primitive);
+    return true;
+}
+
+bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
+    uint faced = axis_of_triangle(triangle.a, triangle.b, triangle.c);
+    bin.primitive = triangle.primitive;
     bin.axis = VOXEL_AXES == VOXEL_AXES_TRIANGLE ? faced : view;
     AxisView seen = voxel_view(voxel_built, bin.axis);
-    vec3 pa = axis_from_world(seen, a);
-    vec3 pb = axis_from_world(seen, b);
-    vec3 pc = axis_from_world(seen, c);
+    vec3 pa = axis_from_world(seen, triangle.a);
+    vec3 pb = axis_from_world(seen, triangle.b);
+    vec3 pc = axis_from_world(seen, triangle.c);
     // Half a cell to its sides, and what the tests of overlap add for rounding.
     float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
     bin.many = kept && bin_is_many(bin.lower, bin.upper);
-    bool marked = VOXEL_MARKED == VOXEL_MARKED_BY_TRIANGLES && bin.axis == faced && triangle_has_area(a, b, c);
+    bool marked = VOXEL_MARKED == VOXEL_MARKED_BY_TRIANGLES && bin.axis == faced
+        && triangle_has_area(triangle.a, triangle.b, triangle.c);
     ivec2 lower;
     ivec2 upper;
     AxisView columns = voxel_column_view(voxel_built, bin.axis);

@@ -14,7 +14,7 @@ uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool more = voxel_begin(s, ray, walk);
     if (!more) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
-    } else if ((state.cursor[0] & VOXEL_CURSOR_STARTED) != 0u) {
+    } else if (bits_are_set(state.cursor[0], VOXEL_CURSOR_STARTED)) {
         voxel_restore(state, walk);
     }
     bool entered = walk.searching;

@@ -14,19 +14,33 @@
 #ifndef VOXEL_WALK_GLSL
 #define VOXEL_WALK_GLSL
 
+#include "contract/bits.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/march_grid.glsl"
 #include "voxel/lists.glsl"
 
-#define VOXEL_CURSOR_STARTED 1u
-// The traversal through the cells of a view has begun.
-#define VOXEL_CURSOR_SEARCHING 2u
-// The list of the cell has been begun: it stands at `link`.
-#define VOXEL_CURSOR_IN_LIST 4u
-// The point before the next step lies inside (parity).
-#define VOXEL_CURSOR_INSIDE 8u
-// An odd number of fragments has been counted (parity).
-#define VOXEL_CURSOR_ODD 0x20000u
+// Fields of the flags; VoxelWalk says what they hold.
+#define VOXEL_CURSOR_STARTED 0, 1
+#define VOXEL_CURSOR_SEARCHING 1, 1
+#define VOXEL_CURSOR_IN_LIST 2, 1
+#define VOXEL_CURSOR_INSIDE 3, 1
+#define VOXEL_CURSOR_AXIS 4, 2
+// The axes along which the march has entered the voxel and the cell, plus one.
+#define VOXEL_CURSOR_VOXEL_ENTRY 6, 2
+#define VOXEL_CURSOR_CELL_ENTRY 13, 2
+// Where the voxel, or the cell, being searched is beside that of the march.
+#define VOXEL_CURSOR_VOXEL_BESIDE 8, 5
+#define VOXEL_CURSOR_CELL_BESIDE 15, 5
+// Of the cells around a cell of a view only the nine at its depth exist.
+#define VOXEL_CURSOR_CELL_NEIGHBOURS 20, 9
+// Parity only, where cells next to those that the ray crosses are left out.
+#define VOXEL_CURSOR_STAGE 15, 2
+#define VOXEL_CURSOR_ODD 17, 1
+#define VOXEL_CURSOR_HALVINGS 18, 9
+// Fields of the word of the cell.
+#define VOXEL_CURSOR_CELL_X 0, 13
+#define VOXEL_CURSOR_CELL_Y 13, 13
+#define VOXEL_CURSOR_STEP 26, 6
 
 struct VoxelWalk {
     vec3 origin;          // metres from the lower corner of the cube
@@ -36,8 +50,8 @@ struct VoxelWalk {
     uint axis;            // the view being searched
     GridMarch cells;
     ivec3 cell;
-    bool searching;
-    bool in_list;
+    bool searching;       // the traversal through the cells of a view has begun
+    bool in_list;         // the list of the cell has been begun: it stands at `link`
     uint link;            // the next fragment
     // Parity only (voxel/parity.glsl).
     bool inside;          // of the point before the step
@@ -126,39 +140,41 @@ ivec3 voxel_from_beside(uint beside, ivec3 center) {
 }
 
 void voxel_save(VoxelWalk walk, inout TraceState state) {
-    state.cursor[0] = VOXEL_CURSOR_STARTED | (walk.searching ? VOXEL_CURSOR_SEARCHING : 0u)
-        | (walk.in_list ? VOXEL_CURSOR_IN_LIST : 0u) | (walk.inside ? VOXEL_CURSOR_INSIDE : 0u) | walk.axis << 4
-        | uint(walk.voxels.entry_axis + 1) << 6 | voxel_beside(walk.voxel, walk.voxels.cell) << 8;
-    state.cursor[1] = uint(walk.voxels.cell.x) | uint(walk.voxels.cell.y) << 10 | uint(walk.voxels.cell.z) << 20;
+    uint flags = bits_put(true, VOXEL_CURSOR_STARTED) | bits_put(walk.searching, VOXEL_CURSOR_SEARCHING)
+        | bits_put(walk.in_list, VOXEL_CURSOR_IN_LIST) | bits_put(walk.inside, VOXEL_CURSOR_INSIDE)
+        | bits_put(walk.axis, VOXEL_CURSOR_AXIS) | bits_put(uint(walk.voxels.entry_axis + 1), VOXEL_CURSOR_VOXEL_ENTRY)
+        | bits_put(voxel_beside(walk.voxel, walk.voxels.cell), VOXEL_CURSOR_VOXEL_BESIDE);
+    state.cursor[1] = bits_of_grid_cell(walk.voxels.cell);
     state.cursor[2] = floatBitsToUint(walk.voxels.t_in);
     state.cursor[3] = walk.voxels.neighbours;
     state.cursor[6] = walk.link;
     state.cursor[7] = walk.held;
     if (walk.searching) {
-        state.cursor[0] |= uint(walk.cells.entry_axis + 1) << 13;
-        state.cursor[4] = uint(walk.cells.cell.x) | uint(walk.cells.cell.y) << 13 | walk.step << 26;
+        flags |= bits_put(uint(walk.cells.entry_axis + 1), VOXEL_CURSOR_CELL_ENTRY);
+        state.cursor[4] = bits_put(uint(walk.cells.cell.x), VOXEL_CURSOR_CELL_X)
+            | bits_put(uint(walk.cells.cell.y), VOXEL_CURSOR_CELL_Y) | bits_put(walk.step, VOXEL_CURSOR_STEP);
         state.cursor[5] = floatBitsToUint(walk.cells.t_in);
         if (VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY) {
-            // Cells next to those that the ray crosses are left out.
-            state.cursor[0] |= walk.stage << 15 | (walk.odd ? VOXEL_CURSOR_ODD : 0u) | walk.halvings << 18;
+            flags |= bits_put(walk.stage, VOXEL_CURSOR_STAGE) | bits_put(walk.odd, VOXEL_CURSOR_ODD)
+                | bits_put(walk.halvings, VOXEL_CURSOR_HALVINGS);
         } else {
-            // Of the cells around a cell of a view only the nine at its depth exist.
-            state.cursor[0] |= voxel_beside(walk.cell, walk.cells.cell) << 15 | (walk.cells.neighbours >> 9 & 511u) << 20;
+            flags |= bits_put(voxel_beside(walk.cell, walk.cells.cell), VOXEL_CURSOR_CELL_BESIDE)
+                | bits_put(walk.cells.neighbours >> 9, VOXEL_CURSOR_CELL_NEIGHBOURS);
         }
     }
+    state.cursor[0] = flags;
 }
 
 // Takes a traversal through the voxels that has begun to where it stood.
 void voxel_restore(TraceState state, inout VoxelWalk walk) {
     uint flags = state.cursor[0];
-    uint voxel = state.cursor[1];
-    grid_resume(walk.voxels, ivec3(voxel & 1023u, voxel >> 10 & 1023u, voxel >> 20), uintBitsToFloat(state.cursor[2]),
-        int(flags >> 6 & 3u) - 1, state.cursor[3]);
-    walk.voxel = voxel_from_beside(flags >> 8 & 31u, walk.voxels.cell);
-    walk.axis = flags >> 4 & 3u;
-    walk.searching = (flags & VOXEL_CURSOR_SEARCHING) != 0u;
-    walk.in_list = (flags & VOXEL_CURSOR_IN_LIST) != 0u;
-    walk.inside = (flags & VOXEL_CURSOR_INSIDE) != 0u;
+    grid_resume(walk.voxels, grid_cell_of_bits(state.cursor[1]), uintBitsToFloat(state.cursor[2]),
+        int(bits_get(flags, VOXEL_CURSOR_VOXEL_ENTRY)) - 1, state.cursor[3]);
+    walk.voxel = voxel_from_beside(bits_get(flags, VOXEL_CURSOR_VOXEL_BESIDE), walk.voxels.cell);
+    walk.axis = bits_get(flags, VOXEL_CURSOR_AXIS);
+    walk.searching = bits_are_set(flags, VOXEL_CURSOR_SEARCHING);
+    walk.in_list = bits_are_set(flags, VOXEL_CURSOR_IN_LIST);
+    walk.inside = bits_are_set(flags, VOXEL_CURSOR_INSIDE);
     walk.link = state.cursor[6];
     walk.held = state.cursor[7];
 }
@@ -166,18 +182,18 @@ void voxel_restore(TraceState state, inout VoxelWalk walk) {
 // The same for the traversal through the cells of a view.
 void voxel_restore_cells(TraceState state, inout VoxelWalk walk) {
     uint flags = state.cursor[0];
-    uint cell = state.cursor[4];
+    ivec3 cell = ivec3(bits_get(state.cursor[4], VOXEL_CURSOR_CELL_X), bits_get(state.cursor[4], VOXEL_CURSOR_CELL_Y), 0);
     bool parity = VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY;
-    grid_resume(walk.cells, ivec3(cell & 8191u, cell >> 13 & 8191u, 0), uintBitsToFloat(state.cursor[5]),
-        int(flags >> 13 & 3u) - 1, parity ? 0u : (flags >> 20 & 511u) << 9);
+    grid_resume(walk.cells, cell, uintBitsToFloat(state.cursor[5]), int(bits_get(flags, VOXEL_CURSOR_CELL_ENTRY)) - 1,
+        parity ? 0u : bits_get(flags, VOXEL_CURSOR_CELL_NEIGHBOURS) << 9);
     walk.cell = walk.cells.cell;
     if (parity) {
-        walk.stage = flags >> 15 & 3u;
-        walk.odd = (flags & VOXEL_CURSOR_ODD) != 0u;
-        walk.halvings = flags >> 18 & 511u;
-        walk.step = cell >> 26;
+        walk.stage = bits_get(flags, VOXEL_CURSOR_STAGE);
+        walk.odd = bits_are_set(flags, VOXEL_CURSOR_ODD);
+        walk.halvings = bits_get(flags, VOXEL_CURSOR_HALVINGS);
+        walk.step = bits_get(state.cursor[4], VOXEL_CURSOR_STEP);
     } else {
-        walk.cell = voxel_from_beside(flags >> 15 & 31u, walk.cells.cell);
+        walk.cell = voxel_from_beside(bits_get(flags, VOXEL_CURSOR_CELL_BESIDE), walk.cells.cell);
     }
 }
 

@@ -3,11 +3,10 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
-use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 
 use crate::layout::{cell_count, draws, long_capacity};
 use crate::{Config, Header, March, Pool, Storage};
@@ -24,7 +23,7 @@ pub struct Build {
     fringe: Option<Visit>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
-    reorder: Option<Reorder>,
+    reorder: Option<ListSort>,
     status: ComputePipeline,
 }
 
@@ -33,13 +32,6 @@ pub struct Build {
 struct Lengths {
     count: Visit,
     scan: Scan,
-}
-
-/// What sorts lists.
-#[derive(Debug)]
-struct Reorder {
-    all: ComputePipeline,
-    long: ComputePipeline,
 }
 
 impl Build {
@@ -66,12 +58,8 @@ impl Build {
                 scan: Scan::new(pipelines, "build_6_scan")?,
             })
         };
-        let reorder = || -> Result<Reorder, AdsError> {
-            Ok(Reorder {
-                all: pipelines.compute("build_11_reorder")?,
-                long: pipelines.compute("build_12_reorder_long")?,
-            })
-        };
+        let sorted = if config.storage == Storage::Paged { ".pages" } else { "" };
+        let reorder = || ListSort::new(pipelines, "build_11_reorder", sorted, "build_12_reorder_long");
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
             pairs: visits.pairs("build_2_pairs")?,
@@ -135,24 +123,14 @@ impl Build {
             pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }
         if let Some(reorder) = &self.reorder {
-            let readers = Access::COMPUTE;
-            // A thread for each page, contiguous list, or several linked lists.
-            let sorted = match config.storage {
-                Storage::Paged => target.pools.sizes().elements_of(Pool::Nodes),
-                Storage::Sb => lists,
-                _ => lists.div_ceil(u64::from(NODE_SORT_LISTS)),
+            // Of pages each is sorted by itself.
+            let (sorted, linked) = match config.storage {
+                Storage::Paged => (target.pools.sizes().elements_of(Pool::Nodes), false),
+                Storage::Sb => (lists, false),
+                _ => (lists, true),
             };
-            target.compute_pass(
-                recorder,
-                "abuffer/build_11_reorder",
-                &reorder.all,
-                groups(sorted),
-                0,
-                readers,
-            );
-            let long = groups(long_capacity(config, target.pools.sizes()));
-            let (label, rounds) = ("abuffer/build_12_reorder_long", LONG_LIST_ROUNDS);
-            target.rounds_pass(recorder, label, &reorder.long, long, rounds, readers);
+            let long = long_capacity(config, target.pools.sizes());
+            reorder.record(recorder, target, sorted, linked, long, Access::COMPUTE);
         }
         target.status_pass(recorder, "abuffer/build_13_status", &self.status);
     }

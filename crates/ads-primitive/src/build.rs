@@ -1,12 +1,13 @@
 //! The build of lists: pipelines, and the passes in the order they are recorded.
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, Visit};
+use std::mem::offset_of;
+
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
-use crate::build_visit::visit;
 use crate::layout::{cell_count, faces};
-use crate::{Config, Pool, Storage};
+use crate::{Config, Header, Pool, Storage};
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -29,7 +30,8 @@ struct Lengths {
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
-        let visit = |name| visit(pipelines, config, name);
+        let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
+        let visit = |name| visits.visit("build_raster", name, "");
         let lengths = || -> Result<Lengths, AdsError> {
             Ok(Lengths { count: visit("build_5_count")?, scan: Scan::new(pipelines, "build_6_scan")? })
         };

@@ -1,6 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
 use rasray_ads::{AdsError, Geometry, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_shaders_glsl::constants::ads::BIN_BLOCK;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Builder, Config, Header, Pool, Storage};
@@ -46,7 +47,7 @@ pub(crate) fn pair_words(config: &Config) -> u64 {
 
 /// Workgroups per triangle with many columns of a face: so many that no invocation's loops turn more often than they may.
 pub(crate) fn bin_groups(config: &Config) -> u32 {
-    let block = numbers::PRIMITIVE_BIN_BLOCK as u64;
+    let block = BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
     // Each block, its rows and columns, and the buckets of each column.
     let turns = blocks * (1 + block + block * block * u64::from(1 + config.buckets));

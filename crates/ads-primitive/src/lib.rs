@@ -8,7 +8,6 @@
 //! [`PrimitiveLists`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 
 mod build;
-mod build_visit;
 mod config;
 mod layout;
 mod pool;

@@ -26,6 +26,7 @@ mod design;
 mod error;
 mod geometry;
 mod kernels;
+mod list_sort;
 mod passes;
 mod pool_name;
 mod pooled;
@@ -45,6 +46,7 @@ pub use design::{Common, Demand, Design, Outcome, Parts, PoolBytes, default_work
 pub use error::AdsError;
 pub use geometry::{BoundsPass, Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
+pub use list_sort::ListSort;
 pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
 pub use pool_name::PoolName;
 pub use pooled::Pooled;

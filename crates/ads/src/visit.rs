@@ -57,39 +57,6 @@ enum Passes {
 }
 
 impl Visit {
-    /// Draws with these shaders.
-    ///
-    /// # Errors
-    /// A module is not compiled in, or the device refuses it.
-    pub fn drawn(
-        pipelines: &BuildPipelines<'_>,
-        label: &str,
-        vertex: &str,
-        fragment: &str,
-    ) -> Result<Self, AdsError> {
-        Ok(Self { label: label.to_owned(), passes: Passes::Raster(pipelines.raster(vertex, fragment)?) })
-    }
-
-    /// Computes with `bin`, one invocation per triangle, and `many`, for the large-triangle queue, whose workgroups are
-    /// three u32 at this byte of the header. The label gets the suffixes `_bin` and `_bin_many`.
-    ///
-    /// # Errors
-    /// A module is not compiled in, or the device refuses it.
-    pub fn binned(
-        pipelines: &BuildPipelines<'_>,
-        label: &str,
-        bin: &str,
-        many: &str,
-        groups: usize,
-    ) -> Result<Self, AdsError> {
-        let passes = Passes::Binning {
-            bin: pipelines.compute(bin)?,
-            many: pipelines.compute(many)?,
-            groups: groups as u64,
-        };
-        Ok(Self { label: label.to_owned(), passes })
-    }
-
     /// Records it. The next pass may be a visit by the same builder, or computes.
     pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw]) {
         match &self.passes {
@@ -126,7 +93,7 @@ impl PairsPass {
 
 /// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
 /// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_many.alpha`
-/// with it.
+/// beside it, and labels end as they do.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
     /// What makes pipelines.
@@ -138,19 +105,21 @@ pub struct Visits<'a> {
 }
 
 impl Visits<'_> {
-    /// The visit of that name and variant (`.alpha`, or nothing). Drawing uses this vertex shader.
+    /// The visit of that name, in that variant (`.alpha`, or nothing). Drawing takes this vertex shader, which computing
+    /// ignores.
     ///
     /// # Errors
     /// A module is not compiled in, or the device refuses it.
     pub fn visit(&self, vertex: &str, name: &str, variant: &str) -> Result<Visit, AdsError> {
-        let label = self.pipelines.label(name);
-        match self.builder {
-            Builder::Raster => Visit::drawn(self.pipelines, &label, vertex, &format!("{name}{variant}")),
-            Builder::Binning => {
-                let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}{variant}"));
-                Visit::binned(self.pipelines, &label, &bin, &many, self.groups)
-            }
-        }
+        let passes = match self.builder {
+            Builder::Raster => Passes::Raster(self.pipelines.raster(vertex, &format!("{name}{variant}"))?),
+            Builder::Binning => Passes::Binning {
+                bin: self.pipelines.compute(&format!("{name}_bin{variant}"))?,
+                many: self.pipelines.compute(&format!("{name}_bin_many{variant}"))?,
+                groups: self.groups as u64,
+            },
+        };
+        Ok(Visit { label: self.pipelines.label(name), passes })
     }
 
     /// The pass of that name before all visits, where they compute.

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, Scan, ViewDraw, Visit};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Scan, ViewDraw, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::bricks::BRICK_GROUP_SIZE;
 
@@ -41,15 +41,8 @@ impl Build {
         };
         Ok(Self {
             depths: (config.views == Views::Cube).then(depths).transpose()?,
-            records: match config.builder {
-                Builder::Raster => {
-                    Visit::drawn(pipelines, "bricks/build_3_draw", "build_raster", "build_3_draw")?
-                }
-                Builder::Binning => {
-                    let groups = offset_of!(Header, groups);
-                    Visit::binned(pipelines, "bricks/build_3", "build_3_bin", "build_3_bin_many", groups)?
-                }
-            },
+            records: Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) }
+                .visit("build_raster", "build_3_records", "")?,
             cells: pipelines.compute("build_4_cells")?,
             scan: Scan::new(pipelines, "build_5_scan")?,
             count: pipelines.compute("build_6_count")?,

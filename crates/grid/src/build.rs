@@ -19,13 +19,10 @@ pub(crate) struct Build {
 
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>) -> Result<Self, AdsError> {
-        let groups = offset_of!(Header, groups);
-        let visit = |name: &str| {
-            let [bin, many] = ["bin", "bin_many"].map(|ending| format!("{name}_{ending}"));
-            Visit::binned(pipelines, &pipelines.label(name), &bin, &many, groups)
-        };
+        let visits = Visits { pipelines, builder: Builder::Binning, groups: offset_of!(Header, groups) };
+        let visit = |name| visits.visit("", name, "");
         Ok(Self {
-            pairs: Visits { pipelines, builder: Builder::Binning, groups }.pairs("build_1_pairs")?,
+            pairs: visits.pairs("build_1_pairs")?,
             count: visit("build_2_count")?,
             scan: Scan::new(pipelines, "build_3_scan")?,
             store: visit("build_4_store")?,

@@ -3,10 +3,9 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
-use rasray_shaders_glsl::constants::ads::LONG_LIST_ROUNDS;
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
 use crate::layout::{cell_count, layer_capacity, long_capacity};
@@ -32,8 +31,7 @@ pub struct Build {
 enum Layers {
     Single {
         store: Visit,
-        sort: ComputePipeline,
-        sort_long: ComputePipeline,
+        sort: ListSort,
     },
     /// The last draw lets lists grow from where they begin to where they end.
     Peel {
@@ -62,8 +60,7 @@ impl Build {
         let layers = match config.making {
             Making::Single => Layers::Single {
                 store: covered("build_4_store")?,
-                sort: pipelines.compute("build_7_sort")?,
-                sort_long: pipelines.compute("build_8_sort_long")?,
+                sort: ListSort::new(pipelines, "build_7_sort", "", "build_8_sort_long")?,
             },
             Making::Peel => Layers::Peel { peel: draw("build_5_peel")?, grow: draw("build_2_count")? },
         };
@@ -109,12 +106,9 @@ impl Build {
             fringe.record(recorder, target, &views);
         }
         // Long lists are named where triangles with many cells were, so all triangles are visited before.
-        if let Layers::Single { sort, sort_long, .. } = &self.layers {
-            let groups = |items: u64| items.div_ceil(u64::from(LDC_GROUP_SIZE));
-            target.compute_pass(recorder, "ldc/build_7_sort", sort, groups(cells), 0, shaders);
-            let long = groups(long_capacity(config, target.pools.sizes()));
-            let rounds = LONG_LIST_ROUNDS;
-            target.rounds_pass(recorder, "ldc/build_8_sort_long", sort_long, long, rounds, shaders);
+        if let Layers::Single { sort, .. } = &self.layers {
+            let long = long_capacity(config, target.pools.sizes());
+            sort.record(recorder, target, cells, false, long, shaders);
         }
         if let Some(attributes) = &self.attributes {
             let groups = target.pools.sizes().elements_of(Pool::Payload).div_ceil(u64::from(LDC_GROUP_SIZE));

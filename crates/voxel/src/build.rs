@@ -3,10 +3,9 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
-use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
@@ -19,13 +18,6 @@ struct Lengths {
     scan: Scan,
 }
 
-/// What sorts lists.
-#[derive(Debug)]
-struct Sort {
-    all: ComputePipeline,
-    long: ComputePipeline,
-}
-
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
 pub struct Build {
@@ -34,7 +26,7 @@ pub struct Build {
     axes: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: Visit,
-    sort: Option<Sort>,
+    sort: Option<ListSort>,
     longest: Option<ComputePipeline>,
     status: ComputePipeline,
 }
@@ -60,10 +52,7 @@ impl Build {
             let count = visits.visit("build_raster", "build_4_count", masked)?;
             Ok(Lengths { count, scan: Scan::new(pipelines, "build_5_scan")? })
         };
-        let sort = || -> Result<Sort, AdsError> {
-            let all = pipelines.compute("build_7_sort")?;
-            Ok(Sort { all, long: pipelines.compute("build_8_sort_long")? })
-        };
+        let sort = || ListSort::new(pipelines, "build_7_sort", "", "build_8_sort_long");
         Ok(Self {
             pairs: visits.pairs("build_1_pairs")?,
             voxels: (config.marking() == Marking::Triangles).then(voxels).transpose()?,
@@ -116,12 +105,9 @@ impl Build {
             axes(recorder);
         }
         if let Some(sort) = &self.sort {
-            let a_thread = if config.storage == Storage::Linked { u64::from(NODE_SORT_LISTS) } else { 1 };
-            let (label, groups) = ("voxel/build_7_sort", lists.div_ceil(group * a_thread));
-            target.compute_pass(recorder, label, &sort.all, groups, 0, Access::COMPUTE);
-            let long = long_capacity(config, target.pools.sizes()).div_ceil(group);
-            let (label, rounds) = ("voxel/build_8_sort_long", LONG_LIST_ROUNDS);
-            target.rounds_pass(recorder, label, &sort.long, long, rounds, Access::COMPUTE);
+            let linked = config.storage == Storage::Linked;
+            let long = long_capacity(config, target.pools.sizes());
+            sort.record(recorder, target, lists, linked, long, Access::COMPUTE);
         }
         if let Some(longest) = &self.longest {
             let (label, groups) = ("voxel/build_9_longest", lists.div_ceil(group));

@@ -2,12 +2,24 @@
 // its cell.
 // Reads, writes: lists, depths, payload, scratch, header.long_demand, header.unsorted.
 // Source: the order that the peeling of Bürger et al. section 1.2 yields.
-#ifndef LDC_SORT_GLSL
-#define LDC_SORT_GLSL
+#ifndef LDC_SORTED_GLSL
+#define LDC_SORTED_GLSL
 
 #include "ldc/accessors.glsl"
 
+layout(push_constant, scalar) uniform LdcBuildConstants {
+    LdcRef ldc_built;
+    uint build_round;
+};
+
 #define SortRef LdcRef
+#define sort_built ldc_built
+#define sort_round build_round
+#define SORT_HEADER(s) LDC_HEADER(s)
+// Behind the sums of the scan.
+#define SORT_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + (place)]
+#define SORT_LIMIT SHORT_LIST_LIMIT
+#define SORT_LONG_LIMIT LONG_LIST_LIMIT
 
 // The list that is sorted: the functions of the shared sort know elements by their number.
 LdcRef sorted_structure;
@@ -39,33 +51,9 @@ uint sort_begin(LdcRef s, uint cell) {
     return list.y - list.x;
 }
 
-uint sort_long_take(LdcRef s) {
-    return atomicAdd(LDC_HEADER(s).long_demand, 1u);
-}
+bool sort_is_possible(LdcRef s) { return ldc_fragments_fit(s); }
 
-uint sort_long_count(LdcRef s) {
-    return LDC_HEADER(s).long_capacity;
-}
-
-// Word of the scratch pool at which a long list stands: behind the sums of the scan.
-uint sort_long_word(LdcRef s, uint place) {
-    return ldc_scan_words(s) + 2u * place;
-}
-
-uvec2 sort_long(LdcRef s, uint place) {
-    uint word = sort_long_word(s, place);
-    return uvec2(LDC_SCRATCH(s)[word], LDC_SCRATCH(s)[word + 1u]);
-}
-
-void sort_set_long(LdcRef s, uint place, uvec2 long_list) {
-    uint word = sort_long_word(s, place);
-    LDC_SCRATCH(s)[word] = long_list.x;
-    LDC_SCRATCH(s)[word + 1u] = long_list.y;
-}
-
-void sort_count_unsorted(LdcRef s) {
-    atomicAdd(LDC_HEADER(s).unsorted, 1u);
-}
+uint sort_list_count(LdcRef s) { return ldc_cell_count(s); }
 
 #include "ads/sort_lists.glsl"
 

@@ -13,17 +13,12 @@ layout(location = 0) flat in uvec2 primitive_and_view;
 
 void main() {
     ivec2 column = ivec2(gl_FragCoord.xy) - 1;
-    vec3 a;
-    vec3 b;
-    vec3 c;
+    BinTriangle triangle;
     BrickBin bin;
-    if (!bin_corners(BRICK_HEADER(brick_built).centre, primitive_and_view.x, a, b, c)
-        || !brick_bin_begin(brick_space(brick_built), primitive_and_view.x, primitive_and_view.y, a, b, c, bin)
+    if (!bin_centred(BRICK_HEADER(brick_built).centre, primitive_and_view.x, triangle)
+        || !brick_bin_begin(brick_space(brick_built), triangle, primitive_and_view.y, bin)
         || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
         return;
     }
-    uint entries = brick_bin_columns(brick_built, bin, column, column);
-    if (entries > 0u) {
-        atomicAdd(BRICK_HEADER(brick_built).demand, entries);
-    }
+    brick_count_entries(brick_built, brick_bin_column(brick_built, bin, column));
 }

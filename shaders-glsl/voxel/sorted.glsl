@@ -2,13 +2,28 @@
 // triangle or by what else they carry.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
-#ifndef VOXEL_SORT_GLSL
-#define VOXEL_SORT_GLSL
+#ifndef VOXEL_SORTED_GLSL
+#define VOXEL_SORTED_GLSL
 
 #include "ads/constants.glsl"
 #include "voxel/lists.glsl"
 
+layout(push_constant, scalar) uniform VoxelBuildConstants {
+    VoxelRef voxel_built;
+    uint build_round;
+};
+
 #define SortRef VoxelRef
+#define sort_built voxel_built
+#define sort_round build_round
+#define SORT_HEADER(s) VOXEL_HEADER(s)
+// Behind the sums of the scan.
+#define SORT_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + (place)]
+#define SORT_LIMIT SHORT_LIST_LIMIT
+#define SORT_LONG_LIMIT LONG_LIST_LIMIT
+#define SORT_LINKED (!voxel_contiguous())
+// Links are places + 1. A fragment's link stands behind its other words.
+#define LINKED_DOUBLY false
 
 // The list that is sorted: the functions of the shared sort know elements by their number.
 VoxelRef sorted_structure;
@@ -34,38 +49,9 @@ uint sort_begin(VoxelRef s, uint list) {
     return range.y - range.x;
 }
 
-uint sort_long_take(VoxelRef s) {
-    return atomicAdd(VOXEL_HEADER(s).long_demand, 1u);
-}
+bool sort_is_possible(VoxelRef s) { return VOXEL_HEADER(s).demand <= VOXEL_HEADER(s).capacity; }
 
-uint sort_long_count(VoxelRef s) {
-    return VOXEL_HEADER(s).long_capacity;
-}
-
-// Word of the scratch pool at which a long list stands: behind the sums of the scan.
-uint sort_long_word(VoxelRef s, uint place) {
-    return voxel_scan_words(s) + 2u * place;
-}
-
-uvec2 sort_long(VoxelRef s, uint place) {
-    uint word = sort_long_word(s, place);
-    return uvec2(VOXEL_SCRATCH(s)[word], VOXEL_SCRATCH(s)[word + 1u]);
-}
-
-void sort_set_long(VoxelRef s, uint place, uvec2 long_list) {
-    uint word = sort_long_word(s, place);
-    VOXEL_SCRATCH(s)[word] = long_list.x;
-    VOXEL_SCRATCH(s)[word + 1u] = long_list.y;
-}
-
-void sort_count_unsorted(VoxelRef s) {
-    atomicAdd(VOXEL_HEADER(s).unsorted, 1u);
-}
-
-#include "ads/sort_lists.glsl"
-
-// Links are places + 1. A fragment's link stands behind its other words.
-#define LINKED_DOUBLY false
+uint sort_list_count(VoxelRef s) { return voxel_list_count(s); }
 
 uint linked_next(VoxelRef s, uint link) { return voxel_word(s, link - 1u, voxel_stride()); }
 
@@ -83,6 +69,6 @@ uint linked_head(VoxelRef s, uint list) { return VOXEL_LISTS(s)[list]; }
 
 void linked_set_ends(VoxelRef s, uint list, uint head, uint tail) { VOXEL_LISTS(s)[list] = head; }
 
-#include "ads/sort_linked.glsl"
+#include "ads/sort_lists.glsl"
 
 #endif

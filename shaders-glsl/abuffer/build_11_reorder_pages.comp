@@ -1,0 +1,28 @@
+// What: sorts the nodes of each page in place, by depth, ties by payload.
+// Reads: header. Writes: nodes, data.
+// Source: not in the paper. Unused slots have depth 0 and stay in front, so a page need not know how many are used.
+#version 460
+#include "contract/extensions.glsl"
+#include "abuffer/exchange.glsl"
+#include "abuffer/lists.glsl"
+
+layout(local_size_x = SORT_GROUP_SIZE) in;
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+};
+
+void main() {
+    uint page = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * SORT_GROUP_SIZE + gl_GlobalInvocationID.x;
+    uint pages = ABUFFER_HEADER(abuffer_built).demand;
+    if (pages > ABUFFER_HEADER(abuffer_built).capacity || page >= pages) {
+        return;
+    }
+    uint first = page * ABUFFER_PAGE + 1u;
+    // At most 28 steps.
+    for (uint i = 1u; i < ABUFFER_PAGE; i++) {
+        for (uint k = i; k > 0u && !abuffer_comes_first(abuffer_built, first + k - 1u, first + k); k--) {
+            abuffer_exchange(abuffer_built, first + k - 1u, first + k);
+        }
+    }
+}

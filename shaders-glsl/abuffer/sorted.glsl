@@ -1,0 +1,71 @@
+// What: the nodes of a contiguous list, and the links of a linked one, for the shared sorts: by depth, ties by payload. The
+// backward links are renewed.
+// Reads, writes: lists, nodes, data, scratch, header.long_demand, header.unsorted.
+// Source: MMRT section 3.3, reorder pass, whose private array cuts longer lists short.
+#ifndef ABUFFER_SORTED_GLSL
+#define ABUFFER_SORTED_GLSL
+
+#include "abuffer/exchange.glsl"
+#include "abuffer/lists.glsl"
+
+layout(push_constant, scalar) uniform AbufferBuildConstants {
+    AbufferRef abuffer_built;
+    uint build_round;
+};
+
+#define SortRef AbufferRef
+#define sort_built abuffer_built
+#define sort_round build_round
+#define SORT_HEADER(s) ABUFFER_HEADER(s)
+// Behind the sums of the scan.
+#define SORT_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + (place)]
+// To exchange two nodes takes a loop over their words.
+#define SORT_LIMIT NODE_SORT_LIMIT
+#define SORT_LONG_LIMIT NODE_SORT_LONG_LIMIT
+#define SORT_LINKED (!ABUFFER_CONTIGUOUS)
+#define LINKED_DOUBLY ABUFFER_DOUBLY
+
+bool sort_is_possible(AbufferRef s) { return ABUFFER_HEADER(s).demand <= ABUFFER_HEADER(s).capacity; }
+
+uint sort_list_count(AbufferRef s) { return abuffer_list_count(s); }
+
+// The list that is being sorted: the functions of the shared sort know elements by their number.
+AbufferRef sorted_structure;
+uint sorted_from;
+
+bool sort_before(uint i, uint j) {
+    return !abuffer_comes_first(sorted_structure, sorted_from + j, sorted_from + i);
+}
+
+void sort_swap(uint i, uint j) {
+    abuffer_exchange(sorted_structure, sorted_from + i, sorted_from + j);
+}
+
+uint sort_begin(AbufferRef s, uint list) {
+    uvec2 ends = abuffer_ends(s, list);
+    sorted_structure = s;
+    sorted_from = ends.x;
+    return ends.x == 0u ? 0u : ends.y - ends.x + 1u;
+}
+
+uint linked_next(AbufferRef s, uint link) { return abuffer_next(s, link); }
+
+void linked_set_next(AbufferRef s, uint link, uint next) { abuffer_set_next(s, link, next); }
+
+void linked_set_prev(AbufferRef s, uint link, uint prev) { abuffer_set_prev(s, link, prev); }
+
+bool linked_comes_first(AbufferRef s, uint left, uint right) { return abuffer_comes_first(s, left, right); }
+
+uint linked_head(AbufferRef s, uint list) { return ABUFFER_LISTS(s)[abuffer_head_word(list)]; }
+
+void linked_set_ends(AbufferRef s, uint list, uint head, uint tail) {
+    uint word = abuffer_head_word(list);
+    ABUFFER_LISTS(s)[word] = head;
+    if (ABUFFER_DOUBLY) {
+        ABUFFER_LISTS(s)[word + 1u] = tail;
+    }
+}
+
+#include "ads/sort_lists.glsl"
+
+#endif

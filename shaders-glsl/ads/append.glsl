@@ -1,0 +1,17 @@
+// What: appends to a list whose length the device counts. What does not fit is counted alone, so that the host learns how
+// much was asked for.
+// Reads, writes: the length and the list.
+#ifndef ADS_APPEND_GLSL
+#define ADS_APPEND_GLSL
+
+// Puts a value at the next place of a list that begins at `first` of `words` and holds `capacity`.
+// A macro, since an atomic needs the counter itself, and a function gets a copy.
+#define LIST_APPEND(length, capacity, words, first, value) \
+    { \
+        uint append_place = atomicAdd(length, 1u); \
+        if (append_place < (capacity)) { \
+            words[(first) + append_place] = value; \
+        } \
+    }
+
+#endif

@@ -1,0 +1,65 @@
+// What: what the binning pass of bricks does with a triangle in a view: it stores it in the columns it reaches into.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs, header.pairs,
+// header.groups.
+// Source: DIRT section 3.2, by computing instead of drawing. The same functions decide as in the raster builder.
+// With BRICK_SIDE_LIMIT columns along a side one workgroup suffices for a large triangle: an invocation gets 1,024 blocks of
+// 16 columns, and its loops over them turn 17,408 times at most.
+#ifndef BRICKS_BINNED_GLSL
+#define BRICKS_BINNED_GLSL
+
+#include "bricks/bin.glsl"
+
+layout(push_constant, scalar) uniform BrickBuildConstants {
+    BrickRef brick_built;
+};
+
+// The large-triangle queue is where the corners of triangles will be.
+#ifdef ADDRESSING_ADDRESS
+#define PAIR_WORD(s, place) BrickWordAddress(BRICK_HEADER(s).triangles_address).words[place]
+#else
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickPairsBuffer { uint brick_pair_words[]; };
+#define PAIR_WORD(s, place) brick_pair_words[place]
+#endif
+
+#define PairRef BrickRef
+#define PAIR_HEADER(s) BRICK_HEADER(s)
+#define PAIR_CAPACITY(s) (BRICK_PAIR_LIMIT * BRICK_HEADER(s).triangle_capacity)
+#include "ads/bin_pairs.glsl"
+
+#define bin_built brick_built
+#define BIN_ENQUEUES BIN_VISIT_STORE
+#define BIN_TELLS_BLOCKS
+#define BIN_ENDS
+#define Bin BrickBin
+
+BrickSpace brick_built_space;
+// Entries of the columns this invocation has visited.
+uint brick_bin_entries = 0u;
+
+uint bin_view_count() {
+    return brick_view_count();
+}
+
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    brick_built_space = brick_space(brick_built);
+    return bin_centred(BRICK_HEADER(brick_built).centre, primitive, triangle);
+}
+
+bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
+    return brick_bin_begin(brick_built_space, triangle, view, bin);
+}
+
+bool bin_reaches(Bin bin, ivec2 lower) {
+    vec2 depths;
+    return brick_bin_depths(bin, lower, BIN_BLOCK, depths);
+}
+
+void bin_visit(Bin bin, ivec2 column) {
+    brick_bin_entries += brick_bin_column(brick_built, bin, column);
+}
+
+void bin_end() {
+    brick_count_entries(brick_built, brick_bin_entries);
+}
+
+#endif

@@ -1,0 +1,106 @@
+// What: what a binning pass does with a triangle in a face; BIN_VISIT says which pass it is.
+// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; pairs, header.pairs, header.groups.
+// Source: DIRT section 4.1, by computing instead of drawing. The same functions decide as in the raster builder.
+#ifndef PRIMITIVE_BINNED_GLSL
+#define PRIMITIVE_BINNED_GLSL
+
+#include "ads/bin_visits.glsl"
+#include "primitive/overlap.glsl"
+#include "primitive/corner_depths.glsl"
+#include "primitive/visit.glsl"
+
+layout(push_constant, scalar) uniform PrimitiveBuildConstants {
+    PrimitiveRef primitive_built;
+};
+
+#ifdef ADDRESSING_ADDRESS
+#define PAIR_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).pairs_address).words[place]
+#else
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitivePairsBuffer { uint primitive_pair_words[]; };
+#define PAIR_WORD(s, place) primitive_pair_words[place]
+#endif
+
+#define PairRef PrimitiveRef
+#define PAIR_HEADER(s) PRIMITIVE_HEADER(s)
+#define PAIR_CAPACITY(s) PRIMITIVE_HEADER(s).pair_capacity
+#include "ads/bin_pairs.glsl"
+
+#define bin_built primitive_built
+// The bounds of cells are always needed, so no pass of its own comes before.
+#define BIN_ENQUEUES BIN_VISIT_BOUNDS
+#define BIN_TELLS_BLOCKS
+
+uint bin_view_count() {
+    return VIEW_FACES;
+}
+
+// A triangle in a face, and the first and last column and row that may hold any of it.
+struct Bin {
+    uint primitive;
+    uint face;
+    PrimitiveGrid grid;
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    Overlap overlap;
+    float margin;
+    ivec2 lower;
+    ivec2 upper;
+    bool many;
+};
+
+bool bin_load(uint primitive, out BinTriangle triangle) {
+    return bin_centred(PRIMITIVE_HEADER(primitive_built).centre, primitive, triangle);
+}
+
+// False where the triangle reaches into no column of the face.
+bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
+    bin.primitive = triangle.primitive;
+    bin.face = face;
+    bin.grid = primitive_grid(primitive_built);
+    bin.a = face_from_world(triangle.a, face);
+    bin.b = face_from_world(triangle.b, face);
+    bin.c = face_from_world(triangle.c, face);
+    bin.margin = primitive_margin(bin.grid, bin.a, bin.b, bin.c);
+    if (max(bin.a.z, max(bin.b.z, bin.c.z)) < 0.5 * bin.grid.near_size
+        || !bin_bounds(bin.grid.tiles, bin.grid.near_size, bin.a, bin.b, bin.c, bin.margin, 1, bin.lower, bin.upper)) {
+        return false;
+    }
+    bin.overlap = overlap_begin(bin.a, bin.b, bin.c);
+    bin.many = bin_is_many(bin.lower, bin.upper);
+    return true;
+}
+
+// The depths of the triangle within a square of `side` columns; false where it does not reach into it.
+bool primitive_bin_depths(Bin bin, ivec2 column, int side, out vec2 depths) {
+    float tiles = float(bin.grid.tiles);
+    precise float half_side = float(side) / tiles + bin.margin;
+    precise vec2 place = vec2(2 * column + side) / tiles - 1.0;
+    vec3 center = side == 1 ? coverage_center(column, bin.grid.tiles) : vec3(place, 1.0);
+    return overlap_at(bin.grid.near_size, bin.overlap, center, half_side, depths);
+}
+
+bool bin_reaches(Bin bin, ivec2 lower) {
+    vec2 depths;
+    return primitive_bin_depths(bin, lower, BIN_BLOCK, depths);
+}
+
+void bin_visit(Bin bin, ivec2 column) {
+    vec2 depths;
+    if (!primitive_bin_depths(bin, column, 1, depths)) {
+        return;
+    }
+    if (PRIMITIVE_DEPTHS == PRIMITIVE_DEPTHS_CORNERS) {
+        depths = primitive_corner_depths(bin.grid, bin.a, bin.b, bin.c, column);
+    }
+    uint cell = cell_index(bin.face, column, bin.grid.tiles);
+#if BIN_VISIT == BIN_VISIT_BOUNDS
+    primitive_widen_bounds(primitive_built, cell, depths);
+#elif BIN_VISIT == BIN_VISIT_COUNT
+    primitive_visit_count(primitive_built, cell, depths);
+#elif BIN_VISIT == BIN_VISIT_STORE
+    primitive_visit_store(primitive_built, bin.primitive, cell, depths);
+#endif
+}
+
+#endif
