@@ -63,4 +63,4 @@ pub use renderer::open;
 pub use scene_source::{LoadedScene, load};
 pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
-pub use traced_set::{Traced, trace_in_turns};
+pub use traced_set::{TracedSet, trace_in_turns};
