@@ -45,7 +45,7 @@ pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelRoom,
 };
-pub use camera::{Chosen, default_view, named_view};
+pub use camera::{Chosen, default_view, named_view, placed_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;

@@ -4,7 +4,9 @@ use super::structure::sampler_parser;
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
-use rasray_experiment::{DeviceChoice, Frame, Integrator, Sampler};
+use rasray_experiment::{
+    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Sampler, default_view, named_view, placed_view,
+};
 use rasray_scene::Scene;
 use rasray_scene::needs::{Needs, Workload};
 
@@ -127,6 +129,20 @@ pub struct ViewArguments {
     /// Full vertical angle of view, with --eye and --target [default: 45]
     #[arg(long, value_name = "DEGREES", value_parser = values::angle_of_view, requires = "eye")]
     pub fov: Option<f64>,
+}
+
+impl ViewArguments {
+    /// The camera that was asked for; else [`default_view`].
+    ///
+    /// # Errors
+    /// A camera that the scene lacks, and an eye at its own target.
+    pub fn choose(&self, scene: &Scene) -> Result<Chosen, ExperimentError> {
+        match (self.eye, self.target, &self.camera) {
+            (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
+            (_, _, Some(name)) => named_view(scene, name),
+            _ => Ok(default_view(scene)),
+        }
+    }
 }
 
 /// Whether only what can be observed is handled.

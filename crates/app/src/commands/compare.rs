@@ -7,11 +7,11 @@ use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
+use crate::version::origin;
 use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
 use rasray_ray_files::{load_hits, load_rays};
-use rasray_report::Report;
+use rasray_report::{Report, table};
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -91,7 +91,10 @@ pub(crate) fn compare(
         Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
     output::save(targets.save(), &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
+    terminal::summarize(
+        &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+        targets.take_stdout(),
+    )?;
     report.runs.iter().try_for_each(check_whole)?;
     if finished < wanted && interrupt.requested() {
         let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };

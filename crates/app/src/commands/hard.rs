@@ -6,12 +6,12 @@ use crate::arguments::{CompareArguments, several};
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
+use crate::version::origin;
 use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, compare_file};
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
-use rasray_report::{Report, Run, SceneRecord, columns};
+use rasray_report::{Report, Run, SceneRecord, columns, table};
 use std::ffi::OsStr;
 
 /// Rays of generated cases unless told.
@@ -87,7 +87,7 @@ pub(super) fn compare(
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
     let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
+    terminal::summarize(&table(&report, None, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     if let Some(error) = failed {
         terminal::warn(&format!(
             "{finished} of {} cases were whole before the error, and only they are reported",

@@ -8,10 +8,10 @@ use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
+use crate::version::origin;
 use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput, SystemConfig};
-use rasray_report::{Report, Run, json_shown};
+use rasray_report::{Report, Run, json_shown, table};
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -91,7 +91,10 @@ pub(crate) fn render(
         output::hint(&output, *format, exposure).iter().for_each(|text| terminal::note(text));
     }
     let takes_stdout = image.iter().map(|(place, _)| place).chain(&report_target).any(Destination::is_stdout);
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), takes_stdout)?;
+    terminal::summarize(
+        &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+        takes_stdout,
+    )?;
     if output.samples_done < frame.spp {
         let written = image.map_or_else(
             || "no image was asked for".to_owned(),

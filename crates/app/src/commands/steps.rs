@@ -2,7 +2,6 @@
 
 use crate::arguments::values::Switch;
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
-use crate::camera;
 use crate::environment;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -48,7 +47,7 @@ pub(super) fn read_scene(
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
     let loaded = during("scene", "reading", || prepare(name, reading))?;
-    let chosen = during("scene", "looking for a view", || camera::choose(&loaded.scene, view))?;
+    let chosen = during("scene", "looking for a view", || view.choose(&loaded.scene))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
     Ok((loaded, chosen))
 }

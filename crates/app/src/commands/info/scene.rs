@@ -3,7 +3,6 @@
 use super::rows::pair;
 use super::texels::TexelInfo;
 use crate::error::AppError;
-use crate::report::described;
 use glam::DVec3;
 use rasray_experiment::{Chosen, Frame, LoadedScene, TexelRoom};
 use rasray_report::in_line;
@@ -26,7 +25,7 @@ pub(super) struct SceneInfo {
     one_view_saves: Option<f64>,
     sha256: Option<String>,
     cameras: Vec<CameraRecord>,
-    view: CameraRecord,
+    view: Chosen,
     integrator: &'static str,
     needs: Needs,
     texels: TexelInfo,
@@ -57,7 +56,7 @@ impl SceneInfo {
             one_view_saves: Facing::of(scene).saved_by_one_view(),
             sha256: loaded.sha256.clone(),
             cameras: scene.cameras.iter().enumerate().map(camera).collect(),
-            view: view.record(),
+            view: view.clone(),
             integrator: frame.integrator.name(),
             needs,
             texels,
@@ -70,7 +69,7 @@ impl SceneInfo {
             "environment": self.environment,
             "default_light": self.unlit,
             "cameras": self.cameras,
-            "default_view": self.view,
+            "default_view": self.view.record(),
             "texels": self.texels.json(),
         });
         for (name, count) in self.counts {
@@ -115,7 +114,7 @@ impl SceneInfo {
         if let Some(sha256) = &self.sha256 {
             rows.push(pair("sha256", sha256));
         }
-        rows.push(pair("default view", described(&self.view)));
+        rows.push(pair("default view", self.view.described()));
         let mut text = format!("scene {}\n{}", in_line(&self.name), columns(&rows, 2));
         if !self.cameras.is_empty() {
             text += "cameras\n";
