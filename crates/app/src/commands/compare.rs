@@ -3,7 +3,7 @@
 use super::hard;
 use super::steps::{check_whole, fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use super::targets::Targets;
-use crate::arguments::{CompareArguments, several};
+use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -41,7 +41,7 @@ pub(crate) fn compare(
         ));
     }
     let frame = given.frame.frame()?;
-    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
+    let systems = given.systems()?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
     let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;

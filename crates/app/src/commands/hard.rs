@@ -2,7 +2,7 @@
 
 use super::steps::{check_whole, open_device, stop_if_requested, with_progress};
 use super::targets::Targets;
-use crate::arguments::{CompareArguments, several};
+use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -39,7 +39,7 @@ pub(super) fn compare(
 ) -> Result<(), AppError> {
     let ids = ids(id)?;
     refuse_options_of_scenes(given)?;
-    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
+    let systems = given.systems()?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
     let mut backend = open_device(open, &given.device)?;
