@@ -3,7 +3,6 @@
 
 pub mod arguments;
 mod commands;
-mod environment;
 mod error;
 mod interrupt;
 pub mod output;

@@ -2,7 +2,6 @@
 
 use crate::arguments::values::Switch;
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
-use crate::environment;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
@@ -55,7 +54,7 @@ pub(super) fn read_scene(
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
 fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
-    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
+    let environment = reading.environment()?;
     let mut loaded = load(name)?;
     loaded.light(environment);
     if reading.alpha == Switch::Off {
