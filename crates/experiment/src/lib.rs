@@ -40,6 +40,7 @@ mod stage;
 mod system_config;
 pub mod texels;
 mod traced_set;
+mod whole;
 mod work_maps;
 
 pub use backend::{
@@ -66,3 +67,4 @@ pub use selection::{ReadValue, one_system, several_systems};
 pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
 pub use traced_set::{TracedSet, trace_in_turns};
+pub use whole::check_run;

@@ -1,7 +1,7 @@
 //! `rasray compare`.
 
 use super::hard;
-use super::steps::{check_whole, fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::steps::{fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
@@ -9,7 +9,7 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::terminal::{self, Talk};
 use crate::version::origin;
-use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
+use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run};
 use rasray_ray_files::{load_hits, load_rays};
 use rasray_report::{Report, table};
 
@@ -95,7 +95,7 @@ pub(crate) fn compare(
         &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
         targets.take_stdout(),
     )?;
-    report.runs.iter().try_for_each(check_whole)?;
+    report.runs.iter().try_for_each(check_run)?;
     if finished < wanted && interrupt.requested() {
         let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
         return Err(AppError::interrupted(

@@ -1,6 +1,6 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
-use super::steps::{check_whole, open_device, stop_if_requested, with_progress};
+use super::steps::{open_device, stop_if_requested, with_progress};
 use super::targets::Targets;
 use crate::arguments::CompareArguments;
 use crate::error::AppError;
@@ -8,7 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::output;
 use crate::terminal::{self, Talk};
 use crate::version::origin;
-use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, compare_file};
+use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file};
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
 use rasray_report::{Report, Run, SceneRecord, columns, table};
@@ -95,7 +95,7 @@ pub(super) fn compare(
         ));
         return Err(error);
     }
-    report.runs.iter().try_for_each(check_whole)?;
+    report.runs.iter().try_for_each(check_run)?;
     if finished < ids.len() {
         return Err(AppError::interrupted(
             format!("stopped after {finished} of {} cases", ids.len()),

@@ -8,7 +8,6 @@ use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
 use crate::terminal;
 use rasray_experiment::{Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load, texels};
-use rasray_report::Run;
 use rasray_scene::needs::Needs;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
@@ -100,26 +99,6 @@ pub(super) fn with_progress<T>(
 pub(super) fn stop_if_requested(interrupt: &Interrupt) -> Result<(), AppError> {
     if interrupt.requested() {
         return Err(AppError::interrupted("stopped before the first sample; nothing was written", ""));
-    }
-    Ok(())
-}
-
-/// Refuses what was traced through a structure with holes, or with rays left unanswered.
-pub(super) fn check_whole(run: &Run) -> Result<(), AppError> {
-    let Some(counters) = &run.counters else { return Ok(()) };
-    let system = format!("{} {}", run.system, run.preset);
-    if let Some(missing) = counters.overflow.filter(|count| *count > 0) {
-        return Err(AppError::refused(
-            format!("{system}: {missing} entries were missing from what was traced"),
-            "its results are not kept; lower --resolution, or use a device with more memory",
-        ));
-    }
-    if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
-        return Err(AppError::refused(
-            format!("{system}: {unfinished} rays had no answer after the last round"),
-            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
-             please report it with the command line",
-        ));
     }
     Ok(())
 }
