@@ -26,6 +26,7 @@ mod hard_verdict;
 mod images;
 mod jobs;
 mod judge;
+mod kept_files;
 mod measured;
 mod pass_list;
 mod passes;
@@ -57,6 +58,7 @@ pub use jobs::{
     RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use judge::device_hits;
+pub use kept_files::NamedBytes;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
