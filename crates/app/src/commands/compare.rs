@@ -59,6 +59,7 @@ pub(crate) fn compare(
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
+    loaded.count_not_uploaded(&chosen.camera, &needs);
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {

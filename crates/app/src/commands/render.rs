@@ -45,6 +45,7 @@ pub(crate) fn render(
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
+    loaded.count_not_uploaded(&chosen.camera, &needs);
     let job = RenderJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),
