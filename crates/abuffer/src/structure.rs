@@ -136,8 +136,7 @@ impl Design for Build {
     type Pool = Pool;
     type Contents = Contents;
 
-    const NAME: &'static str = "mmrt";
-    const PREFIX: &'static str = "abuffer";
+    const NAME: &'static str = "abuffer";
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

@@ -79,8 +79,7 @@ impl Design for Passes {
     type Pool = Pool;
     type Contents = Contents;
 
-    const NAME: &'static str = "dirt";
-    const PREFIX: &'static str = "primitive";
+    const NAME: &'static str = "primitive";
     const TITLE: &'static str = "the primitive lists";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

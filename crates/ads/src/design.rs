@@ -111,10 +111,8 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools on the host, for checks.
     type Contents;
 
-    /// [`Structure::name`](crate::Structure::name).
+    /// [`Structure::name`](crate::Structure::name); the folder of its shaders, and the prefix of what they declare.
     const NAME: &'static str;
-    /// Folder of its shaders.
-    const PREFIX: &'static str;
     /// What errors call it: "the A-buffer".
     const TITLE: &'static str;
     /// Whether passes of the build read the scene.

@@ -26,7 +26,7 @@ pub struct Pooled<D: Design> {
 }
 
 fn modules<D: Design>(config: &D::Config) -> Modules {
-    Modules { structure: D::NAME, prefix: D::PREFIX, addressing: D::common(config).addressing }
+    Modules { structure: D::NAME, prefix: D::NAME, addressing: D::common(config).addressing }
 }
 
 impl<D: Design> Pooled<D> {
@@ -51,7 +51,7 @@ impl<D: Design> Pooled<D> {
         let work_budget = common.work_budget.unwrap_or_else(|| default_work_budget(device));
         addressing.check(device)?;
         device.require(D::TITLE, &Self::requirements_of(&config))?;
-        let pools = Pools::new(device, D::PREFIX, addressing, &sizes)?;
+        let pools = Pools::new(device, D::NAME, addressing, &sizes)?;
         let modules = modules::<D>(&config);
         let constants = D::constants(&config);
         let build_scene = scene.filter(|_| D::BUILD_READS_SCENE);

@@ -99,7 +99,6 @@ impl Design for Passes {
     type Contents = Contents;
 
     const NAME: &'static str = "bricks";
-    const PREFIX: &'static str = "bricks";
     const TITLE: &'static str = "the bricks";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

@@ -134,7 +134,6 @@ impl Design for Tree {
     type Contents = Contents;
 
     const NAME: &'static str = NAME;
-    const PREFIX: &'static str = NAME;
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

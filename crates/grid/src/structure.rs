@@ -84,7 +84,6 @@ impl Design for Passes {
     type Contents = Contents;
 
     const NAME: &'static str = "grid";
-    const PREFIX: &'static str = "grid";
     const TITLE: &'static str = "the grid";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

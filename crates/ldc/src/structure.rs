@@ -76,7 +76,6 @@ impl Design for Build {
     type Contents = Contents;
 
     const NAME: &'static str = "ldc";
-    const PREFIX: &'static str = "ldc";
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

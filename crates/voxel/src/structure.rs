@@ -67,7 +67,6 @@ impl Design for Build {
     type Contents = Contents;
 
     const NAME: &'static str = "voxel";
-    const PREFIX: &'static str = "voxel";
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);

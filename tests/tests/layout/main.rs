@@ -110,7 +110,7 @@ fn members_of(record: &RecordLayout) -> Vec<Member> {
 #[test]
 fn records_of_every_structure() {
     for system in SYSTEMS {
-        let folder = system.structure.trim_start_matches("ads-");
+        let folder = system.structure;
         let of_folder = |shader: &&&Shader| shader.name.split('/').next() == Some(folder);
         for (place, record) in system.records.iter().enumerate() {
             let members = members_of(record);

@@ -112,7 +112,7 @@ fn structures(bench: &Bench, addressing: &str) -> BTreeMap<&'static str, Traced>
         let options = [("addressing".to_owned(), addressing.to_owned())];
         let spec = Spec::new(system.name, "robust", options).expect("the options are valid");
         structures
-            .entry(spec.structure().trim_start_matches("ads-"))
+            .entry(spec.structure())
             .or_insert_with(|| Traced::new(bench, &spec));
     }
     structures
