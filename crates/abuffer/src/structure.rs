@@ -2,12 +2,12 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    record_layout,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
@@ -149,11 +149,6 @@ impl Design for Build {
         fringe_address,
     })];
 
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
-
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::Fragment }
     }
@@ -267,35 +262,18 @@ impl Design for Build {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            bounds: words(Pool::Bounds)?,
-            lists: words(Pool::Lists)?,
-            nodes: words(Pool::Nodes)?,
-            data: words(Pool::Data)?,
-            near: words(Pool::Near)?,
-            scratch: words(Pool::Scratch)?,
-            fringe: words(Pool::Fringe)?,
-        })
-    }
-
     fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
         well_formed(contents).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Bounds, cast_slice(&contents.bounds)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Nodes, cast_slice(&contents.nodes)),
-            (Pool::Data, cast_slice(&contents.data)),
-            (Pool::Near, cast_slice(&contents.near)),
-            (Pool::Scratch, cast_slice(&contents.scratch)),
-            (Pool::Fringe, cast_slice(&contents.fringe)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Bounds => bounds,
+        Lists => lists,
+        Nodes => nodes,
+        Data => data,
+        Near => near,
+        Scratch => scratch,
+        Fringe => fringe,
     }
 }

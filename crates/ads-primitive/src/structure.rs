@@ -2,13 +2,12 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within, pools_of_words,
     record_layout,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
@@ -88,11 +87,6 @@ impl Design for Passes {
         centre, lower, upper, bounds_address, lists_address, entries_address, sums_address, near_address,
         pairs_address, pair_capacity, pairs, groups,
     })];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }
@@ -184,29 +178,15 @@ impl Design for Passes {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            bounds: words(Pool::Bounds)?,
-            lists: words(Pool::Lists)?,
-            entries: words(Pool::Entries)?,
-            near: words(Pool::Near)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Bounds, cast_slice(&contents.bounds)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Entries, cast_slice(&contents.entries)),
-            (Pool::Near, cast_slice(&contents.near)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Bounds => bounds,
+        Lists => lists,
+        Entries => entries,
+        Near => near,
     }
 }

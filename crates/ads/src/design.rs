@@ -7,20 +7,9 @@ use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Dependencies, Geometry, PoolName, Pools,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, PoolName, Pools, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
-
-/// What every configuration says.
-#[derive(Clone, Copy, Debug)]
-pub struct Common {
-    /// How shaders reach the pools.
-    pub addressing: Addressing,
-    /// How much of their work rays record.
-    pub counters: Counters,
-    /// Work units per dispatch; [`default_work_budget`] where absent.
-    pub work_budget: Option<u32>,
-}
 
 /// Work units that a ray may spend in a dispatch where the device is no processor: nearly every ray needs one dispatch
 /// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
@@ -101,7 +90,7 @@ fn usual_rounds(work_budget: u32) -> u32 {
 /// and what a build leaves on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
-    type Config: fmt::Debug + Copy;
+    type Config: Configured + fmt::Debug + Copy;
     /// What shaders start from.
     type Header: Pod;
     /// What builds ask for.
@@ -121,9 +110,6 @@ pub trait Design: fmt::Debug + Sized {
     const CORRUPTED: usize;
     /// What it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
-
-    /// What every configuration says.
-    fn common(config: &Self::Config) -> Common;
 
     /// What its hits are.
     fn kind(config: &Self::Config) -> StructureKind;

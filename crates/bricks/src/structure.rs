@@ -2,13 +2,12 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
-    Pooled, RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within,
+    AdsError, BoxCells, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, centre_within, pools_of_words,
     record_layout,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::ads::{CELL_ROUNDING, NEAR_BOX};
 
 use crate::build::Build;
@@ -108,11 +107,6 @@ impl Design for Passes {
         sums_address, near_address, records_address, triangles_address, slice_first, slice_shift, record_demand,
         record_capacity, cell_demand, cell_capacity, triangle_capacity, pairs, groups, octaves,
     })];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
@@ -219,29 +213,15 @@ impl Design for Passes {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            bricks: words(Pool::Bricks)?,
-            lists: words(Pool::Lists)?,
-            entries: words(Pool::Entries)?,
-            near: words(Pool::Near)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Bricks, cast_slice(&contents.bricks)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Entries, cast_slice(&contents.entries)),
-            (Pool::Near, cast_slice(&contents.near)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Bricks => bricks,
+        Lists => lists,
+        Entries => entries,
+        Near => near,
     }
 }

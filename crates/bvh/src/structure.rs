@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, record_layout,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
@@ -148,11 +148,6 @@ impl Design for Tree {
         }),
         record_layout!(Record as "BvhRecord" { a, b, c, primitive }),
     ];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive

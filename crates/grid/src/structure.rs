@@ -2,13 +2,12 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BoxCells, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes,
-    Pooled, RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BoxCells, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
     record_layout,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, cell_count, first_plan, formula_bytes, plan};
@@ -91,11 +90,6 @@ impl Design for Passes {
         status, demand, capacity, corrupted, cells, reach, rounding, centre, lower, upper, cells_lower,
         cells_per_metre, lists_address, entries_address, scratch_address, triangle_capacity, pairs, groups,
     })];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
@@ -184,18 +178,13 @@ impl Design for Passes {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents { header, lists: words(Pool::Lists)?, entries: words(Pool::Entries)? })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools =
-            vec![(Pool::Lists, cast_slice(&contents.lists)), (Pool::Entries, cast_slice(&contents.entries))];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents;
+        Lists => lists,
+        Entries => entries,
     }
 }

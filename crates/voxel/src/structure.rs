@@ -2,12 +2,12 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, record_layout,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    record_layout,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
@@ -75,11 +75,6 @@ impl Design for Build {
         cells_per_metre, voxels_per_metre, lower, voxels_address, normals_address, lists_address,
         fragments_address, scratch_address, pairs, pair_capacity, groups,
     })];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(config: &Config) -> StructureKind {
         match config.coverage {
@@ -194,27 +189,14 @@ impl Design for Build {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            voxels: words(Pool::Voxels)?,
-            lists: words(Pool::Lists)?,
-            fragments: words(Pool::Fragments)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Voxels, cast_slice(&contents.voxels)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Fragments, cast_slice(&contents.fragments)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Voxels => voxels,
+        Lists => lists,
+        Fragments => fragments,
     }
 }
