@@ -29,6 +29,10 @@
 // Words per triangle for large triangles: one per face.
 #define PRIMITIVE_PAIR_LIMIT 6u
 
+// Where the faces touch: at the eye, or within the geometry.
+#define PRIMITIVE_CENTRE_EYE 0u
+#define PRIMITIVE_CENTRE_SCENE 1u
+
 // Threads in a workgroup of the build's compute passes.
 #define PRIMITIVE_GROUP_SIZE 64u
 

@@ -65,6 +65,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// The repaired structure: exact march, plane acceptance, triangle ids.
     pub fn robust(resolution: u32) -> Self {

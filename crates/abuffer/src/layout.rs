@@ -161,9 +161,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (Pool::Fringe, if config.has_fringe() { demand.fringe } else { 0 }, 12),
     ];
     if config.storage == Storage::Paged && demand.nodes > u64::from(PAGE_LIMIT) {
-        return Err(AdsError::PoolTooLarge { structure: "mmrt", pool: "nodes", elements: demand.nodes });
+        return Err(AdsError::PoolTooLarge { structure: "abuffer", pool: "nodes", elements: demand.nodes });
     }
-    Sizes::of("mmrt", sizes)
+    Sizes::of("abuffer", sizes)
 }
 
 /// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every fourth centre.

@@ -2,12 +2,11 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
 use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
 
@@ -118,17 +117,11 @@ impl Design for Build {
     type Pool = Pool;
     type Contents = Contents;
 
-    const NAME: &'static str = "mmrt";
-    const PREFIX: &'static str = "abuffer";
+    const NAME: &'static str = "abuffer";
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::Fragment }
@@ -243,35 +236,18 @@ impl Design for Build {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            bounds: words(Pool::Bounds)?,
-            lists: words(Pool::Lists)?,
-            nodes: words(Pool::Nodes)?,
-            data: words(Pool::Data)?,
-            near: words(Pool::Near)?,
-            scratch: words(Pool::Scratch)?,
-            fringe: words(Pool::Fringe)?,
-        })
-    }
-
     fn fault(contents: &Contents, _triangles: u32) -> Option<String> {
         well_formed(contents).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Bounds, cast_slice(&contents.bounds)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Nodes, cast_slice(&contents.nodes)),
-            (Pool::Data, cast_slice(&contents.data)),
-            (Pool::Near, cast_slice(&contents.near)),
-            (Pool::Scratch, cast_slice(&contents.scratch)),
-            (Pool::Fringe, cast_slice(&contents.fringe)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Bounds => bounds,
+        Lists => lists,
+        Nodes => nodes,
+        Data => data,
+        Near => near,
+        Scratch => scratch,
+        Fringe => fringe,
     }
 }

@@ -65,6 +65,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// The exact structure: every tile lists what reaches into it, and every hit is that of brute force.
     pub fn robust(resolution: u32) -> Self {

@@ -83,7 +83,7 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         pool(Pool::Near, demand.near, 1),
         pool(Pool::Pairs, pair_words(config) * demand.triangles, 1),
     ];
-    Sizes::of("dirt", pools)
+    Sizes::of("primitive", pools)
 }
 
 /// The first guess where nothing has been counted: four entries per cell.

@@ -2,12 +2,11 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, bin_groups, first_plan, formula_bytes, plan};
@@ -58,17 +57,11 @@ impl Design for Passes {
     type Pool = Pool;
     type Contents = Contents;
 
-    const NAME: &'static str = "dirt";
-    const PREFIX: &'static str = "primitive";
+    const NAME: &'static str = "primitive";
     const TITLE: &'static str = "the primitive lists";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(config: &Config) -> StructureKind {
         if config.is_exact() { StructureKind::Primitive } else { StructureKind::LossyPrimitive }
@@ -160,29 +153,15 @@ impl Design for Passes {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            bounds: words(Pool::Bounds)?,
-            lists: words(Pool::Lists)?,
-            entries: words(Pool::Entries)?,
-            near: words(Pool::Near)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Bounds, cast_slice(&contents.bounds)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Entries, cast_slice(&contents.entries)),
-            (Pool::Near, cast_slice(&contents.near)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Bounds => bounds,
+        Lists => lists,
+        Entries => entries,
+        Near => near,
     }
 }

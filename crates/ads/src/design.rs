@@ -7,23 +7,12 @@ use rasray_gpu::{BindingSet, ComputePipeline, Device, GpuError, Recorder, Requir
 use rasray_shaders_glsl::constants::contract::TRACE_WORK_BUDGET;
 
 use crate::{
-    Addressing, AdsError, BuildPipelines, BuildTarget, Counters, Dependencies, Geometry, PoolName, Pools,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, BuildTarget, Configured, Dependencies, Geometry, PoolName, Pools, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
-/// What every configuration says.
-#[derive(Clone, Copy, Debug)]
-pub struct Common {
-    /// How shaders reach the pools.
-    pub addressing: Addressing,
-    /// How much of their work rays record.
-    pub counters: Counters,
-    /// Work units per dispatch; [`default_work_budget`] where absent.
-    pub work_budget: Option<u32>,
-}
-
-/// Work units that a ray may spend per dispatch where the device is not a software driver: nearly every ray needs one
-/// dispatch then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
+/// Work units that a ray may spend in a dispatch where the device is no processor: nearly every ray needs one dispatch
+/// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
 const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 
 /// The work budget that structures have on a device unless told otherwise. Software drivers end all loops of a group after
@@ -103,7 +92,7 @@ fn usual_rounds(work_budget: u32) -> u32 {
 /// and data that a build keeps on the host.
 pub trait Design: fmt::Debug + Sized {
     /// Options.
-    type Config: fmt::Debug + Copy;
+    type Config: Configured + fmt::Debug + Copy;
     /// What shaders start from.
     type Header: Pod;
     /// What builds ask for.
@@ -113,10 +102,8 @@ pub trait Design: fmt::Debug + Sized {
     /// Pools on the host, for checks.
     type Contents;
 
-    /// [`Structure::name`](crate::Structure::name).
+    /// [`Structure::name`](crate::Structure::name); the folder of its shaders, and the prefix of what they declare.
     const NAME: &'static str;
-    /// Folder of its shaders.
-    const PREFIX: &'static str;
     /// What errors call it: "the A-buffer".
     const TITLE: &'static str;
     /// Whether passes of the build read the scene.
@@ -125,9 +112,6 @@ pub trait Design: fmt::Debug + Sized {
     const CORRUPTED: usize;
     /// What it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
-
-    /// What every configuration says.
-    fn common(config: &Self::Config) -> Common;
 
     /// What its hits are.
     fn kind(config: &Self::Config) -> StructureKind;

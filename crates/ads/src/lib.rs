@@ -21,6 +21,7 @@
 
 mod addressing;
 mod brute_force;
+mod configured;
 mod counters;
 mod design;
 mod error;
@@ -41,8 +42,9 @@ mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use brute_force::BruteForce;
+pub use configured::{Common, Configured, bytes_of_words};
 pub use counters::Counters;
-pub use design::{Common, Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
+pub use design::{Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
 pub use geometry::{BoundsPass, Geometry, GeometryDesc};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};

@@ -6,8 +6,8 @@ use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
-    AdsError, BuildPipelines, BuildStatus, Check, Common, Counters, Demand, Dependencies, Design, Domain,
-    Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
+    AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
+    Domain, Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
     RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
     TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
@@ -26,7 +26,7 @@ pub struct Pooled<D: Design> {
 }
 
 fn modules<D: Design>(config: &D::Config) -> Modules {
-    Modules { structure: D::NAME, prefix: D::PREFIX, addressing: D::common(config).addressing }
+    Modules { structure: D::NAME, prefix: D::NAME, addressing: config.common().addressing }
 }
 
 impl<D: Design> Pooled<D> {
@@ -46,12 +46,12 @@ impl<D: Design> Pooled<D> {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
         let sizes = D::first_plan(&config, geometry)?;
-        let common = D::common(&config);
+        let common = config.common();
         let Common { addressing, counters, .. } = common;
         let work_budget = common.work_budget.unwrap_or_else(|| default_work_budget(device));
         addressing.check(device)?;
         device.require(D::TITLE, &Self::requirements_of(&config))?;
-        let pools = Pools::new(device, D::PREFIX, addressing, &sizes)?;
+        let pools = Pools::new(device, D::NAME, addressing, &sizes)?;
         let modules = modules::<D>(&config);
         let constants = D::constants(&config);
         let build_scene = scene.filter(|_| D::BUILD_READS_SCENE);

@@ -2,14 +2,11 @@
 //! codes. What renders and compares is behind [`rasray_experiment::Backend`].
 
 pub mod arguments;
-mod camera;
 mod commands;
-mod environment;
 mod error;
 mod interrupt;
 pub mod output;
 mod progress;
-pub mod report;
 mod terminal;
 mod version;
 

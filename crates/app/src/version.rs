@@ -1,5 +1,7 @@
 //! Which build of the command this is.
 
+use rasray_report::Origin;
+
 /// Version of the command.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -13,4 +15,9 @@ pub fn version_text() -> &'static str {
         None => VERSION.to_owned(),
     });
     &TEXT
+}
+
+/// This build of the command, and the line that was typed.
+pub(crate) fn origin(line: &str) -> Origin {
+    Origin { version: VERSION.to_owned(), commit: COMMIT.map(str::to_owned), command: Some(line.to_owned()) }
 }

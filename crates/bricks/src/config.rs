@@ -41,6 +41,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// Bricks of these views, with everything that makes them fast.
     pub fn new(views: Views) -> Self {

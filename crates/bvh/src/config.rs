@@ -38,6 +38,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// The defaults with a builder.
     pub fn new(builder: Builder) -> Self {

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
@@ -123,16 +123,10 @@ impl Design for Tree {
     type Contents = Contents;
 
     const NAME: &'static str = NAME;
-    const PREFIX: &'static str = NAME;
     const TITLE: &'static str = "the hierarchy";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT, Node::LAYOUT, Record::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive

@@ -1,9 +1,13 @@
 //! Which camera looks at a scene.
 
 use crate::error::ExperimentError;
+use glam::DVec3;
 use rasray_report::CameraRecord;
-use rasray_scene::default_view::default_camera;
+use rasray_scene::default_view::{camera_looking_at, default_camera};
 use rasray_scene::{Camera, Projection, Scene};
+
+/// Full vertical angle of view of a camera that is placed, degrees, unless told.
+const DEFAULT_FOV: f64 = 45.0;
 
 /// A camera, and whose it is.
 #[derive(Clone, Debug)]
@@ -35,6 +39,16 @@ impl Chosen {
             up: frame.matrix3.y_axis.normalize_or_zero().to_array(),
         }
     }
+
+    /// The camera in a few words: whose it is, where it stands, and the options of the command that put one there.
+    pub fn described(&self) -> String {
+        let record = self.record();
+        let whose = match record.index {
+            Some(index) => format!("{index} '{}'", record.name),
+            None => record.name.clone(),
+        };
+        format!("{whose}, {}", place(&record))
+    }
 }
 
 /// The view where nothing is said of it: the scene's first camera; else one that stands in the room that the scene
@@ -62,4 +76,111 @@ pub fn named_view(scene: &Scene, name: &str) -> Result<Chosen, ExperimentError> 
         ExperimentError::usage(format!("the scene {} has no camera '{name}'", scene.name), help)
     })?;
     Ok(Chosen { camera: scene.cameras[index].clone(), index: Some(index) })
+}
+
+/// A camera at `eye` that looks at `target` (metres), upright; `fov` is the full vertical angle of view in degrees.
+///
+/// # Errors
+/// Both at one place, or not finite.
+pub fn placed_view(eye: [f64; 3], target: [f64; 3], fov: Option<f64>) -> Result<Chosen, ExperimentError> {
+    let (eye, target) = (DVec3::from_array(eye), DVec3::from_array(target));
+    let distance = (target - eye).length();
+    if !(distance > 0.0 && distance.is_finite()) {
+        return Err(ExperimentError::usage(
+            "--eye and --target give no direction to look in",
+            "choose a --target at another place than --eye",
+        ));
+    }
+    let fov = fov.unwrap_or(DEFAULT_FOV).to_radians() as f32;
+    Ok(Chosen { camera: camera_looking_at("command line", eye, target, fov), index: None })
+}
+
+/// Projection and place of a camera; of a perspective as the options that make the same one, unless it is rolled.
+fn place(record: &CameraRecord) -> String {
+    let (eye, forward) = (DVec3::from_array(record.eye), DVec3::from_array(record.forward));
+    // A target as far away as the eye is from the origin keeps as many digits.
+    let target = eye + forward * eye.length().max(1.0);
+    let point = |point: DVec3| point.to_array().map(short).join(",");
+    match (record.fov_y_degrees, record.height_m) {
+        (Some(fov), _) => {
+            let upright = camera_looking_at("", eye, target, 1.0).world_from_camera.matrix3.y_axis;
+            let rolled =
+                if upright.dot(DVec3::from_array(record.up)) < 0.999_99 { ", and rolled" } else { "" };
+            format!("--eye {} --target {} --fov {}{rolled}", point(eye), point(target), short(fov))
+        }
+        (_, height) => format!(
+            "parallel, {} m high, from {} towards {}",
+            short(height.unwrap_or_default()),
+            point(eye),
+            point(target)
+        ),
+    }
+}
+
+/// A number with at most three digits after the point, or in powers of ten.
+fn short(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude != 0.0 && !(1.0e-2..1.0e7).contains(&magnitude) && magnitude >= 1.0e-12 {
+        return format!("{value:.4e}");
+    }
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(names: &[&str]) -> Scene {
+        let camera = |name: &&str| camera_looking_at(name, DVec3::X, DVec3::ZERO, 0.5);
+        Scene { cameras: names.iter().map(camera).collect(), ..Default::default() }
+    }
+
+    #[test]
+    fn names_go_before_positions() {
+        let scene = scene(&["1", "door"]);
+        let named = |name: &str| named_view(&scene, name).expect("a camera").camera.name;
+        assert_eq!(["door", "1", "0"].map(named), ["door", "1", "1"]);
+        assert_eq!(default_view(&scene).camera.name, "1");
+        let error = named_view(&scene, "window").expect_err("no such camera");
+        assert!(error.help().contains("'door'"), "{}", error.help());
+    }
+
+    #[test]
+    fn an_eye_looks_at_its_target() {
+        let camera = placed_view([0.0, 0.0, 5.0], [0.0; 3], None).expect("a camera").camera;
+        let forward = camera.world_from_camera.transform_vector3(DVec3::NEG_Z);
+        assert!((forward - DVec3::NEG_Z).length() < 1.0e-12);
+        let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
+        assert!((fov_y - 45.0_f32.to_radians()).abs() < 1.0e-6);
+        let error = placed_view([1.0; 3], [1.0; 3], None).expect_err("no direction");
+        assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+    }
+
+    #[test]
+    fn a_camera_in_words_is_the_options_that_make_it() {
+        let eye = DVec3::new(1.5, -0.001_234_56, 30.0);
+        let camera = camera_looking_at("front", eye, DVec3::new(-2.0, 0.25, 1.0), 0.5);
+        let chosen = default_view(&Scene { cameras: vec![camera.clone()], ..Scene::default() });
+        let text = chosen.described();
+        let words: Vec<_> = text.split_whitespace().collect();
+        let ["0", "'front',", "--eye", eye, "--target", target, "--fov", fov] = words[..] else {
+            panic!("{text}")
+        };
+        let point = |text: &str| -> [f64; 3] {
+            let numbers: Vec<f64> = text.split(',').map(|number| number.parse().expect("a number")).collect();
+            numbers.try_into().expect("three of them")
+        };
+        let fov = Some(fov.parse().expect("degrees"));
+        let again = placed_view(point(eye), point(target), fov).expect("a camera").camera;
+        assert!(again.world_from_camera.abs_diff_eq(camera.world_from_camera, 1.0e-3), "{text}");
+        assert_eq!(chosen.record().index, Some(0));
+
+        let mut rolled = chosen;
+        rolled.camera.world_from_camera.matrix3 *= glam::DMat3::from_rotation_z(0.1);
+        assert!(rolled.described().ends_with("rolled"));
+        rolled.camera.projection = Projection::Orthographic { half_height: 1.25 };
+        assert!(rolled.described().contains("2.5 m high"));
+    }
 }

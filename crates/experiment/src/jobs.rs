@@ -345,3 +345,28 @@ pub struct RenderOutput {
     /// Counts that do not depend on the machine.
     pub counters: Option<Counters>,
 }
+
+impl RenderOutput {
+    /// What a report says of the render.
+    pub fn run(&self, system: &SystemConfig, frame: &Frame) -> Run {
+        Run {
+            system: system.system.name.to_owned(),
+            structure: system.system.structure.to_owned(),
+            preset: system.preset.name().to_owned(),
+            options: self.options.clone(),
+            paths: self.paths.clone(),
+            integrator: Some(frame.integrator.name().to_owned()),
+            width: Some(self.width),
+            height: Some(self.height),
+            spp: Some(self.samples_done),
+            bounces: frame.integrator.bounces(),
+            seed: Some(frame.seed),
+            times: self.times,
+            spread: self.spread.clone(),
+            passes: self.passes.clone(),
+            memory: self.memory.clone(),
+            counters: self.counters.clone(),
+            ..Run::default()
+        }
+    }
+}

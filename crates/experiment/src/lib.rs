@@ -26,6 +26,7 @@ mod hard_verdict;
 mod images;
 mod jobs;
 mod judge;
+mod kept_files;
 mod measured;
 mod pass_list;
 mod passes;
@@ -34,18 +35,21 @@ mod rays;
 mod render;
 mod renderer;
 mod replay;
+mod scene_info;
 mod scene_source;
+mod selection;
 mod stage;
 mod system_config;
 pub mod texels;
 mod traced_set;
+mod whole;
 mod work_maps;
 
 pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelRoom,
 };
-pub use camera::{Chosen, default_view, named_view};
+pub use camera::{Chosen, default_view, named_view, placed_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;
@@ -55,12 +59,16 @@ pub use jobs::{
     RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use judge::device_hits;
+pub use kept_files::NamedBytes;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use renderer::open;
+pub use scene_info::SceneInfo;
 pub use scene_source::{LoadedScene, load};
+pub use selection::{ReadValue, one_system, several_systems};
 pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
-pub use traced_set::{Traced, trace_in_turns};
+pub use traced_set::{TracedSet, trace_in_turns};
+pub use whole::check_run;

@@ -63,7 +63,7 @@ pub(super) fn render_pixels(
     let integrator = integrator(frame, &desc)?;
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
     let first_use_ms = use_once(device, integrator.as_ref(), built)?;
-    let (samples_done, passes) = loop {
+    let Waves { samples_done, unfinished, passes } = loop {
         if let Some(rendered) = render_waves(device, integrator.as_ref(), built, frame, task, progress)? {
             break rendered;
         }
@@ -72,15 +72,22 @@ pub(super) fn render_pixels(
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
-    refuse_corrupted(device, built, &integrator.queues())?;
     let mut counters = built.counters()?;
-    counters.unfinished = Some(count_unfinished(device, &integrator.queues())?);
+    counters.unfinished = Some(unfinished);
     let beauty = film.read(device).map_err(device_error)?;
     Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
 }
 
-/// Renders all samples: how many there are, and what they cost. Nothing where rays need more rounds than they had: then
-/// film and counters start at 0 again, and the structure allows more from now on.
+/// Waves of samples that are on the film.
+struct Waves {
+    samples_done: u32,
+    /// Rays without an answer.
+    unfinished: u64,
+    passes: Passes,
+}
+
+/// Renders all samples. Nothing where rays need more rounds than they had: then film and counters start at 0 again, and
+/// the structure allows more from now on.
 fn render_waves(
     device: &Device,
     integrator: &dyn rasray_integrators::Integrator,
@@ -88,13 +95,14 @@ fn render_waves(
     frame: &Frame,
     task: &str,
     progress: &mut OnProgress<'_>,
-) -> Result<Option<(u32, Passes)>, ExperimentError> {
+) -> Result<Option<Waves>, ExperimentError> {
     let timing = device.best_timing();
     let pixels = frame.width * frame.height;
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
     let total = waves_a_sample * u64::from(frame.spp);
     let mut passes = Passes::default();
     let mut samples_done = 0;
+    let mut unfinished = 0;
     let mut stopping = false;
     for (done, wave) in (1..).zip(waves(pixels, frame.spp, integrator.wave_capacity())) {
         // An early end is taken between samples, so that all pixels have the same number of them.
@@ -108,7 +116,8 @@ fn render_waves(
             .map_err(device_error)?;
         submitted.value.map_err(device_error)?;
         // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
-        let unfinished = count_unfinished(device, &integrator.queues())?;
+        // Queues count on from wave to wave.
+        unfinished = count_unfinished(device, built, &integrator.queues())?;
         if unfinished > 0 && built.structure.allow_more_rounds() {
             device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
             return Ok(None);
@@ -120,7 +129,7 @@ fn render_waves(
         let now = Progress { task, done, total, unit: "waves" };
         stopping |= progress(now) == ControlFlow::Break(());
     }
-    Ok(Some((samples_done, passes)))
+    Ok(Some(Waves { samples_done, unfinished, passes }))
 }
 
 /// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
@@ -141,23 +150,16 @@ fn use_once(
     Ok(started.elapsed().as_secs_f64() * 1.0e3)
 }
 
-/// Refuses a picture whose rays found list entries with an invalid index.
-fn refuse_corrupted(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<(), ExperimentError> {
-    for queue in queues {
-        let entries = queue.download_counters(device).map_err(device_error)?.corrupted;
-        if entries > 0 {
-            let structure = built.structure.name();
-            return Err(tracer_error(&TracerError::Corrupted { structure, entries: entries.into() }));
-        }
-    }
-    Ok(())
-}
-
-/// Rays without an answer in any queue; rays traced through an unbuilt structure count as well.
-fn count_unfinished(device: &Device, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
+/// Downloads the counters of all queues and returns how many rays have no answer; rays that met an unbuilt structure
+/// count as well. Refuses rays that met list entries that name nothing.
+fn count_unfinished(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
     let mut unfinished = 0;
     for queue in queues {
         let counters = queue.download_counters(device).map_err(device_error)?;
+        if counters.corrupted > 0 {
+            let (structure, entries) = (built.structure.name(), counters.corrupted.into());
+            return Err(tracer_error(&TracerError::Corrupted { structure, entries }));
+        }
         unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
     }
     Ok(unfinished)
@@ -244,7 +246,7 @@ fn add_aovs(
                 .map_err(device_error)?;
             submitted.value.map_err(device_error)?;
         }
-        if count_unfinished(device, &[aov.queue()])? == 0 {
+        if count_unfinished(device, built, &[aov.queue()])? == 0 {
             break;
         }
         if !built.structure.allow_more_rounds() {

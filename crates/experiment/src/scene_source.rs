@@ -1,8 +1,10 @@
 //! From a name to a scene that can be rendered.
 
 use crate::error::ExperimentError;
+use rasray_gpu_scene::{Parts, SceneTables, left_out_bytes};
 use rasray_report::{SceneRecord, SmallerImageRecord};
-use rasray_scene::{AlphaMode, Environment, LoadOptions, Scene, builtin, default_view};
+use rasray_scene::needs::Needs;
+use rasray_scene::{AlphaMode, Camera, Environment, LoadOptions, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
 use std::fs::File;
@@ -18,6 +20,9 @@ pub struct LoadedScene {
     pub triangles: u64,
     /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
+    /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent until they
+    /// are counted ([`Self::count_not_uploaded`]), and where the scene is at fault in what is left out.
+    pub not_uploaded_bytes: Option<u64>,
     /// Images that were made smaller for the device.
     pub smaller_images: Vec<SmallerImageRecord>,
 }
@@ -29,6 +34,7 @@ impl LoadedScene {
             name: self.scene.name.clone(),
             triangles: self.triangles,
             sha256: self.sha256.clone(),
+            not_uploaded_bytes: self.not_uploaded_bytes,
             smaller_images: self.smaller_images.clone(),
         }
     }
@@ -71,7 +77,13 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
 }
 
 fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
-    LoadedScene { triangles: triangles(&scene), scene, sha256, smaller_images: Vec::new() }
+    LoadedScene {
+        triangles: triangles(&scene),
+        scene,
+        sha256,
+        not_uploaded_bytes: None,
+        smaller_images: Vec::new(),
+    }
 }
 
 impl LoadedScene {
@@ -83,6 +95,13 @@ impl LoadedScene {
         } else {
             default_view::ensure_lit(&mut self.scene);
         }
+    }
+
+    /// Counts the bytes that are not uploaded where `needs` are those of an image from `camera`.
+    pub fn count_not_uploaded(&mut self, camera: &Camera, needs: &Needs) {
+        let eye = camera.world_from_camera.translation;
+        let origin = SceneTables::default_frame_origin(&self.scene, eye);
+        self.not_uploaded_bytes = left_out_bytes(&self.scene, origin, &Parts::from(needs)).ok();
     }
 
     /// Makes every surface opaque.
@@ -115,6 +134,7 @@ fn digest(path: &Path) -> std::io::Result<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_scene::needs::{Integrator, Workload};
 
     #[test]
     fn the_digest_is_sha256() {
@@ -145,6 +165,33 @@ mod tests {
             let warned = loaded.scene.warnings.iter().any(|warning| warning.kind == "default-light");
             assert_eq!(warned, asked.is_none());
         }
+    }
+
+    #[test]
+    fn what_no_image_can_show_is_counted_as_not_uploaded() {
+        let mut loaded = load(OsStr::new("cornell")).expect("built in");
+        assert_eq!(loaded.record().not_uploaded_bytes, None);
+        let camera = loaded.scene.cameras[0].clone();
+        loaded.count_not_uploaded(&camera, &Needs::all());
+        assert_eq!(loaded.record().not_uploaded_bytes, Some(0));
+        let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
+        let needs = Needs::of(&loaded.scene, occlusion);
+        loaded.count_not_uploaded(&camera, &needs);
+        let normals: usize = loaded
+            .scene
+            .instances
+            .iter()
+            .map(|instance| {
+                let normals = loaded.scene.meshes[instance.mesh].normals.as_ref();
+                normals.map_or(0, |normals| size_of_val(&normals[..]))
+            })
+            .sum();
+        // One zero word stands in for a table without words.
+        assert!(loaded.not_uploaded_bytes.is_some_and(|count| count >= normals as u64 - 4), "{normals}");
+        // What is at fault and not looked at is not counted, and is no error.
+        loaded.scene.meshes[0].normals = Some(Vec::new());
+        loaded.count_not_uploaded(&camera, &needs);
+        assert_eq!(loaded.not_uploaded_bytes, None);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Images that are made smaller because a device does not hold the texels of all.
+//! The texels of a scene's textures, and images that are made smaller because a device does not hold the texels of all.
 
 use crate::backend::TexelRoom;
 use crate::error::ExperimentError;
@@ -7,15 +7,16 @@ use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDem
 use rasray_report::{SmallerImageRecord, bytes};
 use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
+use serde_json::{Value, json};
 
 /// Bytes of texels that every device holds: Vulkan grants each of the buffers 128 MiB.
-pub const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
+const HELD_BY_EVERY_DEVICE: u64 = 512 << 20;
 
 /// The texels that the textures of a scene have as far as they are needed.
 ///
 /// # Errors
 /// The scene names what it does not have.
-pub fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> {
+fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> {
     TexelDemand::of(scene, &Parts::from(needs)).map_err(refused)
 }
 
@@ -23,7 +24,7 @@ pub fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentErr
 ///
 /// # Errors
 /// Even images of one texel each are too many.
-pub fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerImage>, ExperimentError> {
+fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerImage>, ExperimentError> {
     demand.smaller_images(room.texels).map_err(refused)
 }
 
@@ -46,7 +47,7 @@ pub fn fit(
 }
 
 /// What is made smaller, and why; nothing where nothing is. The largest come first: they were so before, too.
-pub fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<String> {
+fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
     let what = match smaller {
@@ -63,7 +64,7 @@ pub fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Opt
 }
 
 /// As reports and `rasray info --json` name them.
-pub fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
+fn records(smaller: &[SmallerImage]) -> Vec<SmallerImageRecord> {
     let record = |image: &SmallerImage| SmallerImageRecord {
         name: image.name.clone(),
         from: image.from,
@@ -76,6 +77,66 @@ fn refused(error: GpuSceneError) -> ExperimentError {
     ExperimentError::device(error, "use fewer textures, or another --device")
 }
 
+/// Bytes of texels, and what the device in use does with them where not every device holds them.
+#[derive(Clone, Debug)]
+pub struct TexelInfo {
+    bytes: u64,
+    /// How many it holds, and the images that are made smaller for it.
+    device: Option<(TexelRoom, Vec<SmallerImage>)>,
+}
+
+impl TexelInfo {
+    /// Counts the texels that `needs` asks for. `room` opens the device, if there is one: it is called only where the
+    /// answer depends on it.
+    ///
+    /// # Errors
+    /// The scene names what it does not have, or the device holds too few texels even where images have one each.
+    pub fn of(
+        scene: &Scene,
+        needs: &Needs,
+        room: impl FnOnce() -> Option<TexelRoom>,
+    ) -> Result<Self, ExperimentError> {
+        let demand = demand(scene, needs)?;
+        let bytes = demand.bytes();
+        if bytes <= HELD_BY_EVERY_DEVICE {
+            return Ok(Self { bytes, device: None });
+        }
+        // Without a device the scene is shown all the same.
+        let Some(room) = room() else { return Ok(Self { bytes, device: None }) };
+        let smaller = smaller_images(&demand, &room)?;
+        Ok(Self { bytes, device: Some((room, smaller)) })
+    }
+
+    /// In words; nothing where there are no texels.
+    pub fn text(&self) -> Option<String> {
+        let held = bytes(HELD_BY_EVERY_DEVICE);
+        let total = bytes(self.bytes);
+        let text = match &self.device {
+            _ if self.bytes == 0 => return None,
+            None if self.bytes <= HELD_BY_EVERY_DEVICE => format!("{total}; every device holds {held}"),
+            None => format!(
+                "{total}; every device holds {held}, and no device is here to say whether it holds more"
+            ),
+            Some((room, smaller)) => match described(smaller, self.bytes, room) {
+                Some(text) => format!("{total}; a render makes them fit: {text}"),
+                None => format!("{total}; {} holds {}", room.device, bytes(room.texels * TEXEL_BYTES)),
+            },
+        };
+        Some(text)
+    }
+
+    /// Fields of `rasray info --json`.
+    pub fn json(&self) -> Value {
+        let mut fields = json!({ "bytes": self.bytes, "held_by_every_device_bytes": HELD_BY_EVERY_DEVICE });
+        if let Some((room, smaller)) = &self.device {
+            fields["device"] = room.device.as_str().into();
+            fields["held_bytes"] = (room.texels * TEXEL_BYTES).into();
+            fields["smaller_images"] = json!(records(smaller));
+        }
+        fields
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,7 +145,13 @@ mod tests {
 
     fn loaded() -> LoadedScene {
         let scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
-        LoadedScene { scene, triangles: 0, sha256: None, smaller_images: Vec::new() }
+        LoadedScene {
+            scene,
+            triangles: 0,
+            sha256: None,
+            not_uploaded_bytes: None,
+            smaller_images: Vec::new(),
+        }
     }
 
     #[test]
@@ -122,5 +189,36 @@ mod tests {
         // None where even one texel an image is too much.
         let error = fit(&mut loaded(), &needed, &room(0)).expect_err("no room");
         assert!(error.to_string().contains("more than the 0"), "{error}");
+    }
+
+    fn info(bytes: u64, device: Option<(u64, Vec<SmallerImage>)>) -> TexelInfo {
+        let device =
+            device.map(|(texels, smaller)| (TexelRoom { texels, device: "a device".to_owned() }, smaller));
+        TexelInfo { bytes, device }
+    }
+
+    fn text(info: &TexelInfo) -> String {
+        info.text().expect("there are texels")
+    }
+
+    #[test]
+    fn the_text_says_what_a_render_does() {
+        assert_eq!(info(0, None).text(), None);
+        assert_eq!(text(&info(3 << 20, None)), "3.00 MiB; every device holds 512.00 MiB");
+        assert!(text(&info(1 << 30, None)).ends_with("no device is here to say whether it holds more"));
+        let held = info(1 << 30, Some((1 << 29, Vec::new())));
+        assert_eq!(text(&held), "1.00 GiB; a device holds 2.00 GiB");
+        assert_eq!(held.json()["held_bytes"], 1u64 << 31);
+        assert_eq!(held.json()["smaller_images"], json!([]));
+        assert!(info(5, None).json().get("device").is_none());
+    }
+
+    #[test]
+    fn the_device_is_asked_only_where_it_matters() {
+        let scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
+        let info = TexelInfo::of(&scene, &Needs::all(), || panic!("every device holds so few texels"));
+        let info = info.expect("the scene is whole");
+        assert!(info.bytes > 0 && info.device.is_none());
+        assert_eq!(info.json()["bytes"], info.bytes);
     }
 }

@@ -45,7 +45,7 @@ pub(super) struct Wanted<'a> {
 
 /// What one system answered to one set.
 #[derive(Debug, Default)]
-pub struct Traced {
+pub struct TracedSet {
     /// One a ray.
     pub hits: Vec<Hit>,
     /// Of one trace of all rays.
@@ -144,10 +144,10 @@ pub fn trace_in_turns(
     contestants: &[Contestant<'_>],
     rays: &[Ray],
     repetitions: u32,
-) -> Result<Vec<Traced>, ExperimentError> {
+) -> Result<Vec<TracedSet>, ExperimentError> {
     let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
     let timing = device.best_timing();
-    let mut traces: Vec<Traced> = contestants.iter().map(|_| Traced::default()).collect();
+    let mut traces: Vec<TracedSet> = contestants.iter().map(|_| TracedSet::default()).collect();
     for repetition in 0..=repetitions {
         for (contestant, traced) in contestants.iter().zip(&mut traces) {
             let outcome = tracer
@@ -169,7 +169,7 @@ fn run_of(
     device: &Device,
     contestant: &Contestant<'_>,
     set: &RaysWithTruth,
-    traced: &Traced,
+    traced: &TracedSet,
     seed: u32,
 ) -> Result<Run, ExperimentError> {
     let rays = set.rays.len() as u64;

@@ -10,26 +10,32 @@ use rasray_shaders_glsl::constants::{
     scene::{ATTRIBUTE_NONE, DRAW_MIRRORED, EMISSIVE_NONE},
 };
 
-use crate::{GpuSceneError, Parts, Posed, layout::DrawShading};
+use crate::{GpuSceneError, Parts, Posed, layout::DrawShading, words::Words};
 
 /// The packed tables.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Attributes {
     /// One per draw.
     pub draw_shadings: Vec<DrawShading>,
     /// Normals and tangents in world space.
-    pub posed: Vec<f32>,
+    pub posed: Words,
     /// Texture coordinates and colours.
-    pub vertex: Vec<f32>,
+    pub vertex: Words,
 }
 
-/// Packs the attributes of all draws. `first_emissive` of every draw is left at `EMISSIVE_NONE`.
+/// Packs the attributes of all draws into tables that begin as `words`. `first_emissive` of every draw is left at
+/// `EMISSIVE_NONE`.
 ///
 /// # Errors
 /// `TooManyVertices` where 32-bit word offsets do not reach; `Malformed` where an attribute has
 /// another length than the positions or a mesh names a material that does not exist.
-pub fn pack_attributes(scene: &Scene, posed: &Posed, parts: &Parts) -> Result<Attributes, GpuSceneError> {
-    let mut packed = Attributes::default();
+pub fn pack_attributes(
+    scene: &Scene,
+    posed: &Posed,
+    parts: &Parts,
+    words: Words,
+) -> Result<Attributes, GpuSceneError> {
+    let mut packed = Attributes { draw_shadings: Vec::new(), posed: words.clone(), vertex: words };
     let mut of_mesh: HashMap<usize, VertexOffsets> = HashMap::new();
     for draw in &posed.draws {
         let instance = &scene.instances[draw.instance as usize];
@@ -76,7 +82,7 @@ struct VertexOffsets {
 
 /// The attributes that some texture or colour of the mesh's material can read.
 fn append_vertex_attributes(
-    table: &mut Vec<f32>,
+    table: &mut Words,
     scene: &Scene,
     mesh: &Mesh,
     parts: &Parts,
@@ -90,17 +96,19 @@ fn append_vertex_attributes(
         || parts.transmission_textures;
     let mut uv = |set: usize| {
         let wanted = parts.uvs[set] && (shaded || masked);
-        append(table, mesh, mesh.uvs[set].as_deref().filter(|_| wanted), "texture coordinates")
+        let uvs = mesh.uvs[set].as_ref().filter(|_| wanted);
+        append(table, mesh, uvs.map(|uvs| uvs.iter().copied()), "texture coordinates")
     };
     let (uv0, uv1) = (uv(0)?, uv(1)?);
-    let colors = append(table, mesh, mesh.colors.as_deref().filter(|_| parts.colors), "colours")?;
+    let colors = mesh.colors.as_ref().filter(|_| parts.colors);
+    let colors = append(table, mesh, colors.map(|colors| colors.iter().copied()), "colours")?;
     Ok(VertexOffsets { uv0, uv1, colors })
 }
 
 fn append<const N: usize>(
-    table: &mut Vec<f32>,
+    table: &mut Words,
     mesh: &Mesh,
-    values: Option<&[[f32; N]]>,
+    values: Option<impl ExactSizeIterator<Item = [f32; N]>>,
     what: &str,
 ) -> Result<u32, GpuSceneError> {
     let Some(values) = values else { return Ok(ATTRIBUTE_NONE) };
@@ -110,45 +118,35 @@ fn append<const N: usize>(
             limit: mesh.positions.len(),
         });
     }
-    let first = table.len();
-    let end = first as u64 + (values.len() * N) as u64;
-    if end >= u64::from(ATTRIBUTE_NONE) {
-        return Err(GpuSceneError::TooManyVertices { count: end, limit: u64::from(ATTRIBUTE_NONE) });
-    }
-    table.extend(values.iter().flatten());
-    Ok(first as u32)
+    table.append(values.len() * N, || values.flatten())
 }
 
 fn append_normals(
-    table: &mut Vec<f32>,
+    table: &mut Words,
     mesh: &Mesh,
     linear: DMat3,
     parts: &Parts,
 ) -> Result<u32, GpuSceneError> {
     let Some(normals) = mesh.normals.as_ref().filter(|_| parts.normals) else { return Ok(ATTRIBUTE_NONE) };
     let world_from_mesh = normal_matrix(linear);
-    let posed: Vec<[f32; 3]> =
-        normals.iter().map(|&normal| unit(world_from_mesh * DVec3::from(normal.map(f64::from)))).collect();
-    append(table, mesh, Some(&posed), "normals")
+    let posed = normals.iter().map(|&normal| unit(world_from_mesh * DVec3::from(normal.map(f64::from))));
+    append(table, mesh, Some(posed), "normals")
 }
 
 fn append_tangents(
-    table: &mut Vec<f32>,
+    table: &mut Words,
     mesh: &Mesh,
     linear: DMat3,
     mirrored: bool,
     parts: &Parts,
 ) -> Result<u32, GpuSceneError> {
     let Some(tangents) = mesh.tangents.as_ref().filter(|_| parts.tangents) else { return Ok(ATTRIBUTE_NONE) };
-    let posed: Vec<[f32; 4]> = tangents
-        .iter()
-        .map(|&[x, y, z, w]| {
-            let [x, y, z] = unit(linear * DVec3::new(x.into(), y.into(), z.into()));
-            let sign = if (w < 0.0) != mirrored { -1.0 } else { 1.0 };
-            [x, y, z, sign]
-        })
-        .collect();
-    append(table, mesh, Some(&posed), "tangents")
+    let posed = tangents.iter().map(|&[x, y, z, w]| {
+        let [x, y, z] = unit(linear * DVec3::new(x.into(), y.into(), z.into()));
+        let sign = if (w < 0.0) != mirrored { -1.0 } else { 1.0 };
+        [x, y, z, sign]
+    });
+    append(table, mesh, Some(posed), "tangents")
 }
 
 /// The inverse transpose up to a positive factor, which normalising takes out. Made from cofactors,

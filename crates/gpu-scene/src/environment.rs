@@ -61,6 +61,17 @@ pub fn pack_environment(environment: &Environment) -> Result<EnvironmentTables, 
     }
 }
 
+/// Words of the tables of an environment: radiance, then distribution.
+pub fn environment_words(environment: &Environment) -> [u64; 2] {
+    match environment {
+        Environment::Constant(_) => [0; 2],
+        Environment::LatLong { height, radiance, .. } => {
+            let texels = radiance.len() as u64;
+            [3 * texels, u64::from(*height) + texels]
+        }
+    }
+}
+
 fn pack_map(width: u32, height: u32, radiance: &[[f32; 3]]) -> EnvironmentTables {
     let mut cleaned = Vec::with_capacity(radiance.len());
     let mut replaced = 0u64;

@@ -9,13 +9,14 @@ use std::{collections::HashMap, f64::consts::PI};
 use glam::{DVec3, Vec3};
 use rasray_scene::Scene;
 use rasray_shaders_glsl::constants::scene::{
-    ALBEDO_LOSSLESS_ALPHA, ATTRIBUTE_NONE, BSDF_STRAIGHT_INDEX, GLASS_ROW_WORDS, GLASS_ROWS,
+    ALBEDO_LOSSLESS_ALPHA, BSDF_STRAIGHT_INDEX, GLASS_ROW_WORDS, GLASS_ROWS,
 };
 
-use crate::{GpuSceneError, layout::Material};
+use crate::{GpuSceneError, layout::Material, words::Words};
 
 const ROWS: usize = GLASS_ROWS as usize;
 const ROW_WORDS: usize = GLASS_ROW_WORDS as usize;
+const TABLE_WORDS: usize = 3 * ROWS * ROW_WORDS;
 /// The last word of a row is the mean.
 const COSINES: usize = ROW_WORDS - 1;
 /// Points of the Fibonacci lattice that integrates over visible normals, and its step: neighbours in the sequence.
@@ -60,7 +61,7 @@ impl Glass {
         let [front, back] = interfaces.map(|interface| interface.rows());
         let dense = if interfaces[0].eta > 1.0 { &front } else { &back };
         let lost = |share: &Share| 1.0 - share.reflected - share.refracted;
-        let mut table = Vec::with_capacity(3 * ROWS * ROW_WORDS);
+        let mut table = Vec::with_capacity(TABLE_WORDS);
         append_block(&mut table, &front, lost);
         append_block(&mut table, &back, lost);
         append_block(&mut table, dense, |share| share.reflected);
@@ -75,7 +76,7 @@ impl Glass {
 pub fn append_glass_albedos(
     scene: &Scene,
     materials: &mut [Material],
-    words: &mut Vec<f32>,
+    words: &mut Words,
 ) -> Result<(), GpuSceneError> {
     let mut offsets: HashMap<[u32; 3], u32> = HashMap::new();
     for (material, packed) in scene.materials.iter().zip(materials) {
@@ -83,14 +84,9 @@ pub fn append_glass_albedos(
         packed.albedo = match offsets.get(&glass.key()) {
             Some(&offset) => offset,
             None => {
-                let (first, table) = (words.len() as u64, glass.table());
-                let (end, limit) = (first + table.len() as u64, u64::from(ATTRIBUTE_NONE));
-                if end >= limit {
-                    return Err(GpuSceneError::TooManyVertices { count: end, limit });
-                }
-                words.extend(table);
-                offsets.insert(glass.key(), first as u32);
-                first as u32
+                let first = words.append(TABLE_WORDS, || glass.table())?;
+                offsets.insert(glass.key(), first);
+                first
             }
         };
     }

@@ -15,6 +15,7 @@ use crate::{
     lights::pack_lights,
     materials::pack_materials,
     origin::{frame_origin_spacing, snap_frame_origin},
+    words::Words,
 };
 
 /// All tables of a scene. Positions are metres relative to `frame_origin`.
@@ -62,7 +63,7 @@ impl SceneTables {
                 crate::LARGEST_COORDINATE
             );
         }
-        let mut attributes = pack_attributes(scene, &posed, parts)?;
+        let mut attributes = pack_attributes(scene, &posed, parts, Words::stored())?;
         let (mut materials, textures) = pack_materials(scene, parts)?;
         if parts.glass_albedos {
             append_glass_albedos(scene, &mut materials, &mut attributes.vertex)?;
@@ -89,8 +90,8 @@ impl SceneTables {
             frame_origin,
             posed,
             draw_shadings: attributes.draw_shadings,
-            posed_attributes: attributes.posed,
-            vertex_attributes: attributes.vertex,
+            posed_attributes: attributes.posed.into_vec(),
+            vertex_attributes: attributes.vertex.into_vec(),
             materials,
             textures: textures.textures,
             texels: textures.texels,

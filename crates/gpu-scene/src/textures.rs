@@ -86,6 +86,20 @@ impl<'a> TexturePacker<'a> {
         mipmapped
     }
 
+    /// Entries that materials name.
+    pub fn texture_count(&self) -> u64 {
+        self.entries.len() as u64
+    }
+
+    /// Texels of all levels that are stored.
+    pub fn texel_count(&self) -> u64 {
+        let stored = self.stored().into_iter().map(|((image, _), mipmapped)| {
+            let image = &self.scene.images[image];
+            mips::texel_count(image.width, image.height, mipmapped)
+        });
+        stored.sum()
+    }
+
     /// Makes the texels of everything that was used.
     ///
     /// # Errors
@@ -93,12 +107,7 @@ impl<'a> TexturePacker<'a> {
     pub fn finish(self) -> Result<Textures, GpuSceneError> {
         let scene = self.scene;
         let mipmapped = self.stored();
-        let count: u64 = mipmapped
-            .iter()
-            .map(|(&(image, _), &all)| {
-                mips::texel_count(scene.images[image].width, scene.images[image].height, all)
-            })
-            .sum();
+        let count = self.texel_count();
         if count > u64::from(u32::MAX) {
             return Err(GpuSceneError::TooManyTexels { count, limit: u64::from(u32::MAX) });
         }

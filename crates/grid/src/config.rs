@@ -24,6 +24,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// Five cells per triangle.
     pub fn new() -> Self {

@@ -2,12 +2,11 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, Scan, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout, Scan,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{Demand, cell_count, first_plan, formula_bytes, plan};
@@ -72,16 +71,10 @@ impl Design for Passes {
     type Contents = Contents;
 
     const NAME: &'static str = "grid";
-    const PREFIX: &'static str = "grid";
     const TITLE: &'static str = "the grid";
     const BUILD_READS_SCENE: bool = false;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Primitive
@@ -170,18 +163,13 @@ impl Design for Passes {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents { header, lists: words(Pool::Lists)?, entries: words(Pool::Entries)? })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools =
-            vec![(Pool::Lists, cast_slice(&contents.lists)), (Pool::Entries, cast_slice(&contents.entries))];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents;
+        Lists => lists,
+        Entries => entries,
     }
 }

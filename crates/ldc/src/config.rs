@@ -106,6 +106,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// The repaired structure: planes, full depth, and nothing lost between the views.
     pub fn robust(resolution: u32) -> Self {

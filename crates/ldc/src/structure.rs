@@ -2,12 +2,11 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{
@@ -62,16 +61,10 @@ impl Design for Build {
     type Contents = Contents;
 
     const NAME: &'static str = "ldc";
-    const PREFIX: &'static str = "ldc";
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(_config: &Config) -> StructureKind {
         StructureKind::Fragment
@@ -179,33 +172,17 @@ impl Design for Build {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            lists: words(Pool::Lists)?,
-            depths: words(Pool::Depths)?,
-            payload: words(Pool::Payload)?,
-            blocks: words(Pool::Blocks)?,
-            heads: words(Pool::Heads)?,
-            fringe: words(Pool::Fringe)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Depths, cast_slice(&contents.depths)),
-            (Pool::Payload, cast_slice(&contents.payload)),
-            (Pool::Blocks, cast_slice(&contents.blocks)),
-            (Pool::Heads, cast_slice(&contents.heads)),
-            (Pool::Fringe, cast_slice(&contents.fringe)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Lists => lists,
+        Depths => depths,
+        Payload => payload,
+        Blocks => blocks,
+        Heads => heads,
+        Fringe => fringe,
     }
 }

@@ -3,7 +3,7 @@
 use super::markup::Markup;
 use super::section::Section;
 use rasray_report::Report;
-use rasray_report::grouped;
+use rasray_report::{bytes, grouped};
 use serde_json::Value;
 use std::borrow::Cow;
 
@@ -60,6 +60,9 @@ fn header(page: &mut Markup, report: &Report) {
     fact("Triangles", grouped(report.scene.triangles).into());
     if let Some(sum) = &report.scene.sha256 {
         fact("Scene, SHA-256", sum.into());
+    }
+    if let Some(count) = report.scene.not_uploaded_bytes {
+        fact("Scene, not uploaded", bytes(count).into());
     }
     let smaller = report.scene.smaller_images.iter().map(|image| {
         let ([width, height], [from_width, from_height]) = (image.to, image.from);

@@ -1,8 +1,12 @@
-//! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write.
+//! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write; and as
+//! text: tables for terminals ([`table()`]), and for pages in Markdown ([`markdown()`]).
 
 mod accuracy;
 pub mod figures;
+mod markdown;
+mod run_text;
 mod schema;
+mod table;
 #[cfg(test)]
 mod tests;
 mod text;
@@ -14,6 +18,8 @@ pub use schema::{
     Spread, Statistics, Timer, Times,
 };
 
+pub use markdown::markdown;
+pub use table::table;
 pub use text::{in_line, json_shown, one_line, shown, shown_but};
 pub use words::{bytes, columns, grouped};
 

@@ -78,6 +78,10 @@ pub struct SceneRecord {
     /// Of the scene file, in hexadecimal; absent for built-in scenes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
+    /// Bytes of its tables that were not allocated on the device, because no image of the integrator can show what they
+    /// hold; absent for hard cases.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_uploaded_bytes: Option<u64>,
     /// Images that were made smaller, because the device does not hold the texels of all; absent where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub smaller_images: Vec<SmallerImageRecord>,

@@ -8,6 +8,7 @@ pub mod builtin;
 pub mod check;
 mod decode;
 pub mod default_view;
+mod environment_map;
 mod error;
 pub mod facing;
 pub mod gltf;
@@ -24,6 +25,7 @@ mod remarks;
 mod text;
 
 pub use decode::decode_image;
+pub use environment_map::load_environment;
 pub use error::SceneError;
 pub use limits::{Limits, LoadOptions, SceneChoice};
 pub use load::load;

@@ -5,7 +5,6 @@
 //!
 //! Positions, indices and the table of draws are always needed and have no term.
 
-mod bytes;
 mod moving;
 mod reads;
 mod survey;
@@ -169,7 +168,6 @@ pub struct Verdict {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Needs {
     verdicts: Vec<Verdict>,
-    saved_bytes: u64,
 }
 
 impl Needs {
@@ -185,17 +183,13 @@ impl Needs {
                 Verdict { term, needed, why: unseen.unwrap_or_else(|| found.sentence(term)) }
             })
             .collect();
-        let mut needs = Self { verdicts, saved_bytes: 0 };
-        let saved =
-            bytes::uploaded(scene, None).saturating_sub(bytes::uploaded(scene, Some((&needs, workload))));
-        needs.saved_bytes = saved;
-        needs
+        Self { verdicts }
     }
 
     /// Everything, whatever the scene has: to show that leaving out what is not needed changes nothing.
     pub fn all() -> Self {
         let verdict = |term| Verdict { term, needed: true, why: "everything was asked for".to_owned() };
-        Self { verdicts: Term::ALL.into_iter().map(verdict).collect(), saved_bytes: 0 }
+        Self { verdicts: Term::ALL.into_iter().map(verdict).collect() }
     }
 
     /// Whether a term is needed.
@@ -206,11 +200,5 @@ impl Needs {
     /// All verdicts in the order of [`Term::ALL`].
     pub fn verdicts(&self) -> &[Verdict] {
         &self.verdicts
-    }
-
-    /// Bytes of attributes, texels, lights and environment that need not be uploaded, about: texels
-    /// count 4 bytes with a third more for smaller levels, normals and tangents once an instance.
-    pub fn saved_bytes(&self) -> u64 {
-        self.saved_bytes
     }
 }

@@ -11,7 +11,7 @@ use crate::{Preset, Spec, System, SystemsError};
 pub(crate) const SYSTEM: System = System {
     name: "dirt",
     doc: "Lists of triangles per tile of a cube's faces: hits are those of the triangles",
-    structure: "ads-primitive",
+    structure: "primitive",
     records: PrimitiveLists::RECORDS,
     large_pools: &[("tile", "1"), ("resolution", "1024"), ("buckets", "8")],
     presets: &[Preset::Robust, Preset::Published],

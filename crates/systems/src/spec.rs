@@ -61,7 +61,7 @@ pub struct System {
     pub camera_views: Option<&'static str>,
     /// Options with which its published preset needs no scene: by default fragments carry what a scene's materials say.
     pub without_scene: &'static [(&'static str, &'static str)],
-    /// The structure that it traces, as crates and shaders name it.
+    /// The name of the structure that it traces.
     pub structure: &'static str,
     /// What that structure shares with its shaders, the header first.
     pub records: &'static [RecordLayout],
@@ -192,7 +192,7 @@ impl Spec {
         self.system
     }
 
-    /// The structure it traces, as crates and shaders name it.
+    /// The name of the structure it traces.
     pub fn structure(&self) -> &'static str {
         self.system.structure
     }

@@ -142,6 +142,8 @@ pub struct Config {
     pub work_budget: Option<u32>,
 }
 
+rasray_ads::configured!(Config);
+
 impl Config {
     /// The repaired structure: each triangle in the view it faces most, every cell, planes.
     pub fn robust(resolution: u32) -> Self {

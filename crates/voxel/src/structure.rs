@@ -2,12 +2,11 @@
 
 use std::mem::offset_of;
 
-use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Common, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
-use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
+use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
@@ -60,16 +59,10 @@ impl Design for Build {
     type Contents = Contents;
 
     const NAME: &'static str = "voxel";
-    const PREFIX: &'static str = "voxel";
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
-
-    fn common(config: &Config) -> Common {
-        let Config { addressing, counters, work_budget, .. } = *config;
-        Common { addressing, counters, work_budget }
-    }
 
     fn kind(config: &Config) -> StructureKind {
         match config.coverage {
@@ -184,27 +177,14 @@ impl Design for Build {
         }
     }
 
-    fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
-        let words = |name| parts.pools.download_words(device, name);
-        Ok(Contents {
-            config: parts.config,
-            header,
-            voxels: words(Pool::Voxels)?,
-            lists: words(Pool::Lists)?,
-            fragments: words(Pool::Fragments)?,
-        })
-    }
-
     fn fault(contents: &Contents, triangles: u32) -> Option<String> {
         well_formed(contents, triangles).err().map(|fault| fault.to_string())
     }
 
-    fn pools_of(contents: &Contents) -> (Header, PoolBytes<'_, Pool>) {
-        let pools = vec![
-            (Pool::Voxels, cast_slice(&contents.voxels)),
-            (Pool::Lists, cast_slice(&contents.lists)),
-            (Pool::Fragments, cast_slice(&contents.fragments)),
-        ];
-        (contents.header, pools)
+    pools_of_words! {
+        Contents with config;
+        Voxels => voxels,
+        Lists => lists,
+        Fragments => fragments,
     }
 }

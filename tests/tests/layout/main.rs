@@ -59,7 +59,7 @@ fn every_record_in_every_module() {
 #[test]
 fn records_of_every_structure() {
     for system in SYSTEMS {
-        let folder = system.structure.trim_start_matches("ads-");
+        let folder = system.structure;
         let of_folder =
             found_in_modules().iter().filter(|(shader, _)| shader.name.split('/').next() == Some(folder));
         for (place, record) in system.records.iter().enumerate() {

@@ -111,9 +111,7 @@ fn structures(bench: &Bench, addressing: &str) -> BTreeMap<&'static str, Traced>
     for system in SYSTEMS.iter().filter(|system| system.has("addressing")) {
         let options = [("addressing".to_owned(), addressing.to_owned())];
         let spec = Spec::new(system.name, "robust", options).expect("the options are valid");
-        structures
-            .entry(spec.structure().trim_start_matches("ads-"))
-            .or_insert_with(|| Traced::new(bench, &spec));
+        structures.entry(spec.structure()).or_insert_with(|| Traced::new(bench, &spec));
     }
     structures
 }

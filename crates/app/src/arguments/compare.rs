@@ -4,8 +4,9 @@ use super::ray_files::RayFileArguments;
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
 use super::structure::{StructureArguments, preset_parser, ray_set_parser, system_parser};
 use super::values;
+use crate::error::AppError;
 use clap::Args;
-use rasray_experiment::RaySet;
+use rasray_experiment::{RaySet, SystemConfig, several_systems};
 use rasray_systems::{Preset, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -95,4 +96,16 @@ pub struct CompareArguments {
     /// Long names of the options that were typed.
     #[arg(skip)]
     pub typed: Vec<String>,
+}
+
+impl CompareArguments {
+    /// What is compared: every named system with every named preset that it has, and with each of the values that are
+    /// addressed to it.
+    ///
+    /// # Errors
+    /// A preset or an option that none of the systems has, values that are not taken or do not go together.
+    pub fn systems(&self) -> Result<Vec<SystemConfig>, AppError> {
+        let (given, read_value) = (&self.structure.0, &StructureArguments::read_value);
+        Ok(several_systems(&self.systems, &self.presets, given, &self.assignments, read_value)?)
+    }
 }

@@ -2,10 +2,9 @@
 
 use super::shared::{DeviceArguments, IntegratorName};
 use super::structure::{StructureArguments, preset_parser, system_parser};
-use super::systems;
 use crate::error::AppError;
 use clap::Args;
-use rasray_experiment::SystemConfig;
+use rasray_experiment::{SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 
@@ -58,7 +57,7 @@ impl InfoArguments {
     /// wanted.
     pub fn system(&self) -> Result<Option<SystemConfig>, AppError> {
         if self.passes {
-            return systems::single(self.system, self.preset, &self.structure.0).map(Some);
+            return Ok(Some(one_system(self.system, self.preset, &self.structure.0)?));
         }
         match self.structure.0.given().keys().next() {
             Some(option) => Err(AppError::usage(

@@ -5,7 +5,7 @@ use rasray_report::one_line;
 
 /// Turns an answer of the parser into one line of error and one of help; the help names the command
 /// whose options are meant.
-pub(super) fn usage_error(error: &clap::Error, prefix: &str, command: Option<&str>) -> AppError {
+pub(super) fn usage_error(error: &clap::Error, command: Option<&str>) -> AppError {
     let text = error.render().to_string();
     let (mut message, mut help) = (String::new(), String::new());
     for paragraph in text.split("\n\n") {
@@ -23,5 +23,5 @@ pub(super) fn usage_error(error: &clap::Error, prefix: &str, command: Option<&st
             None => "'rasray --help' lists what there is".to_owned(),
         };
     }
-    AppError::usage(format!("{prefix}{message}"), help)
+    AppError::usage(message, help)
 }

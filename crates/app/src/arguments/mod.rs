@@ -8,7 +8,6 @@ mod ray_files;
 mod render;
 mod shared;
 mod structure;
-mod systems;
 pub mod values;
 
 pub use compare::CompareArguments;
@@ -20,7 +19,6 @@ pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
 };
 pub use structure::StructureArguments;
-pub(crate) use systems::several;
 
 use crate::error::AppError;
 use clap::parser::ValueSource;
@@ -104,7 +102,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
                 "nothing was asked for",
                 "say render, compare or info; 'rasray help' explains them, with examples",
             )),
-            _ => Refusal::Error(usage_error(&error, "", command)),
+            _ => Refusal::Error(usage_error(&error, command)),
         }),
     }
 }

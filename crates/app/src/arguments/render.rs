@@ -2,11 +2,11 @@
 
 use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
 use super::structure::{StructureArguments, preset_parser, system_parser};
-use super::{systems, values};
+use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, SystemConfig};
+use rasray_experiment::{AovSelection, SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -94,7 +94,7 @@ impl RenderArguments {
     /// # Errors
     /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
-        systems::single(self.system, self.preset, &self.structure.0)
+        Ok(one_system(self.system, self.preset, &self.structure.0)?)
     }
 
     /// The images wanted in addition to the colours.

@@ -4,9 +4,12 @@ use super::structure::sampler_parser;
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
-use rasray_experiment::{DeviceChoice, Frame, Integrator, Sampler};
-use rasray_scene::Scene;
+use rasray_experiment::{
+    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Sampler, default_view, named_view, placed_view,
+};
 use rasray_scene::needs::{Needs, Workload};
+use rasray_scene::{Environment, Scene, SceneError, load_environment};
+use std::path::Path;
 
 /// Integrators by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -129,6 +132,20 @@ pub struct ViewArguments {
     pub fov: Option<f64>,
 }
 
+impl ViewArguments {
+    /// The camera that was asked for; else [`default_view`].
+    ///
+    /// # Errors
+    /// A camera that the scene lacks, and an eye at its own target.
+    pub fn choose(&self, scene: &Scene) -> Result<Chosen, ExperimentError> {
+        match (self.eye, self.target, &self.camera) {
+            (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
+            (_, _, Some(name)) => named_view(scene, name),
+            _ => Ok(default_view(scene)),
+        }
+    }
+}
+
 /// Whether only what can be observed is handled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum NeedsName {
@@ -156,12 +173,49 @@ pub struct SceneArguments {
 }
 
 impl SceneArguments {
+    /// The radiance from outside that was asked for: a map, or one colour.
+    ///
+    /// # Errors
+    /// Negative colours, files that cannot be read, and pixels that are no radiance.
+    pub fn environment(&self) -> Result<Option<Environment>, AppError> {
+        let Some(value) = self.environment.as_deref() else { return Ok(None) };
+        let path = Path::new(value);
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("hdr")) {
+            return Ok(Some(load_environment(path).map_err(|error| unreadable_map(path, &error))?));
+        }
+        let color = values::point(value).map_err(|_| {
+            AppError::usage(
+                format!("--environment {value} is neither a .hdr file nor a colour"),
+                "write --environment sky.hdr, or three linear values such as --environment 0.5,0.7,1",
+            )
+        })?;
+        let color = color.map(|channel| channel as f32);
+        if !color.iter().all(|channel| channel.is_finite() && *channel >= 0.0) {
+            return Err(AppError::usage(
+                format!("--environment {value} has a negative or too large value"),
+                "radiance is at least 0 and at most 3e38",
+            ));
+        }
+        Ok(Some(Environment::Constant(color)))
+    }
+
     /// What of the scene the work needs.
     pub fn needs(&self, scene: &Scene, workload: Workload) -> Needs {
         match self.needs {
             NeedsName::Observed => Needs::of(scene, workload),
             NeedsName::All => Needs::all(),
         }
+    }
+}
+
+/// A map that cannot be read.
+fn unreadable_map(path: &Path, error: &SceneError) -> AppError {
+    let fix = "give a Radiance .hdr file of at most 2^27 pixels";
+    match error {
+        SceneError::Read { source, .. } => AppError::input(path, source, fix),
+        SceneError::Syntax { reason, .. } => AppError::input(path, reason, fix),
+        // Names the file itself.
+        other => AppError::usage(other.to_string(), fix),
     }
 }
 

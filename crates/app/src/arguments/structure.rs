@@ -2,10 +2,11 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{RaySet, Sampler, StructureOptions};
+use rasray_experiment::{ExperimentError, RaySet, Sampler, StructureOptions};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
+use super::mistakes::usage_error;
 use super::values;
 
 /// Reads the name of a system.
@@ -42,6 +43,22 @@ pub struct StructureArguments(
     /// What was given.
     pub StructureOptions,
 );
+
+impl StructureArguments {
+    /// Reads one value of an option of a comparison, as if it were an option of its own.
+    ///
+    /// # Errors
+    /// The option does not take the value.
+    pub fn read_value(option: &str, value: &str) -> Result<StructureOptions, ExperimentError> {
+        let command =
+            Self::augment_args(Command::new("options").no_binary_name(true).disable_help_flag(true));
+        let matches = command.try_get_matches_from([format!("--{option}={value}")]);
+        matches.and_then(|matches| Self::from_arg_matches(&matches)).map(|read| read.0).map_err(|error| {
+            let error = usage_error(&error, Some("compare"));
+            ExperimentError::usage(error.to_string(), error.help())
+        })
+    }
+}
 
 fn heading(group: Group) -> &'static str {
     match group {
@@ -136,6 +153,7 @@ impl FromArgMatches for StructureArguments {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rasray_systems::Spec;
 
     fn read(words: &[&str]) -> Result<StructureOptions, clap::Error> {
         let command = StructureArguments::augment_args(Command::new("options").no_binary_name(true));
@@ -164,5 +182,33 @@ mod tests {
         assert_eq!(of(&["--decoupled"]).as_deref(), Some("off"));
         assert_eq!(of(&[]), None);
         assert!(read(&["--decoupled", "--inline"]).is_err());
+    }
+
+    #[test]
+    fn every_value_of_the_command_line_is_one_of_the_registry() {
+        let command = StructureArguments::augment_args(Command::new("options"));
+        let mut tried = 0;
+        // `--decoupled` is another word for `--inline=off` and has no values.
+        for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {
+            for value in argument.get_possible_values() {
+                let option = argument.get_long().expect("every option has a name");
+                let takes = |system: &System, preset: &str, accept: &str| {
+                    let options = [("accept", accept), (option, value.get_name())]
+                        .into_iter()
+                        .filter(|(name, _)| system.has(name) || *name == option)
+                        .map(|(name, word)| (name.to_owned(), word.to_owned()));
+                    Spec::new(system.name, preset, options).is_ok()
+                };
+                // Planes exclude attributes and samples; conservative lists need planes.
+                let accepted = SYSTEMS.iter().any(|system| {
+                    let accepts = ["interval", "plane", "parity", "tolerance", "t"];
+                    let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));
+                    system.presets.iter().any(|preset| takes(preset.name()))
+                });
+                assert!(accepted, "no system takes --{option} {}", value.get_name());
+                tried += 1;
+            }
+        }
+        assert!(tried > 10);
     }
 }

@@ -3,6 +3,7 @@
 use super::*;
 use clap::CommandFactory;
 use rasray_experiment::{Integrator, RaySet};
+use rasray_scene::Environment;
 use rasray_systems::Preset;
 
 fn arguments(line: &str) -> Vec<OsString> {
@@ -181,4 +182,19 @@ fn ranges_in_the_help_are_those_of_the_values() {
         }
     }
     assert!(tried > 20, "{tried}");
+}
+
+#[test]
+fn an_environment_is_a_colour_or_a_map() {
+    let read =
+        |value: &str| render(&format!("render cornell -o a.png --environment {value}")).reading.environment();
+    match read("1,0.5,0").expect("a colour") {
+        Some(Environment::Constant(color)) => assert_eq!(color, [1.0, 0.5, 0.0]),
+        other => panic!("{other:?}"),
+    }
+    for bad in ["white", "1,2", "0,-1,0", "1e39,0,0", "nan,0,0", "sky.png"] {
+        assert_eq!(read(bad).expect_err(bad).exit_code(), 2);
+    }
+    let error = read("missing.hdr").expect_err("no such file");
+    assert!(error.to_string().starts_with("missing.hdr: ") && error.help().contains(".hdr"), "{error}");
 }

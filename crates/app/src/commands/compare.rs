@@ -1,17 +1,17 @@
 //! `rasray compare`.
 
 use super::hard;
-use super::steps::{check_whole, fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::steps::{fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use super::targets::Targets;
-use crate::arguments::{CompareArguments, several};
+use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet};
+use crate::version::origin;
+use rasray_experiment::{CompareJob, Comparison, OpenBackend, RaySet, check_run};
 use rasray_ray_files::{load_hits, load_rays};
-use rasray_report::Report;
+use rasray_report::{Report, table};
 
 /// Rays per set unless told.
 const DEFAULT_RAYS: u32 = 200_000;
@@ -41,7 +41,7 @@ pub(crate) fn compare(
         ));
     }
     let frame = given.frame.frame()?;
-    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
+    let systems = given.systems()?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
     let rays_file = given.files.rays_file.as_deref().map(load_rays).transpose()?;
@@ -59,6 +59,7 @@ pub(crate) fn compare(
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
+    loaded.count_not_uploaded(&chosen.camera, &needs);
     let sets = ray_sets.len() + usize::from(rays_file.is_some());
     let wanted = systems.len() * (sets + usize::from(given.image)) + hits_files.len();
     let job = CompareJob {
@@ -91,8 +92,11 @@ pub(crate) fn compare(
         Report::new(origin(line), backend.device(), loaded.record(), runs).seen_from(chosen.record());
     output::save(targets.save(), &kept, interrupt)?;
     targets.write(&report, &figures, interrupt)?;
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
-    report.runs.iter().try_for_each(check_whole)?;
+    terminal::summarize(
+        &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+        targets.take_stdout(),
+    )?;
+    report.runs.iter().try_for_each(check_run)?;
     if finished < wanted && interrupt.requested() {
         let kept = if targets.any() { "the report holds them" } else { "no report was asked for" };
         return Err(AppError::interrupted(

@@ -1,17 +1,17 @@
 //! `rasray compare hard:<id>`: scenes and rays that break ray tracers.
 
-use super::steps::{check_whole, open_device, stop_if_requested, with_progress};
+use super::steps::{open_device, stop_if_requested, with_progress};
 use super::targets::Targets;
-use crate::arguments::{CompareArguments, several};
+use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output;
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, compare_file};
+use crate::version::origin;
+use rasray_experiment::{Backend, Comparison, HardJob, OpenBackend, SystemConfig, check_run, compare_file};
 use rasray_hard_cases::Scale;
 use rasray_ray_files::{HitsFile, load_hits};
-use rasray_report::{Report, Run, SceneRecord, columns};
+use rasray_report::{Report, Run, SceneRecord, columns, table};
 use std::ffi::OsStr;
 
 /// Rays of generated cases unless told.
@@ -39,7 +39,7 @@ pub(super) fn compare(
 ) -> Result<(), AppError> {
     let ids = ids(id)?;
     refuse_options_of_scenes(given)?;
-    let systems = several(&given.systems, &given.presets, &given.structure.0, &given.assignments)?;
+    let systems = given.systems()?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
     let mut backend = open_device(open, &given.device)?;
@@ -87,7 +87,7 @@ pub(super) fn compare(
     let scene = SceneRecord { name: format!("hard:{id}"), triangles, ..SceneRecord::default() };
     let report = Report::new(origin(line), backend.device(), scene, whole.runs);
     targets.write(&report, &whole.figures, interrupt)?;
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), targets.take_stdout())?;
+    terminal::summarize(&table(&report, None, terminal::says(Talk::Verbose)), targets.take_stdout())?;
     if let Some(error) = failed {
         terminal::warn(&format!(
             "{finished} of {} cases were whole before the error, and only they are reported",
@@ -95,7 +95,7 @@ pub(super) fn compare(
         ));
         return Err(error);
     }
-    report.runs.iter().try_for_each(check_whole)?;
+    report.runs.iter().try_for_each(check_run)?;
     if finished < ids.len() {
         return Err(AppError::interrupted(
             format!("stopped after {finished} of {} cases", ids.len()),

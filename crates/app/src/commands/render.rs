@@ -1,17 +1,16 @@
 //! `rasray render`.
 
 use super::steps::{
-    check_whole, destination, fit_images, keep_inputs, open_device, read_scene, stop_if_requested,
-    with_progress,
+    destination, fit_images, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
 };
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{self, Destination, ImageFormat, Metadata};
-use crate::report::{origin, table};
 use crate::terminal::{self, Talk};
-use rasray_experiment::{AovSelection, Frame, OpenBackend, Progress, RenderJob, RenderOutput, SystemConfig};
-use rasray_report::{Report, Run, json_shown};
+use crate::version::origin;
+use rasray_experiment::{AovSelection, OpenBackend, Progress, RenderJob, RenderOutput, check_run};
+use rasray_report::{Report, json_shown, table};
 use std::io::IsTerminal;
 use std::path::Path;
 
@@ -46,6 +45,7 @@ pub(crate) fn render(
     stop_if_requested(interrupt)?;
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
+    loaded.count_not_uploaded(&chosen.camera, &needs);
     let job = RenderJob {
         scene: &loaded.scene,
         camera: chosen.camera.clone(),
@@ -67,15 +67,15 @@ pub(crate) fn render(
         ));
     }
 
-    let run = run_of(&system, system.spec()?.structure(), &frame, &output);
-    let whole = check_whole(&run);
+    let run = output.run(&system, &frame);
+    let whole = check_run(&run);
     let report =
         Report::new(origin(line), backend.device(), loaded.record(), vec![run]).seen_from(chosen.record());
     if let Some(place) = &report_target {
         place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
     }
     whole?;
-    output::check_complete(&output, aovs)?;
+    output.check_images(aovs)?;
     if let Some((place, format)) = &image {
         let metadata = Metadata {
             scene: loaded.scene.name.clone(),
@@ -91,7 +91,10 @@ pub(crate) fn render(
         output::hint(&output, *format, exposure).iter().for_each(|text| terminal::note(text));
     }
     let takes_stdout = image.iter().map(|(place, _)| place).chain(&report_target).any(Destination::is_stdout);
-    terminal::summarize(&table(&report, terminal::says(Talk::Verbose)), takes_stdout)?;
+    terminal::summarize(
+        &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+        takes_stdout,
+    )?;
     if output.samples_done < frame.spp {
         let written = image.map_or_else(
             || "no image was asked for".to_owned(),
@@ -158,7 +161,7 @@ fn write_image(
     exposure: f32,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
-    let non_finite = output::non_finite_pixels(output);
+    let non_finite = output.non_finite_pixels();
     if non_finite > 0 {
         terminal::warn(&format!(
             "{non_finite} pixels are not finite numbers; please report the scene (non-finite)"
@@ -175,27 +178,4 @@ fn write_image(
         )
     })?;
     place.write(&bytes, interrupt)
-}
-
-/// The record of a render in a report.
-fn run_of(system: &SystemConfig, structure: &str, frame: &Frame, output: &RenderOutput) -> Run {
-    Run {
-        system: system.system.name.to_owned(),
-        structure: structure.to_owned(),
-        preset: system.preset.name().to_owned(),
-        options: output.options.clone(),
-        paths: output.paths.clone(),
-        integrator: Some(frame.integrator.name().to_owned()),
-        width: Some(output.width),
-        height: Some(output.height),
-        spp: Some(output.samples_done),
-        bounces: frame.integrator.bounces(),
-        seed: Some(frame.seed),
-        times: output.times,
-        spread: output.spread.clone(),
-        passes: output.passes.clone(),
-        memory: output.memory.clone(),
-        counters: output.counters.clone(),
-        ..Run::default()
-    }
 }

@@ -2,15 +2,12 @@
 
 use crate::arguments::values::Switch;
 use crate::arguments::{DeviceArguments, SceneArguments, ViewArguments};
-use crate::camera;
-use crate::environment;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
 use crate::terminal;
 use rasray_experiment::{Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load, texels};
-use rasray_report::Run;
 use rasray_scene::needs::Needs;
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
@@ -48,7 +45,7 @@ pub(super) fn read_scene(
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
     let loaded = during("scene", "reading", || prepare(name, reading))?;
-    let chosen = during("scene", "looking for a view", || camera::choose(&loaded.scene, view))?;
+    let chosen = during("scene", "looking for a view", || view.choose(&loaded.scene))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
     Ok((loaded, chosen))
 }
@@ -56,7 +53,7 @@ pub(super) fn read_scene(
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
 fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
-    let environment = reading.environment.as_deref().map(environment::read).transpose()?;
+    let environment = reading.environment()?;
     let mut loaded = load(name)?;
     loaded.light(environment);
     if reading.alpha == Switch::Off {
@@ -102,26 +99,6 @@ pub(super) fn with_progress<T>(
 pub(super) fn stop_if_requested(interrupt: &Interrupt) -> Result<(), AppError> {
     if interrupt.requested() {
         return Err(AppError::interrupted("stopped before the first sample; nothing was written", ""));
-    }
-    Ok(())
-}
-
-/// Refuses what was traced through a structure with holes, or with rays left unanswered.
-pub(super) fn check_whole(run: &Run) -> Result<(), AppError> {
-    let Some(counters) = &run.counters else { return Ok(()) };
-    let system = format!("{} {}", run.system, run.preset);
-    if let Some(missing) = counters.overflow.filter(|count| *count > 0) {
-        return Err(AppError::refused(
-            format!("{system}: {missing} entries were missing from what was traced"),
-            "its results are not kept; lower --resolution, or use a device with more memory",
-        ));
-    }
-    if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
-        return Err(AppError::refused(
-            format!("{system}: {unfinished} rays had no answer after the last round"),
-            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
-             please report it with the command line",
-        ));
     }
     Ok(())
 }

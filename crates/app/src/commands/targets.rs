@@ -5,9 +5,8 @@ use crate::arguments::CompareArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
 use crate::output::{Destination, SaveTargets};
-use crate::report::markdown;
 use rasray_report::figures::Figures;
-use rasray_report::{Report, json_shown};
+use rasray_report::{Report, json_shown, markdown};
 use std::ffi::OsStr;
 
 /// Where results go.

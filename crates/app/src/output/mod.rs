@@ -14,37 +14,6 @@ pub use levels::hint;
 pub use png::encode as encode_png;
 pub(crate) use save_rays::{SaveTargets, save};
 
-use crate::error::AppError;
-use rasray_experiment::{AovSelection, RenderOutput};
-
-/// Refuses an output that lacks pixels or a wanted image.
-///
-/// # Errors
-/// Names the image that is not whole.
-pub fn check_complete(output: &RenderOutput, aovs: AovSelection) -> Result<(), AppError> {
-    let pixels = output.width as usize * output.height as usize;
-    let lengths = [
-        ("colours", true, Some(output.beauty.len())),
-        ("depth", aovs.depth, output.depth.as_ref().map(Vec::len)),
-        ("normal", aovs.normal, output.normal.as_ref().map(Vec::len)),
-        ("primitive", aovs.primitive, output.primitive.as_ref().map(Vec::len)),
-    ];
-    for (name, wanted, length) in lengths {
-        if wanted && length != Some(pixels) {
-            return Err(AppError::refused(
-                format!("the image '{name}' has {} of {pixels} pixels", length.unwrap_or(0)),
-                "nothing was written; this is a defect of the renderer, please report it with the command line",
-            ));
-        }
-    }
-    Ok(())
-}
-
-/// Pixels of the colour image that are not finite.
-pub fn non_finite_pixels(output: &RenderOutput) -> usize {
-    output.beauty.iter().filter(|pixel| !pixel.iter().all(|value| value.is_finite())).count()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -59,15 +28,5 @@ mod tests {
             assert_eq!(error.exit_code(), 2);
             assert!(error.to_string().starts_with(bad), "{error}");
         }
-    }
-
-    #[test]
-    fn missing_pixels_are_refused() {
-        let mut output =
-            RenderOutput { width: 2, height: 1, beauty: vec![[0.0; 3]; 2], ..Default::default() };
-        assert!(check_complete(&output, AovSelection::default()).is_ok());
-        assert!(check_complete(&output, AovSelection { depth: true, ..Default::default() }).is_err());
-        output.beauty.pop();
-        assert_eq!(check_complete(&output, AovSelection::default()).expect_err("a hole").exit_code(), 4);
     }
 }

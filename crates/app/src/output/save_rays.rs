@@ -3,9 +3,7 @@
 use super::destination::Destination;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use rasray_ads::PRIMITIVE_NONE;
-use rasray_experiment::Kept;
-use rasray_ray_files::{hits_to_npy, ids_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
+use rasray_experiment::{Kept, NamedBytes};
 use std::path::{Path, PathBuf};
 
 /// Folders that were named, and seen to take files.
@@ -38,31 +36,14 @@ impl SaveTargets {
 /// # Errors
 /// A file cannot be written.
 pub(crate) fn save(targets: &SaveTargets, kept: &Kept, interrupt: &Interrupt) -> Result<(), AppError> {
-    let origin = kept.frame_origin;
-    let write = |folder: &Path, name: String, bytes: Vec<u8>| {
+    let write = |folder: &Path, (name, bytes): NamedBytes| {
         Destination::check(&folder.join(name))?.write(&bytes, interrupt)
     };
     if let Some(folder) = &targets.rays {
-        let name =
-            kept.case.as_ref().map_or("triangles.npy".to_owned(), |case| format!("{case}.triangles.npy"));
-        write(folder, name, triangles_to_npy(&kept.triangles, origin))?;
-        for set in &kept.sets {
-            write(folder, format!("{}.rays", set.name), write_rays(&set.rays, origin))?;
-            write(folder, format!("{}.npy", set.name), rays_to_npy(&set.rays, origin))?;
-            if set.rays.iter().any(|ray| ray.exclude_primitive != PRIMITIVE_NONE) {
-                let excluded: Vec<u32> = set.rays.iter().map(|ray| ray.exclude_primitive).collect();
-                write(folder, format!("{}.exclude.npy", set.name), ids_to_npy(&excluded))?;
-            }
-        }
+        kept.ray_files().try_for_each(|file| write(folder, file))?;
     }
     if let Some(folder) = &targets.hits {
-        for set in &kept.sets {
-            write(folder, format!("{}.oracle.npy", set.name), truth_to_npy(&set.truth))?;
-            for answers in &set.answers {
-                let bytes = hits_to_npy(&answers.hits, answers.kind);
-                write(folder, format!("{}.{}.npy", set.name, answers.name), bytes)?;
-            }
-        }
+        kept.hit_files().try_for_each(|file| write(folder, file))?;
     }
     Ok(())
 }

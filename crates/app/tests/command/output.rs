@@ -181,6 +181,16 @@ fn info_is_data_too() {
     assert_eq!(info["scene"]["cameras"][0], info["scene"]["default_view"], "the first is the default");
     assert_eq!(info["scene"]["default_light"], false);
     assert!(info["needs"]["terms"].as_array().is_some_and(|terms| !terms.is_empty()));
+    // Where nothing is shaded, less is uploaded, and the report of a render says the same.
+    let left_out = |info: &Value| info["needs"]["not_uploaded_bytes"].as_u64().expect("it was counted");
+    let occlusion = json("info cornell --integrator ao --json");
+    assert!(left_out(&occlusion) > left_out(&info));
+    let line = "render cornell --integrator ao --size 4x3 --report r.json";
+    let output = rasray(folder.path(), line);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = std::fs::read(folder.path().join("r.json")).expect("the report");
+    let report: Value = serde_json::from_slice(&text).expect("JSON");
+    assert_eq!(report["scene"]["not_uploaded_bytes"], left_out(&occlusion));
     let info = json("info one.obj --json");
     assert_eq!(info["scene"]["default_view"]["name"], "default");
     assert_eq!(

@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DVec3};
 use rasray_gpu::{Device, DeviceDesc, GpuError};
-use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, SceneTables, TexelRuns, View};
-use rasray_scene::{Camera, Instance, Material, Mesh, Projection, Scene};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, SceneTables, TexelRuns, View, left_out_bytes};
+use rasray_scene::{Camera, Environment, Instance, Light, Material, Mesh, Projection, Scene, builtin};
 
 fn device() -> Device {
     let desc = DeviceDesc { validation: true, ..DeviceDesc::default() };
@@ -133,5 +133,61 @@ fn texels_lie_in_runs_that_count_as_one_part() {
     let bytes = 4u64 << uploaded.frame().texel_shift;
     let limit = device.limits().max_storage_buffer_range.min(device.limits().max_memory_allocation);
     assert!(bytes <= limit && (2 * bytes > limit || bytes == 4 << 30), "{bytes} of {limit}");
+    assert_eq!(device.validation_messages(), Vec::<String>::new());
+}
+
+/// A built-in scene with everything that parts leave out: a map around it, all attributes, rough glass, a lamp.
+fn scene_with_all_parts() -> Scene {
+    let mut scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
+    scene.environment = Environment::LatLong { width: 4, height: 2, radiance: vec![[0.5; 3]; 8] };
+    for mesh in &mut scene.meshes {
+        let vertices = mesh.positions.len();
+        mesh.tangents.get_or_insert_with(|| vec![[1.0, 0.0, 0.0, 1.0]; vertices]);
+        mesh.colors.get_or_insert_with(|| vec![[1.0; 4]; vertices]);
+        mesh.uvs[1].get_or_insert_with(|| vec![[0.0; 2]; vertices]);
+    }
+    scene.lights.push(Light::Point { position: DVec3::Y, intensity: [1.0; 3], range: f32::INFINITY });
+    let glass =
+        Material { transmission: 1.0, thickness: 0.1, roughness: 0.5, ior: 1.5, ..Material::default() };
+    scene.materials[0] = Material { emission: [1.0; 3], ..glass };
+    scene
+}
+
+#[test]
+fn bytes_that_are_left_out_are_those_that_are_not_allocated() {
+    let device = device();
+    let of_part: [fn(&mut Parts); 13] = [
+        |parts| parts.normals = false,
+        |parts| parts.tangents = false,
+        |parts| parts.uvs = [true, false],
+        |parts| parts.colors = false,
+        |parts| parts.base_color_textures = false,
+        |parts| parts.normal_textures = false,
+        |parts| parts.emission_textures = false,
+        |parts| parts.glass_albedos = false,
+        |parts| parts.alpha = false,
+        |parts| parts.lights = false,
+        |parts| parts.emissive_triangles = false,
+        |parts| parts.environment = false,
+        |parts| *parts = Parts::VISIBILITY,
+    ];
+    for scene in [scene_with_all_parts(), scene(10), Scene::default()] {
+        let origin = SceneTables::default_frame_origin(&scene, DVec3::ZERO);
+        let uploaded = |parts: &Parts| {
+            let tables = SceneTables::new(&scene, origin, parts).expect("the scene is well formed");
+            GpuScene::upload(&device, &tables, &view()).expect("the scene fits").bytes()
+        };
+        let whole = uploaded(&Parts::ALL);
+        let mut saving = 0;
+        for change in of_part {
+            let mut parts = Parts::ALL;
+            change(&mut parts);
+            let left_out = left_out_bytes(&scene, origin, &parts).expect("the scene is well formed");
+            assert_eq!(left_out, whole - uploaded(&parts), "{}: {parts:?}", scene.name);
+            saving += usize::from(left_out > 0);
+        }
+        assert_eq!(left_out_bytes(&scene, origin, &Parts::ALL).expect("the scene is well formed"), 0);
+        assert!(scene.name != "atrium" || saving > 8, "{saving} of the parts have bytes of their own");
+    }
     assert_eq!(device.validation_messages(), Vec::<String>::new());
 }

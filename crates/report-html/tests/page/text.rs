@@ -107,7 +107,7 @@ fn intervals_and_quartiles_stand_beside_their_numbers() {
 fn numbers_that_change_change_the_page() {
     let (report, figures) = everything("spheres:10k");
     let before = page(&report, &figures);
-    let changes: [(&str, Removal); 9] = [
+    let changes: [(&str, Removal); 10] = [
         ("a rate", |report, _| report.runs[1].times.mrays_per_s = Some(3.5)),
         ("a missed hit", |report, _| report.runs[3].accuracy.as_mut().expect("judged").missed += 1),
         ("a pass", |report, _| report.runs[7].passes[2].ms_median *= 1.5),
@@ -121,6 +121,7 @@ fn numbers_that_change_change_the_page() {
             figures.images.as_mut().expect("images").systems[1].pixels[77] = [0.0, 1.0, 0.0];
         }),
         ("a pixel's FLIP", |_, figures| figures.images.as_mut().expect("images").systems[1].flip[77] = 0.5),
+        ("bytes that are not uploaded", |report, _| report.scene.not_uploaded_bytes = Some(9_216)),
         ("an option", |report, _| {
             report.runs[0].options.insert("resolution".to_owned(), 1024.into());
         }),

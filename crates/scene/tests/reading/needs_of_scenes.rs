@@ -114,20 +114,14 @@ fn required(scene: &Scene, workload: Workload) -> Vec<Term> {
 fn a_path_needs_everything_of_a_scene_that_has_everything() {
     let scene = everything();
     assert_eq!(required(&scene, PATH), Term::ALL);
-    // The material that nothing shows still has its image uploaded by none.
-    assert_eq!(Needs::of(&scene, PATH).saved_bytes(), 0);
 }
 
 #[test]
 fn occlusion_needs_alpha_masks_and_what_they_read() {
     let mut scene = everything();
     assert_eq!(required(&scene, OCCLUSION), [Term::Uv1, Term::Colors, Term::AlphaMask, Term::Motion]);
-    let saved = Needs::of(&scene, OCCLUSION).saved_bytes();
-    // Five of six images of 4 x 4 texels, and more.
-    assert!(saved >= 5 * 16 * 16 / 3, "{saved}");
     scene.materials[1].alpha_mode = AlphaMode::Opaque;
     assert_eq!(required(&scene, OCCLUSION), [Term::Motion]);
-    assert!(Needs::of(&scene, OCCLUSION).saved_bytes() > saved);
 }
 
 #[test]
@@ -234,7 +228,6 @@ fn verdicts_say_why() {
 #[test]
 fn all_switches_everything_on() {
     assert!(Term::ALL.into_iter().all(|term| Needs::all().requires(term)));
-    assert_eq!(Needs::all().saved_bytes(), 0);
 }
 
 #[test]
@@ -250,6 +243,5 @@ fn built_in_scenes_need_what_they_are_made_of() {
         assert!(needed.contains(&term), "{term:?}");
     }
     assert_eq!(required(&atrium, OCCLUSION), [Term::Uv0, Term::AlphaMask]);
-    assert!(Needs::of(&atrium, OCCLUSION).saved_bytes() > Needs::of(&atrium, PATH).saved_bytes());
     assert_eq!(required(&scene("spheres:10k"), OCCLUSION), []);
 }

@@ -4,13 +4,14 @@ mod device;
 mod passes;
 mod rows;
 mod scene;
-mod texels;
 
 use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{AovSelection, Frame, OpenBackend, RenderJob, Sampler, default_view, load};
+use rasray_experiment::{
+    AovSelection, Frame, OpenBackend, RenderJob, Sampler, SceneInfo, default_view, load,
+};
 use rasray_report::json_shown;
 use rasray_scene::needs::Needs;
 use serde_json::Value;
@@ -18,7 +19,7 @@ use serde_json::Value;
 use super::steps::{fit_images, open_device};
 use device::{device_json, device_text};
 use passes::{passes_json, passes_text};
-use scene::SceneInfo;
+use scene::scene_text;
 
 /// What the JSON is; fields are only ever added to version 1.
 const SCHEMA: &str = "rasray-info/1";
@@ -62,9 +63,9 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             let passes = during("passes", "building", || backend.passes(&job))?;
             return show(given.json, || passes_json(&passes), || passes_text(&passes));
         }
-        let room = || open_device(open, &given.device).map(|backend| backend.texel_room());
+        let room = || open_device(open, &given.device).ok().map(|backend| backend.texel_room());
         let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
-        show(given.json, || info.json(), || info.text())?;
+        show(given.json, || info.json(), || scene_text(&info))?;
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
         return Ok(());
     }

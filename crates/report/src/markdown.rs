@@ -1,8 +1,6 @@
 //! The runs of a report side by side as one Markdown table, for pages that publish them.
 
-use rasray_report::grouped;
-use rasray_report::in_line;
-use rasray_report::{Accuracy, Report, Run};
+use crate::{Accuracy, Report, Run, grouped, in_line};
 
 /// The system whose rate others are put in relation to, where a report has it.
 const BASELINE: (&str, &str) = ("bvh", "robust");
@@ -121,7 +119,7 @@ fn relation(report: &Report, run: &Run) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rasray_report::{Device, Memory, SceneRecord, Times};
+    use crate::{Device, Memory, Origin, SceneRecord, Times};
 
     fn run(system: &str, storage: &str, rate: f64) -> Run {
         Run {
@@ -139,7 +137,8 @@ mod tests {
     fn report(runs: Vec<Run>) -> Report {
         let scene =
             SceneRecord { name: "box".to_owned(), triangles: 16, sha256: None, ..SceneRecord::default() };
-        Report::new(crate::report::origin("rasray compare box"), Device::default(), scene, runs)
+        let origin = Origin { command: Some("rasray compare box".to_owned()), ..Origin::default() };
+        Report::new(origin, Device::default(), scene, runs)
     }
 
     fn lines(text: &str) -> Vec<Vec<&str>> {

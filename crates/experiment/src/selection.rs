@@ -1,8 +1,8 @@
-//! From the words of the command line to rows of the registry: which system has which presets and
-//! options, and how options given once reach several systems.
+//! From words to rows of the registry: which system has which presets and options, and how options given once reach
+//! several systems.
 
-use crate::error::AppError;
-use rasray_experiment::{StructureOptions, SystemConfig};
+use crate::error::ExperimentError;
+use crate::system_config::{StructureOptions, SystemConfig};
 use rasray_systems::{Preset, SYSTEMS, System};
 
 mod assigned;
@@ -11,12 +11,18 @@ mod names;
 use assigned::Assigned;
 use names::{names, who_has};
 
+/// Reads a value of an option: first the option's name, then the value as it was typed.
+pub type ReadValue<'a> = dyn Fn(&str, &str) -> Result<StructureOptions, ExperimentError> + 'a;
+
 /// One system with its options, each of which it must have.
-pub fn single(
+///
+/// # Errors
+/// A preset or an option that the system does not have, and values that do not go together.
+pub fn one_system(
     system: &'static System,
     preset: Preset,
     options: &StructureOptions,
-) -> Result<SystemConfig, AppError> {
+) -> Result<SystemConfig, ExperimentError> {
     if !system.presets.contains(&preset) {
         let own: Vec<_> = system.presets.iter().map(|preset| preset.name()).collect();
         let having: Vec<_> = SYSTEMS
@@ -24,14 +30,14 @@ pub fn single(
             .filter(|system| system.presets.contains(&preset))
             .map(|system| system.name)
             .collect();
-        return Err(AppError::usage(
+        return Err(ExperimentError::usage(
             format!("system {} has no preset {}", system.name, preset.name()),
             format!("its presets: {}; choose another --system for it: {}", own.join(", "), having.join(", ")),
         ));
     }
     for option in options.given().keys() {
         if !system.has(option) {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!("system {} has no option --{option}", system.name),
                 format!("{}; leave it out or choose another --system", who_has(option)),
             ));
@@ -45,19 +51,20 @@ pub fn single(
 /// Every named system with every named preset that it has. An option goes to the systems that have it;
 /// `assignments` (`mmrt.samples=50`) address one system, or one preset of it (`mmrt-published.samples=50`),
 /// which takes part once with each of several values (`mmrt.samples=50,100`) and with every combination of
-/// them.
+/// them. `read_value` reads one value of an option in an assignment.
 ///
 /// # Errors
 /// A preset or an option that none of the named systems has, and a malformed assignment.
-pub fn several(
+pub fn several_systems(
     systems: &[&'static System],
     presets: &[Preset],
     options: &StructureOptions,
     assignments: &[String],
-) -> Result<Vec<SystemConfig>, AppError> {
+    read_value: &ReadValue<'_>,
+) -> Result<Vec<SystemConfig>, ExperimentError> {
     for option in options.given().keys() {
         if !systems.iter().any(|system| system.has(option)) {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!("none of the systems {} has an option --{option}", names(systems)),
                 format!("{}; leave it out or add such a system to --systems", who_has(option)),
             ));
@@ -65,24 +72,25 @@ pub fn several(
     }
     for preset in presets {
         if !systems.iter().any(|system| system.presets.contains(preset)) {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!("none of the systems {} has the preset {}", names(systems), preset.name()),
                 "leave it out of --presets or add a system that has it to --systems",
             ));
         }
     }
-    let assigned = assignments.iter().map(|text| Assigned::read(text)).collect::<Result<Vec<_>, _>>()?;
+    let assigned =
+        assignments.iter().map(|text| Assigned::read(text, read_value)).collect::<Result<Vec<_>, _>>()?;
     if let Some(Assigned { system, .. }) =
         assigned.iter().find(|assigned| !systems.contains(&assigned.system))
     {
-        return Err(AppError::usage(
+        return Err(ExperimentError::usage(
             format!("an option addresses {}, which is not compared", system.name),
             format!("add {} to --systems or leave the option out", system.name),
         ));
     }
     let mut addressed = assigned.iter().filter_map(|assigned| assigned.preset);
     if let Some(preset) = addressed.find(|preset| !presets.contains(preset)) {
-        return Err(AppError::usage(
+        return Err(ExperimentError::usage(
             format!("an option addresses the preset {}, which is not compared", preset.name()),
             format!("add {} to --presets or leave the option out", preset.name()),
         ));
@@ -113,7 +121,7 @@ pub fn several(
             }
             for (own, variant) in variants {
                 let variant = (!variant.is_empty()).then_some(variant);
-                configs.push(SystemConfig { variant, ..single(system, *preset, &own)? });
+                configs.push(SystemConfig { variant, ..one_system(system, *preset, &own)? });
             }
         }
     }

@@ -1,11 +1,14 @@
 use super::*;
-use crate::arguments::structure::StructureArguments;
 use rasray_scene::needs::{Integrator, Workload};
 use rasray_scene::{Camera, Projection};
-use rasray_systems::Spec;
 
 fn options(given: &[(&str, &str)]) -> StructureOptions {
     given.iter().fold(StructureOptions::default(), |options, (name, word)| options.with(name, *word))
+}
+
+/// Takes every value; the structure refuses what it does not know.
+pub(super) fn read_value(option: &str, value: &str) -> Result<StructureOptions, ExperimentError> {
+    Ok(options(&[(option, value)]))
 }
 
 fn with_buckets() -> StructureOptions {
@@ -17,40 +20,12 @@ fn system(name: &str) -> &'static System {
 }
 
 #[test]
-fn every_value_of_the_command_line_is_one_of_the_registry() {
-    let command = <StructureArguments as clap::Args>::augment_args(clap::Command::new("options"));
-    let mut tried = 0;
-    // `--decoupled` is another word for `--inline=off` and has no values.
-    for argument in command.get_arguments().filter(|argument| argument.get_id() != "decoupled") {
-        for value in argument.get_possible_values() {
-            let option = argument.get_long().expect("every option has a name");
-            let takes = |system: &System, preset: &str, accept: &str| {
-                let options = [("accept", accept), (option, value.get_name())]
-                    .into_iter()
-                    .filter(|(name, _)| system.has(name) || *name == option)
-                    .map(|(name, word)| (name.to_owned(), word.to_owned()));
-                Spec::new(system.name, preset, options).is_ok()
-            };
-            // Planes exclude attributes and samples; conservative lists need planes.
-            let accepted = SYSTEMS.iter().any(|system| {
-                let accepts = ["interval", "plane", "parity", "tolerance", "t"];
-                let takes = |preset: &str| accepts.iter().any(|accept| takes(system, preset, accept));
-                system.presets.iter().any(|preset| takes(preset.name()))
-            });
-            assert!(accepted, "no system takes --{option} {}", value.get_name());
-            tried += 1;
-        }
-    }
-    assert!(tried > 10);
-}
-
-#[test]
 fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
     let occlusion = Workload { integrator: Integrator::AmbientOcclusion, bounces: 1 };
     let path = Workload { integrator: Integrator::Path, bounces: 1 };
     let plain = StructureOptions::default();
     for system in SYSTEMS {
-        let Ok(config) = single(system, Preset::Published, &plain) else { continue };
+        let Ok(config) = one_system(system, Preset::Published, &plain) else { continue };
         let payload = config.clone().serving(occlusion).options.text("payload");
         assert_eq!(payload.as_deref(), system.occlusion_payload);
         assert!(config.clone().serving(occlusion).spec().is_ok());
@@ -58,15 +33,15 @@ fn published_fragments_carry_what_their_paper_keeps_for_occlusion() {
     }
     let given = options(&[("payload", "attributes")]);
     for (preset, options) in [(Preset::Published, &given), (Preset::Robust, &plain)] {
-        let config = single(system("mmrt"), preset, options).expect("valid");
+        let config = one_system(system("mmrt"), preset, options).expect("valid");
         assert_eq!(config.clone().serving(occlusion), config);
     }
     assert_eq!(system("mmrt").occlusion_payload, Some("normal"));
     let plane = options(&[("payload", "plane")]);
-    let plane = single(system("mmrt"), Preset::Robust, &plane).expect("valid");
+    let plane = one_system(system("mmrt"), Preset::Robust, &plane).expect("valid");
     assert!(plane.shortcoming(path).expect("white surfaces").contains("--payload plane"));
     assert_eq!(plane.shortcoming(occlusion), None);
-    let attributes = single(system("mmrt"), Preset::Published, &given).expect("valid");
+    let attributes = one_system(system("mmrt"), Preset::Published, &given).expect("valid");
     assert_eq!(attributes.shortcoming(path), None);
 }
 
@@ -77,7 +52,7 @@ fn published_views_are_those_of_the_paper() {
     let plain = StructureOptions::default();
     for system in SYSTEMS {
         for preset in [Preset::Robust, Preset::Published] {
-            let Ok(config) = single(system, preset, &plain) else { continue };
+            let Ok(config) = one_system(system, preset, &plain) else { continue };
             let seen = config.clone().seen_by(&camera, 720, 480);
             let views = system.camera_views.filter(|_| preset == Preset::Published);
             assert_eq!(seen.options.text("views").as_deref(), views);
@@ -86,36 +61,39 @@ fn published_views_are_those_of_the_paper() {
         }
     }
     assert_eq!(system("mmrt").camera_views, Some("cube+camera"));
-    let published = single(system("mmrt"), Preset::Published, &plain).expect("valid");
+    let published = one_system(system("mmrt"), Preset::Published, &plain).expect("valid");
     let parallel = Camera { projection: Projection::Orthographic { half_height: 1.0 }, ..camera.clone() };
     assert_eq!(published.clone().seen_by(&parallel, 720, 480), published);
     let given = options(&[("views", "cube")]);
-    let given = single(system("mmrt"), Preset::Published, &given).expect("valid");
+    let given = one_system(system("mmrt"), Preset::Published, &given).expect("valid");
     assert_eq!(given.clone().seen_by(&camera, 720, 480), given);
 }
 
 #[test]
 fn values_that_do_not_go_together_are_refused_before_a_device_is_opened() {
     let options = options(&[("accept", "plane")]);
-    let error = single(system("mmrt"), Preset::Published, &options).expect_err("no plane in attributes");
-    assert_eq!(error.exit_code(), 2);
+    let error = one_system(system("mmrt"), Preset::Published, &options).expect_err("no plane in attributes");
+    assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
     assert!(error.to_string().contains("payload"), "{error}");
-    assert!(single(system("mmrt"), Preset::Robust, &options).is_ok());
+    assert!(one_system(system("mmrt"), Preset::Robust, &options).is_ok());
 }
 
 #[test]
 fn an_option_of_another_system_is_refused_by_name() {
-    let error = single(system("brute-force"), Preset::Robust, &with_buckets()).expect_err("not its option");
-    assert_eq!(error.exit_code(), 2);
+    let error =
+        one_system(system("brute-force"), Preset::Robust, &with_buckets()).expect_err("not its option");
+    assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
     assert!(error.to_string().contains("--buckets") && error.help().contains("mmrt"), "{error}");
-    assert!(single(system("mmrt"), Preset::Robust, &with_buckets()).is_ok());
+    assert!(one_system(system("mmrt"), Preset::Robust, &with_buckets()).is_ok());
 }
 
 #[test]
 fn in_a_comparison_an_option_goes_to_those_who_have_it() {
     let names = [system("mmrt"), system("brute-force"), system("mmrt")];
     let presets = [Preset::Published, Preset::Robust];
-    let configs = several(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()]).expect("valid");
+    let configs =
+        several_systems(&names, &presets, &with_buckets(), &["mmrt.samples=50".to_owned()], &read_value)
+            .expect("valid");
     let shape: Vec<_> =
         configs.iter().map(|c| (c.system.name, c.preset, c.options.text("buckets"))).collect();
     assert_eq!(
@@ -133,7 +111,9 @@ fn in_a_comparison_an_option_goes_to_those_who_have_it() {
 fn several_values_make_as_many_contestants() {
     let assigned = ["mmrt.samples=50,100".to_owned(), "mmrt.sort=on,off".to_owned()];
     let names = [system("mmrt"), system("brute-force")];
-    let configs = several(&names, &[Preset::Robust], &StructureOptions::default(), &assigned).expect("valid");
+    let configs =
+        several_systems(&names, &[Preset::Robust], &StructureOptions::default(), &assigned, &read_value)
+            .expect("valid");
     let shape: Vec<_> =
         configs.iter().map(|c| (c.system.name, c.options.text("samples"), c.options.text("sort"))).collect();
     assert_eq!(shape.len(), 5);
@@ -153,8 +133,8 @@ fn several_values_make_as_many_contestants() {
 fn in_a_comparison_what_nobody_has_is_refused() {
     let judge = [system("brute-force")];
     let plain = StructureOptions::default();
-    assert!(several(&judge, &[Preset::Robust], &with_buckets(), &[]).is_err());
-    assert!(several(&judge, &[Preset::Published], &plain, &[]).is_err());
+    assert!(several_systems(&judge, &[Preset::Robust], &with_buckets(), &[], &read_value).is_err());
+    assert!(several_systems(&judge, &[Preset::Published], &plain, &[], &read_value).is_err());
     for bad in [
         "mmrt.samples=50",
         "mmrt",
@@ -164,7 +144,8 @@ fn in_a_comparison_what_nobody_has_is_refused() {
         "mmrt.sort=on,x",
         "mmrt.sort=on,",
     ] {
-        let error = several(&judge, &[Preset::Robust], &plain, &[bad.to_owned()]).expect_err(bad);
-        assert_eq!(error.exit_code(), 2);
+        let error = several_systems(&judge, &[Preset::Robust], &plain, &[bad.to_owned()], &read_value)
+            .expect_err(bad);
+        assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
     }
 }

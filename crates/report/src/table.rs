@@ -1,10 +1,7 @@
 //! The report as text for people.
 
-use super::camera::described;
-use super::run_text::{heading, run_text, verdict};
-use rasray_report::in_line;
-use rasray_report::{HardRecord, Report, Run, Statistics};
-use rasray_report::{bytes, columns, grouped};
+use crate::run_text::{heading, run_text, verdict};
+use crate::{HardRecord, Report, Run, Statistics, bytes, columns, grouped, in_line};
 use std::fmt::Write;
 
 /// One row per run: speed next to error.
@@ -79,9 +76,9 @@ fn certainty(statistics: &Statistics) -> String {
 /// Runs up to which each is printed in full; more are read in a file.
 const RUNS_IN_FULL: usize = 24;
 
-/// The report for people: device, scene and camera; then what came of the runs in short, or in `full` each of them
+/// The report for people: device, scene, and in words the `camera` that it was seen from; then what came of the runs in short, or in `full` each of them
 /// with every number unless they are very many, and with several runs one line each for comparison.
-pub fn table(report: &Report, full: bool) -> String {
+pub fn table(report: &Report, camera: Option<&str>, full: bool) -> String {
     let device = &report.device;
     let note = if device.software { "; times of software devices are for ratios on that device" } else { "" };
     let mut text = format!("device {} ({}){note}\n", device.name, device.driver);
@@ -99,8 +96,8 @@ pub fn table(report: &Report, full: bool) -> String {
             in_line(&image.name)
         );
     }
-    if let Some(camera) = &report.camera {
-        _ = writeln!(text, "camera {}", in_line(&described(camera)));
+    if let Some(camera) = camera {
+        _ = writeln!(text, "camera {}", in_line(camera));
     }
     match report.runs.as_slice() {
         [run] if !full && run.accuracy.is_none() && run.hard.is_none() => text += &in_short(run),
@@ -172,9 +169,8 @@ fn verdicts(runs: &[Run]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Accuracy, Device, Origin, RateRecord, SceneRecord, Spread, Times};
     use rasray_metrics::Rate;
-    use rasray_report::RateRecord;
-    use rasray_report::{Accuracy, Device, Origin, SceneRecord, Spread, Times};
 
     #[test]
     fn several_runs_get_a_line_each_and_what_is_missing_a_dash() {
@@ -191,7 +187,7 @@ mod tests {
         let scene =
             SceneRecord { name: "box".to_owned(), triangles: 12_000, sha256: None, ..SceneRecord::default() };
         let runs = vec![run("mmrt", Some(accuracy)), run("brute-force", None)];
-        let text = table(&Report::new(Origin::default(), device, scene, runs), true);
+        let text = table(&Report::new(Origin::default(), device, scene, runs), None, true);
         assert!(text.contains("12,000 triangles") && text.contains("ratios on that device"), "{text}");
         assert!(text.contains("1 (0.1000 %)"), "{text}");
         let last = text.lines().last().expect("a summary");
@@ -226,7 +222,7 @@ mod tests {
         let scene =
             SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None, ..SceneRecord::default() };
         let report = Report::new(Origin::default(), Device::default(), scene, vec![run.clone(), run]);
-        let text = table(&report, true);
+        let text = table(&report, None, true);
         for words in [
             "at most 0.2996 %",
             "2 (4.0000 %)",
@@ -242,7 +238,7 @@ mod tests {
         // Very many runs have a line each and no more.
         let many = vec![report.runs[0].clone(); RUNS_IN_FULL + 1];
         let text =
-            table(&Report::new(Origin::default(), Device::default(), report.scene.clone(), many), true);
+            table(&Report::new(Origin::default(), Device::default(), report.scene.clone(), many), None, true);
         assert!(!text.contains("NOT MET: because") && text.contains("--report"), "{text}");
         assert_eq!(text.lines().filter(|line| line.ends_with("NOT MET")).count(), RUNS_IN_FULL + 1);
     }
@@ -260,14 +256,14 @@ mod tests {
         let scene =
             SceneRecord { name: "box".to_owned(), triangles: 12, sha256: None, ..SceneRecord::default() };
         let report = |runs| Report::new(Origin::default(), Device::default(), scene.clone(), runs);
-        let text = table(&report(vec![run(None)]), false);
+        let text = table(&report(vec![run(None)]), None, false);
         assert!(
             text.contains("mmrt robust, path") && text.contains("first build 2.2 ms, trace 1.50 s"),
             "{text}"
         );
         assert_eq!(text.lines().count(), 4, "{text}");
         let hard = HardRecord { id: "E5".to_owned(), reason: "because".to_owned(), ..Default::default() };
-        let text = table(&report(vec![run(None), run(Some(hard))]), false);
+        let text = table(&report(vec![run(None), run(Some(hard))]), None, false);
         assert!(
             text.contains("E5") && text.contains("one run cannot tell") && text.contains("because"),
             "{text}"

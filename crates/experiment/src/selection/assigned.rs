@@ -1,13 +1,11 @@
 //! Options that address one of the systems of a comparison.
 
-use clap::Parser;
 use rasray_systems::{Preset, SYSTEMS, System};
 
+use super::ReadValue;
 use super::names::{names, who_has};
-use crate::arguments::mistakes::usage_error;
-use crate::arguments::structure::StructureArguments;
-use crate::error::AppError;
-use rasray_experiment::StructureOptions;
+use crate::error::ExperimentError;
+use crate::system_config::StructureOptions;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
@@ -18,17 +16,10 @@ pub(super) struct Assigned {
 }
 
 impl Assigned {
-    /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50` with the parser of the
-    /// command line, so that both know the same values.
-    pub(super) fn read(text: &str) -> Result<Self, AppError> {
-        #[derive(Parser)]
-        #[command(no_binary_name = true, disable_help_flag = true)]
-        struct One {
-            #[command(flatten)]
-            options: StructureArguments,
-        }
+    /// Reads `mmrt.samples=50`, `mmrt.samples=50,100` or `mmrt-published.samples=50`.
+    pub(super) fn read(text: &str, read_value: &ReadValue<'_>) -> Result<Self, ExperimentError> {
         let shape = || {
-            AppError::usage(
+            ExperimentError::usage(
                 format!("'{text}' is not of the form SYSTEM.OPTION=VALUE or SYSTEM-PRESET.OPTION=VALUE"),
                 "write for example mmrt.samples=50",
             )
@@ -42,21 +33,21 @@ impl Assigned {
         };
         let known = System::named(system).map(|system| (system, None)).or_else(with_preset);
         let (system, preset) = known.ok_or_else(|| {
-            AppError::usage(
+            ExperimentError::usage(
                 format!("'{text}': there is no system {system}"),
                 format!("the systems: {}", names(&SYSTEMS.iter().collect::<Vec<_>>())),
             )
         })?;
         if !system.has(option) {
-            return Err(AppError::usage(
+            return Err(ExperimentError::usage(
                 format!("'{text}': system {} has no option {option}", system.name),
                 who_has(option),
             ));
         }
         let parse = |value: &str| {
-            One::try_parse_from([format!("--{option}={value}")])
-                .map(|parsed| (parsed.options.0, format!("{option}={value}")))
-                .map_err(|error| usage_error(&error, &format!("'{text}': "), Some("compare")))
+            read_value(option, value)
+                .map(|options| (options, format!("{option}={value}")))
+                .map_err(|error| ExperimentError::usage(format!("'{text}': {error}"), error.help()))
         };
         Ok(Self { system, preset, values: values.split(',').map(parse).collect::<Result<_, _>>()? })
     }
@@ -64,7 +55,8 @@ impl Assigned {
 
 #[cfg(test)]
 mod tests {
-    use super::super::several;
+    use super::super::several_systems;
+    use super::super::tests::read_value;
     use super::*;
 
     #[test]
@@ -72,7 +64,7 @@ mod tests {
         let assigned = |text: &str| {
             let presets = [Preset::Robust, Preset::Published];
             let names = ["mmrt", "brute-force"].map(|name| System::named(name).expect("a system"));
-            several(&names, &presets, &StructureOptions::default(), &[text.to_owned()])
+            several_systems(&names, &presets, &StructureOptions::default(), &[text.to_owned()], &read_value)
         };
         let configs = assigned("mmrt-robust.accept=interval,plane")
             .expect("published keeps no plane and is left alone");
@@ -87,13 +79,16 @@ mod tests {
             ]
         );
         assert!(assigned("mmrt.accept=interval,plane").is_err(), "published keeps no plane");
-        assert_eq!(assigned("brute-force-robust.buckets=4").expect_err("not its option").exit_code(), 2);
-        assert_eq!(assigned("mmrt-other.samples=4").expect_err("no preset").exit_code(), 2);
-        let one = several(
+        for bad in ["brute-force-robust.buckets=4", "mmrt-other.samples=4"] {
+            let error = assigned(bad).expect_err("no such option, no such preset");
+            assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
+        }
+        let one = several_systems(
             &[System::named("mmrt").expect("a system")],
             &[Preset::Robust],
             &StructureOptions::default(),
             &["mmrt-published.samples=4".to_owned()],
+            &read_value,
         );
         assert!(one.expect_err("not compared").to_string().contains("published"));
     }

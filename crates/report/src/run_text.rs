@@ -1,7 +1,6 @@
 //! A run with every number, as text for people.
 
-use rasray_report::{Bound, HardRecord, RateRecord, Run};
-use rasray_report::{bytes, columns, grouped};
+use crate::{Bound, HardRecord, RateRecord, Run, bytes, columns, grouped};
 use std::fmt::Write;
 
 fn milliseconds(value: f64) -> String {

@@ -1,0 +1,66 @@
+//! What the configurations and the contents of all structures say alike.
+
+use crate::{Addressing, Counters};
+
+/// What every configuration says.
+#[derive(Clone, Copy, Debug)]
+pub struct Common {
+    /// How shaders reach the pools.
+    pub addressing: Addressing,
+    /// How much of their work rays record.
+    pub counters: Counters,
+    /// Work units per dispatch; [`default_work_budget`](crate::default_work_budget) where absent.
+    pub work_budget: Option<u32>,
+}
+
+/// A configuration of a structure; [`configured!`](crate::configured) makes one of a struct.
+pub trait Configured {
+    /// What every configuration says.
+    fn common(&self) -> Common;
+}
+
+/// Makes a struct with the fields of [`Common`] a [`Configured`] one.
+#[macro_export]
+macro_rules! configured {
+    ($config:ty) => {
+        impl $crate::Configured for $config {
+            fn common(&self) -> $crate::Common {
+                let Self { addressing, counters, work_budget, .. } = *self;
+                $crate::Common { addressing, counters, work_budget }
+            }
+        }
+    };
+}
+
+/// [`Design::download`](crate::Design::download) and [`Design::pools_of`](crate::Design::pools_of) of contents whose
+/// pools are words: one list of the pools with their fields, for both directions. Contents that keep the configuration
+/// name its field: `pools_of_words!(Contents with config; Lists => lists, Entries => entries)`. It names the enum `Pool` of the
+/// structure and the crate `rasray_gpu`.
+#[macro_export]
+macro_rules! pools_of_words {
+    ($contents:ident $(with $config:ident)?; $($pool:ident => $field:ident),+ $(,)?) => {
+        fn download(
+            &self,
+            parts: &$crate::Parts<Self::Config>,
+            device: &rasray_gpu::Device,
+            header: Self::Header,
+        ) -> Result<Self::Contents, rasray_gpu::GpuError> {
+            Ok($contents {
+                $($config: parts.config,)?
+                header,
+                $($field: parts.pools.download_words(device, Pool::$pool)?,)+
+            })
+        }
+
+        fn pools_of(contents: &Self::Contents) -> (Self::Header, $crate::PoolBytes<'_, Self::Pool>) {
+            let pools = vec![$((Pool::$pool, $crate::bytes_of_words(&contents.$field)),)+];
+            (contents.header, pools)
+        }
+    };
+}
+
+/// Words as the bytes that are uploaded, for [`pools_of_words!`].
+#[doc(hidden)]
+pub fn bytes_of_words(words: &[u32]) -> &[u8] {
+    bytemuck::cast_slice(words)
+}

@@ -1,0 +1,45 @@
+//! What was traced and answered, as files with names.
+
+use crate::jobs::Kept;
+use rasray_ads::PRIMITIVE_NONE;
+use rasray_ray_files::{hits_to_npy, ids_to_npy, rays_to_npy, triangles_to_npy, truth_to_npy, write_rays};
+
+/// A name within a folder, and the bytes of the file.
+pub type NamedBytes = (String, Vec<u8>);
+
+impl Kept {
+    /// Rays and triangles as files: `<set>.rays` and `<set>.npy`, `<set>.exclude.npy` where a ray excludes a triangle,
+    /// and `triangles.npy`, which the hard case that this is about precedes. They are encoded one by one as they are
+    /// asked for.
+    pub fn ray_files(&self) -> impl Iterator<Item = NamedBytes> {
+        let origin = self.frame_origin;
+        let name =
+            self.case.as_ref().map_or("triangles.npy".to_owned(), |case| format!("{case}.triangles.npy"));
+        let triangles = std::iter::once_with(move || (name, triangles_to_npy(&self.triangles, origin)));
+        let rays = self.sets.iter().flat_map(move |set| {
+            [
+                (format!("{}.rays", set.name), write_rays(&set.rays, origin)),
+                (format!("{}.npy", set.name), rays_to_npy(&set.rays, origin)),
+            ]
+        });
+        let excluding = self.sets.iter().filter_map(|set| {
+            let excluded: Vec<u32> = set.rays.iter().map(|ray| ray.exclude_primitive).collect();
+            let excludes = excluded.iter().any(|id| *id != PRIMITIVE_NONE);
+            excludes.then(|| (format!("{}.exclude.npy", set.name), ids_to_npy(&excluded)))
+        });
+        triangles.chain(rays).chain(excluding)
+    }
+
+    /// The oracle's answers to each set (`<set>.oracle.npy`) and those of each system (`<set>.<system>-<preset>.npy`).
+    pub fn hit_files(&self) -> impl Iterator<Item = NamedBytes> {
+        self.sets.iter().flat_map(|set| {
+            let truth =
+                std::iter::once_with(move || (format!("{}.oracle.npy", set.name), truth_to_npy(&set.truth)));
+            let answers = set.answers.iter().map(move |answers| {
+                let bytes = hits_to_npy(&answers.hits, answers.kind);
+                (format!("{}.{}.npy", set.name, answers.name), bytes)
+            });
+            truth.chain(answers)
+        })
+    }
+}

@@ -1,0 +1,137 @@
+//! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
+
+use crate::backend::TexelRoom;
+use crate::camera::Chosen;
+use crate::error::ExperimentError;
+use crate::jobs::Frame;
+use crate::scene_source::LoadedScene;
+use crate::texels::TexelInfo;
+use glam::DVec3;
+use rasray_report::CameraRecord;
+use rasray_scene::facing::Facing;
+use rasray_scene::needs::Needs;
+use rasray_scene::{Environment, Scene, default_view};
+use serde_json::{Value, json};
+
+/// A scene in numbers.
+#[derive(Clone, Debug)]
+pub struct SceneInfo {
+    /// File stem, or built-in name with its parameters.
+    pub name: String,
+    /// What there are how many of.
+    pub counts: [(&'static str, u64); 7],
+    /// Its environment in words.
+    pub environment: String,
+    /// Whether it gets the default light.
+    pub unlit: bool,
+    /// Least and greatest corner, metres; absent without triangles.
+    pub bounds: Option<(DVec3, DVec3)>,
+    /// Share of fragments that one view of three saves.
+    pub one_view_saves: Option<f64>,
+    /// Of the scene file, in hexadecimal; absent for built-in scenes.
+    pub sha256: Option<String>,
+    /// Its cameras.
+    pub cameras: Vec<CameraRecord>,
+    /// From where it is seen.
+    pub view: Chosen,
+    /// The integrator whose needs these are.
+    pub integrator: &'static str,
+    /// What of it an image can show.
+    pub needs: Needs,
+    /// Bytes that are not uploaded because no image can show them; see [`LoadedScene::not_uploaded_bytes`].
+    pub not_uploaded_bytes: Option<u64>,
+    /// Texels that an image can show.
+    pub texels: TexelInfo,
+}
+
+impl SceneInfo {
+    /// Looks a scene over. It is lit as a render would light it: what it needs then is what counts. `room` opens the
+    /// device, if there is one; it is called only where something depends on it.
+    ///
+    /// # Errors
+    /// The scene names what it does not have, or has more texels than the device can make fit.
+    pub fn of(
+        loaded: &mut LoadedScene,
+        view: &Chosen,
+        frame: &Frame,
+        room: impl FnOnce() -> Option<TexelRoom>,
+    ) -> Result<Self, ExperimentError> {
+        let environment = environment(&loaded.scene.environment);
+        let unlit = default_view::ensure_lit(&mut loaded.scene);
+        let needs = Needs::of(&loaded.scene, frame.workload());
+        loaded.count_not_uploaded(&view.camera, &needs);
+        let scene = &loaded.scene;
+        let camera = |(index, camera): (usize, &rasray_scene::Camera)| {
+            Chosen { camera: camera.clone(), index: Some(index) }.record()
+        };
+        let texels = TexelInfo::of(scene, &needs, room)?;
+        Ok(Self {
+            name: scene.name.clone(),
+            counts: counts(scene, loaded.triangles),
+            environment,
+            unlit,
+            bounds: default_view::bounds(scene),
+            one_view_saves: Facing::of(scene).saved_by_one_view(),
+            sha256: loaded.sha256.clone(),
+            cameras: scene.cameras.iter().enumerate().map(camera).collect(),
+            view: view.clone(),
+            integrator: frame.integrator.name(),
+            needs,
+            not_uploaded_bytes: loaded.not_uploaded_bytes,
+            texels,
+        })
+    }
+
+    /// Fields of `rasray info --json`.
+    pub fn json(&self) -> Value {
+        let mut scene = json!({
+            "name": self.name,
+            "environment": self.environment,
+            "default_light": self.unlit,
+            "cameras": self.cameras,
+            "default_view": self.view.record(),
+            "texels": self.texels.json(),
+        });
+        for (name, count) in self.counts {
+            scene[name] = count.into();
+        }
+        if let Some((low, high)) = self.bounds {
+            scene["bounds_m"] = json!([low.to_array(), high.to_array()]);
+        }
+        if let Some(saved) = self.one_view_saves {
+            scene["one_view_of_three_saves"] = saved.into();
+        }
+        if let Some(sha256) = &self.sha256 {
+            scene["sha256"] = sha256.as_str().into();
+        }
+        let terms = self.needs.verdicts().iter().map(
+            |verdict| json!({ "term": verdict.term.name(), "needed": verdict.needed, "why": verdict.why }),
+        );
+        let mut needs = json!({ "integrator": self.integrator, "terms": terms.collect::<Vec<_>>() });
+        if let Some(bytes) = self.not_uploaded_bytes {
+            needs["not_uploaded_bytes"] = bytes.into();
+        }
+        json!({ "scene": scene, "needs": needs })
+    }
+}
+
+fn counts(scene: &Scene, triangles: u64) -> [(&'static str, u64); 7] {
+    let count = |length: usize| length as u64;
+    [
+        ("triangles", triangles),
+        ("instances", count(scene.instances.len())),
+        ("meshes", count(scene.meshes.len())),
+        ("materials", count(scene.materials.len())),
+        ("textures", count(scene.textures.len())),
+        ("lights", count(scene.lights.len())),
+        ("clips", count(scene.animation.clips.len())),
+    ]
+}
+
+fn environment(environment: &Environment) -> String {
+    match environment {
+        Environment::Constant(color) if color.iter().all(|channel| *channel == 0.0) => "none".to_owned(),
+        Environment::Constant([r, g, b]) => format!("constant {r},{g},{b}"),
+        Environment::LatLong { width, height, .. } => format!("map of {width}x{height}"),
+    }
+}

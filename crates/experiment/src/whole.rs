@@ -1,0 +1,92 @@
+//! Whether a result is whole: what is not is refused, since nobody could see it in a picture or a table.
+
+use crate::error::ExperimentError;
+use crate::jobs::{AovSelection, RenderOutput};
+use rasray_report::Run;
+
+/// Refuses what was traced through a structure with holes, or with rays left unanswered.
+///
+/// # Errors
+/// [`ExperimentError::Refused`], naming the system.
+pub fn check_run(run: &Run) -> Result<(), ExperimentError> {
+    let Some(counters) = &run.counters else { return Ok(()) };
+    let system = format!("{} {}", run.system, run.preset);
+    if let Some(missing) = counters.overflow.filter(|count| *count > 0) {
+        return Err(ExperimentError::refused(
+            format!("{system}: {missing} entries were missing from what was traced"),
+            "its results are not kept; lower --resolution, or use a device with more memory",
+        ));
+    }
+    if let Some(unfinished) = counters.unfinished.filter(|count| *count > 0) {
+        return Err(ExperimentError::refused(
+            format!("{system}: {unfinished} rays had no answer after the last round"),
+            "its results are not kept; where very many triangles lie in one place --system bvh has shorter work, else \
+             please report it with the command line",
+        ));
+    }
+    Ok(())
+}
+
+impl RenderOutput {
+    /// Refuses an output that lacks pixels or a wanted image.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Refused`], naming the image that is not whole.
+    pub fn check_images(&self, aovs: AovSelection) -> Result<(), ExperimentError> {
+        let pixels = self.width as usize * self.height as usize;
+        let lengths = [
+            ("colours", true, Some(self.beauty.len())),
+            ("depth", aovs.depth, self.depth.as_ref().map(Vec::len)),
+            ("normal", aovs.normal, self.normal.as_ref().map(Vec::len)),
+            ("primitive", aovs.primitive, self.primitive.as_ref().map(Vec::len)),
+        ];
+        for (name, wanted, length) in lengths {
+            if wanted && length != Some(pixels) {
+                return Err(ExperimentError::refused(
+                    format!("the image '{name}' has {} of {pixels} pixels", length.unwrap_or(0)),
+                    "nothing was written; this is a defect of the renderer, please report it with the command line",
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// Pixels of the colour image that are not finite.
+    pub fn non_finite_pixels(&self) -> usize {
+        self.beauty.iter().filter(|pixel| !pixel.iter().all(|value| value.is_finite())).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasray_report::Counters;
+
+    #[test]
+    fn runs_with_holes_or_unanswered_rays_are_refused() {
+        let run = |overflow, unfinished| Run {
+            counters: Some(Counters { overflow, unfinished, ..Default::default() }),
+            ..Default::default()
+        };
+        assert!(check_run(&Run::default()).is_ok());
+        assert!(check_run(&run(Some(0), Some(0))).is_ok());
+        for (bad, word) in [(run(Some(3), None), "3 entries"), (run(None, Some(2)), "2 rays")] {
+            let error = check_run(&bad).expect_err(word);
+            assert!(matches!(error, ExperimentError::Refused { .. }), "{error:?}");
+            assert!(error.to_string().contains(word), "{error}");
+        }
+    }
+
+    #[test]
+    fn missing_pixels_are_refused() {
+        let mut output =
+            RenderOutput { width: 2, height: 1, beauty: vec![[0.0; 3]; 2], ..Default::default() };
+        assert!(output.check_images(AovSelection::default()).is_ok());
+        assert!(output.check_images(AovSelection { depth: true, ..Default::default() }).is_err());
+        output.beauty[1][2] = f32::NAN;
+        assert_eq!(output.non_finite_pixels(), 1);
+        output.beauty.pop();
+        let error = output.check_images(AovSelection::default()).expect_err("a hole");
+        assert!(matches!(error, ExperimentError::Refused { .. }), "{error:?}");
+    }
+}

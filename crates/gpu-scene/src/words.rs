@@ -1,0 +1,56 @@
+//! Words of a table: stored, or only counted where nothing but the size of the table is asked for.
+
+use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
+
+use crate::GpuSceneError;
+
+/// Words that are appended part by part.
+#[derive(Clone, Debug)]
+pub struct Words {
+    count: u64,
+    stored: Option<Vec<f32>>,
+}
+
+impl Words {
+    /// No words yet; those to come are stored.
+    pub fn stored() -> Self {
+        Self { count: 0, stored: Some(Vec::new()) }
+    }
+
+    /// No words yet; those to come are counted and not made.
+    pub fn counted() -> Self {
+        Self { count: 0, stored: None }
+    }
+
+    /// Appends `count` words, which `make` makes where words are stored, and returns the place of the first.
+    ///
+    /// # Errors
+    /// `TooManyVertices` where 32-bit word offsets do not reach.
+    pub fn append<I: IntoIterator<Item = f32>>(
+        &mut self,
+        count: usize,
+        make: impl FnOnce() -> I,
+    ) -> Result<u32, GpuSceneError> {
+        let (first, limit) = (self.count, u64::from(ATTRIBUTE_NONE));
+        let end = first + count as u64;
+        if end >= limit {
+            return Err(GpuSceneError::TooManyVertices { count: end, limit });
+        }
+        if let Some(stored) = &mut self.stored {
+            stored.extend(make());
+            assert_eq!(stored.len() as u64, end, "as many words as were announced");
+        }
+        self.count = end;
+        Ok(first as u32)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// Those that were stored.
+    pub fn into_vec(self) -> Vec<f32> {
+        self.stored.unwrap_or_default()
+    }
+}
