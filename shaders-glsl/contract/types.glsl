@@ -76,6 +76,8 @@ struct Draw {
     uint triangle_count;
     uint instance;
     uint flags;               // DRAW_*
+    uint first_index;         // of its first triangle, in the indices handed in; read where they are gathered
+    int base_vertex;          // added to its indices where they are gathered
 };
 
 #endif

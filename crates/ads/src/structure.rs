@@ -115,8 +115,8 @@ pub struct BuildStatus {
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
     pub unsorted: u64,
-    /// Triangles with a corner outside of the bounds that their geometry states, or with a vertex that it does not have;
-    /// with any of them the build is not complete.
+    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does not have, or
+    /// beyond its maximum; with any of them the build is not complete.
     pub outside: u32,
     /// List entries that named no node, met by the build; anything but 0 is a fault. What traces meet is in
     /// [`crate::QueueCounters::corrupted`].

@@ -163,7 +163,7 @@ pub struct Surface {
 
 /// One run of triangles of one instance.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct Draw {
     /// Global id of the first triangle.
     pub first_triangle: u32,
@@ -173,6 +173,11 @@ pub struct Draw {
     pub instance: u32,
     /// `DRAW_*` bits.
     pub flags: u32,
+    /// Index of its first triangle's first vertex, counted from the first index handed in; read with
+    /// [`crate::Indexing::PerDraw`] alone.
+    pub first_index: u32,
+    /// Added to each of its indices; read with [`crate::Indexing::PerDraw`] alone.
+    pub base_vertex: i32,
 }
 
 /// Counts and bounds of a [`crate::Geometry`].
@@ -185,12 +190,18 @@ pub struct GeometryHeader {
     pub triangle_count: u32,
     /// Draws.
     pub draw_count: u32,
-    /// Triangles that the last check found outside of the bounds, or with a vertex that there is not.
+    /// Triangles that the last check found outside of the bounds, with a vertex that there is not, or beyond the maximum.
     pub outside: u32,
     /// Lower corner of all positions, metres.
     pub lower: [f32; 3],
     /// Upper corner, metres.
     pub upper: [f32; 3],
+    /// Word of the first position in its binding.
+    pub position_word: u32,
+    /// Words from one position to the next.
+    pub position_words: u32,
+    /// Word of the first index in its binding.
+    pub index_word: u32,
 }
 
 /// Book-keeping of a [`crate::RayQueue`].

@@ -59,10 +59,12 @@ fn records_of_queues_and_geometry() {
         selected_z, selected, takes, corrupted,
     });
     check_layout!([&shaders::ABUFFER_BUILD_1_NEAR, TRACES[0]], GeometryHeader as "GeometryHeader" {
-        vertex_count, triangle_count, draw_count, outside, lower, upper,
+        vertex_count, triangle_count, draw_count, outside, lower, upper, position_word, position_words, index_word,
     });
     // Modules have what they read alone, and few read draws.
-    check_layout!([&shaders::LDC_BUILD_6_FRINGE], Draw as "Draw" { first_triangle, triangle_count, instance, flags });
+    check_layout!([&shaders::LDC_BUILD_6_FRINGE, &shaders::ADS_GEOMETRY_GATHER], Draw as "Draw" {
+        first_triangle, triangle_count, instance, flags, first_index, base_vertex,
+    });
 }
 
 /// Whatever module a shared record is declared in, it is the same record.
