@@ -1,4 +1,4 @@
-use rasray_ads::{Hit, Ray, StructureKind};
+use rasray_ads::{Hit, Ray, Structure, StructureKind};
 use rasray_systems::{Preset, SYSTEMS, Spec};
 
 use crate::harness::Bench;
@@ -110,8 +110,22 @@ impl Subject {
     pub fn answers(&self, bench: &Bench, eye: [f32; 3], triangles: &[Triangle], rays: &[Ray]) -> Answers {
         let geometry = bench.geometry(triangles);
         let mut structure = self.spec.create(bench.device(), &geometry, None).expect("the options are valid");
-        let closest = bench.build_and_trace(structure.as_mut(), eye, rays);
-        let occluded = bench.occluded(structure.as_ref(), rays);
+        self.answers_of(bench, eye, structure.as_mut(), rays)
+    }
+
+    /// Builds and traces a structure that was made from the subject.
+    ///
+    /// # Panics
+    /// As [`Subject::answers`].
+    pub fn answers_of(
+        &self,
+        bench: &Bench,
+        eye: [f32; 3],
+        structure: &mut dyn Structure,
+        rays: &[Ray],
+    ) -> Answers {
+        let closest = bench.build_and_trace(structure, eye, rays);
+        let occluded = bench.occluded(structure, rays);
         assert_eq!(structure.status(0).expect("the status is readable").corrupted, 0, "{}", self.name());
         let key = |hit: &Hit| match self.kind {
             StructureKind::Primitive | StructureKind::LossyPrimitive => {
