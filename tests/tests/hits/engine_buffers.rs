@@ -104,7 +104,7 @@ fn geometry(bench: &Bench, triangles: &[Triangle], layout: Layout) -> (Geometry,
     };
     let draw_records = engine.place(&draws, 256);
     let counter = engine.place(&[count], 4);
-    let usage = BufferUsage::STORAGE;
+    let usage = BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC;
     let buffer = bench.device().create_buffer_with(name, usage, &engine.bytes).expect("it fits");
     let at = |offset| BufferOffset { buffer: buffer.clone(), offset };
     let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
