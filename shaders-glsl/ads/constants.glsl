@@ -2,6 +2,9 @@
 #ifndef ADS_CONSTANTS_GLSL
 #define ADS_CONSTANTS_GLSL
 
+// Views onto which one draw of all triangles goes at most: the faces of a cube.
+#define GEOMETRY_DRAW_VIEWS 6u
+
 // Numbers that one workgroup of a scan adds up, and its threads.
 #define SCAN_BLOCK 1024u
 #define SCAN_THREADS 256u

@@ -1,6 +1,8 @@
 // What: posed triangles, the one input all structures are built from.
-// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, unless GEOMETRY_WRITTEN is defined.
-// Positions are metres relative to the frame origin.
+// Reads: positions, indices and draws of GEOMETRY_SET. Writes: nothing, but the header with GEOMETRY_WRITTEN, and the
+// indices with GEOMETRY_GATHERED.
+// Positions are metres relative to the frame origin. They are read in place, at any offset and stride in words; indices
+// are u32 and absolute, as handed in or as ads/geometry_gather.comp left them.
 #ifndef ADS_GEOMETRY_GLSL
 #define ADS_GEOMETRY_GLSL
 
@@ -10,14 +12,18 @@
 #define GEOMETRY_SET 0
 #endif
 
-// Counts and bounds of the geometry. 64 bytes.
+// Counts and bounds of the geometry, and where positions and indices lie. 76 bytes.
 struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles
     uint draw_count;     // draws
-    uint outside;        // triangles that the last check found outside of the bounds or with a vertex that there is not
+    // triangles that the last check found outside of the bounds, with a vertex that there is not, or beyond the maximum
+    uint outside;
     vec3 lower;          // lower corner of all positions, metres
     vec3 upper;          // upper corner of all positions, metres
+    uint position_word;  // word of the first position in its binding
+    uint position_words; // words from one position to the next
+    uint index_word;     // word of the first index in its binding
     uint lower_keys[3];  // lower corner while it is measured: numbers in the order of the floats they stand for
     uint upper_keys[3];  // upper corner while it is measured
 };
@@ -30,10 +36,15 @@ struct GeometryHeader {
 layout(set = GEOMETRY_SET, binding = 0, scalar) GEOMETRY_HEADER_ACCESS buffer GeometryHeaderBuffer {
     GeometryHeader geometry_header;
 };
+#ifdef GEOMETRY_GATHERED
+#define GEOMETRY_INDEX_ACCESS
+#else
+#define GEOMETRY_INDEX_ACCESS readonly
+#endif
 layout(set = GEOMETRY_SET, binding = 1, scalar) readonly buffer GeometryPositionBuffer {
-    vec3 geometry_positions[];
+    float geometry_positions[];
 };
-layout(set = GEOMETRY_SET, binding = 2, scalar) readonly buffer GeometryIndexBuffer {
+layout(set = GEOMETRY_SET, binding = 2, scalar) GEOMETRY_INDEX_ACCESS buffer GeometryIndexBuffer {
     uint geometry_indices[];
 };
 layout(set = GEOMETRY_SET, binding = 3, scalar) readonly buffer GeometryDrawBuffer {
@@ -51,7 +62,11 @@ bool geometry_is_sound() {
 
 // Posed position of a vertex; the origin where the index is out of range.
 vec3 geometry_position(uint vertex) {
-    return vertex < geometry_header.vertex_count ? geometry_positions[vertex] : vec3(0.0);
+    if (vertex >= geometry_header.vertex_count) {
+        return vec3(0.0);
+    }
+    uint word = geometry_header.position_word + geometry_header.position_words * vertex;
+    return vec3(geometry_positions[word], geometry_positions[word + 1u], geometry_positions[word + 2u]);
 }
 
 // The three vertex indices of a global triangle id.
@@ -59,7 +74,7 @@ uvec3 geometry_triangle(uint primitive) {
     if (primitive >= geometry_header.triangle_count) {
         return uvec3(0u);
     }
-    uint first = 3u * primitive;
+    uint first = geometry_header.index_word + 3u * primitive;
     return uvec3(geometry_indices[first], geometry_indices[first + 1u], geometry_indices[first + 2u]);
 }
 

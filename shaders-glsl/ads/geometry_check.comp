@@ -1,6 +1,6 @@
 // What: counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
 // exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without a word.
-// Reads: positions and indices of GEOMETRY_SET. Writes: its header's count, which the host cleared before.
+// Reads: positions and indices of GEOMETRY_SET. Writes: adds to its header's count.
 #version 460
 #include "contract/extensions.glsl"
 

@@ -1,5 +1,6 @@
-// What: the Morton code of the middle of every triangle's box, 10 bits per axis.
-// Reads: geometry, header. Writes: scratch (keys).
+// What: the Morton code of the middle of every triangle's box, 10 bits per axis; and the number of triangles, which the
+// device may be the only one to know, with the root over them.
+// Reads: geometry, header. Writes: scratch (keys), header.
 // Source: Lauterbach et al. 2009.
 #version 460
 #include "contract/extensions.glsl"
@@ -17,7 +18,12 @@ uint spread(uint bits) {
 
 void main() {
     uint primitive = bvh_invocation();
-    if (primitive >= BVH_HEADER(bvh_built).triangle_count) {
+    uint triangles = geometry_triangle_count();
+    if (primitive == 0u) {
+        BVH_HEADER(bvh_built).triangle_count = triangles;
+        BVH_HEADER(bvh_built).root = triangles > 1u ? 0u : (triangles == 1u ? BVH_LEAF : BVH_NONE);
+    }
+    if (primitive >= triangles) {
         return;
     }
     vec3 lower;
@@ -27,6 +33,7 @@ void main() {
     vec3 cells = clamp(middle * BVH_HEADER(bvh_built).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
     uvec3 cell = uvec3(cells);
     uint code = spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u);
-    bvh_set_scratch(bvh_built, bvh_keys(bvh_built, 0u) + 2u * primitive, code);
-    bvh_set_scratch(bvh_built, bvh_keys(bvh_built, 0u) + 2u * primitive + 1u, primitive);
+    // The first buffer of keys begins at word 0, whatever the number of triangles.
+    bvh_set_scratch(bvh_built, 2u * primitive, code);
+    bvh_set_scratch(bvh_built, 2u * primitive + 1u, primitive);
 }

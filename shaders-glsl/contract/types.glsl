@@ -72,12 +72,14 @@ struct Surface {
     uint material;            // index of the material, or PRIMITIVE_NONE
 };
 
-// One run of triangles of one instance. 16 bytes. Global triangle id = first_triangle + local index.
+// One run of triangles of one instance. 24 bytes. Global triangle id = first_triangle + local index.
 struct Draw {
     uint first_triangle;      // global id of the first triangle
     uint triangle_count;      // number of triangles
     uint instance;            // index of the instance
     uint flags;               // DRAW_* bits
+    uint first_index;         // index of its first triangle's first vertex in the indices handed in; read where they are gathered
+    int base_vertex;          // added to its indices where they are gathered
 };
 
 #endif

@@ -60,7 +60,7 @@ impl Bench {
         let positions: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
         let indices: Vec<u32> = (0..positions.len() as u32).collect();
         let count = triangles.len() as u32;
-        let draws = [Draw { first_triangle: 0, triangle_count: count, instance: 0, flags: 0 }];
+        let draws = [Draw { first_triangle: 0, triangle_count: count, ..Draw::default() }];
         let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
         for p in &positions {
             for axis in 0..3 {
@@ -75,11 +75,12 @@ impl Bench {
             self.device.create_buffer_with(name, BufferUsage::ALL, bytes).expect("geometry fits")
         };
         let desc = GeometryDesc {
-            positions: buffer("positions", bytemuck::cast_slice(&positions)),
-            indices: buffer("indices", bytemuck::cast_slice(&indices)),
-            draws: buffer("draws", bytemuck::cast_slice(&draws)),
+            positions: buffer("positions", bytemuck::cast_slice(&positions)).into(),
+            indices: buffer("indices", bytemuck::cast_slice(&indices)).into(),
+            draws: buffer("draws", bytemuck::cast_slice(&draws)).into(),
             vertex_count: positions.len() as u32,
             triangle_count: count,
+            count: None,
             draw_count: 1,
             bounds,
             frame_origin: [0.0; 3],

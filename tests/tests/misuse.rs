@@ -2,8 +2,8 @@
 
 use ash::vk;
 use rasray_ads::{
-    Addressing, AdsError, BuildStatus, Check, Domain, Draw, Geometry, GeometryDesc, Hit, Pools, Ray,
-    RayQueue, Sizes, TraceMode,
+    Addressing, AdsError, BufferOffset, BuildStatus, Check, Domain, Draw, Geometry, GeometryDesc, Hit,
+    IndexFormat, Indexing, Pools, Ray, RayQueue, Sizes, TraceMode,
 };
 use rasray_gpu::{BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder, Timing};
 use rasray_systems::Spec;
@@ -140,11 +140,12 @@ fn desc_of(device: &Device, triangles: u32) -> GeometryDesc {
     };
     let bytes = u64::from(triangles);
     GeometryDesc {
-        positions: buffer("positions", 36 * bytes).expect("it fits"),
-        indices: buffer("indices", 12 * bytes).expect("it fits"),
-        draws: buffer("draws", size_of::<Draw>() as u64).expect("it fits"),
+        positions: buffer("positions", 36 * bytes).expect("it fits").into(),
+        indices: buffer("indices", 12 * bytes).expect("it fits").into(),
+        draws: buffer("draws", size_of::<Draw>() as u64).expect("it fits").into(),
         vertex_count: 3 * triangles,
         triangle_count: triangles,
+        count: None,
         draw_count: 1,
         bounds: [[-1.0; 3], [1.0; 3]],
         frame_origin: [0.0; 3],
@@ -158,7 +159,24 @@ fn a_geometry_that_its_buffers_do_not_hold_is_an_error() {
     let desc = desc_of(device, 4);
     drop(Geometry::new(device, desc.clone()).expect("it is right"));
     type Change = fn(&mut GeometryDesc);
-    let wrong: [(Change, &str); 6] = [
+    let wrong: [(Change, &str); 17] = [
+        (|desc| desc.positions.stride = 8, "a stride of 8 bytes"),
+        (|desc| desc.positions.stride = 14, "a stride of 14 bytes"),
+        (|desc| desc.positions.stride = 16, "12 vertices are 188 bytes from byte 0"),
+        (|desc| desc.positions.offset = 2, "byte 2 of buffer `positions`"),
+        (|desc| desc.positions.offset = 4, "12 vertices are 144 bytes from byte 4"),
+        (|desc| desc.positions.offset = u64::MAX - 3, "12 vertices"),
+        (|desc| desc.indices.offset = 2, "byte 2 of buffer `indices`, which must be a multiple of 4"),
+        (
+            |desc| (desc.indices.format, desc.indices.offset) = (IndexFormat::U16, 1),
+            "byte 1 of buffer `indices`, which must be a multiple of 2",
+        ),
+        (|desc| desc.indices.indexing = Indexing::PerDraw { index_count: 13 }, "13 indices are 52 bytes"),
+        (|desc| desc.draws.offset = 4, "byte 4 of buffer `draws`"),
+        (
+            |desc| desc.count = Some(BufferOffset { buffer: desc.draws.buffer.clone(), offset: 24 }),
+            "the number of triangles",
+        ),
         (|desc| desc.vertex_count = 13, "13 vertices"),
         (|desc| desc.triangle_count = u32::MAX, "4294967295 triangles"),
         (|desc| desc.draw_count = 2, "2 draws"),

@@ -96,13 +96,14 @@ impl Structure for BruteForce {
 
     fn record_build(
         &mut self,
-        _recorder: &mut Recorder<'_>,
+        recorder: &mut Recorder<'_>,
         slot: u32,
         _viewpoint: Viewpoint,
     ) -> Result<(), AdsError> {
         if slot >= self.slots {
             return Err(AdsError::Slot { structure: self.name(), slot, slots: self.slots });
         }
+        self.geometry.record_gather(recorder);
         Ok(())
     }
 

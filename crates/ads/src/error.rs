@@ -55,8 +55,9 @@ pub enum AdsError {
     },
     /// A build found triangles that its geometry does not allow.
     #[error(
-        "{triangles} triangles have a corner outside of the bounds that the geometry states, or name a vertex that \
-         it does not have: state bounds that hold all positions, and indices below the number of vertices"
+        "{triangles} triangles have a corner outside of the bounds that the geometry states, name a vertex that it does \
+         not have, or exceed its maximum: state bounds that hold all positions, indices below the number of vertices, \
+         and a maximum that the device's count of triangles does not exceed"
     )]
     OutsideBounds {
         /// Number of such triangles.

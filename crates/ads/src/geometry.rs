@@ -2,49 +2,32 @@
 
 use std::mem::offset_of;
 
-use bytemuck::bytes_of;
+use bytemuck::{Pod, Zeroable, bytes_of, pod_read_unaligned};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
-    GpuError, MemoryLocation, Recorder, SetLayout,
+    Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
+    Device, GpuError, MemoryLocation, Recorder, SetLayout,
 };
-
-use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_CHECK, Shader};
+use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
 
 use crate::passes::folded;
-use crate::{AdsError, Draw, GeometryHeader};
-
-/// Triangles that a workgroup of `ads/geometry_check` and `ads/geometry_bounds` looks at.
-const TRIANGLES_PER_GROUP: u64 = 64;
+use crate::{AdsError, GeometryDesc, GeometryHeader, Indexing};
 
 /// Buffers of the geometry set.
-const BINDINGS: u32 = 4;
+pub(crate) const BINDINGS: u32 = 4;
 
-/// Bytes of the keys of a corner of the bounds.
-const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
+/// Triangles of a workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
+const TRIANGLES_PER_GROUP: u64 = 64;
 
-/// Buffers and counts to make a [`Geometry`] from. An embedder fills it from buffers of its own.
-#[derive(Clone, Debug)]
-pub struct GeometryDesc {
-    /// Posed positions, f32x3 without padding, metres relative to `frame_origin`.
-    pub positions: Buffer,
-    /// Vertex indices, u32, three a triangle; all below `vertex_count`.
-    pub indices: Buffer,
-    /// [`crate::Draw`] records in order of their triangles.
-    pub draws: Buffer,
-    /// Vertices in `positions`.
-    pub vertex_count: u32,
-    /// Triangles in `indices`.
-    pub triangle_count: u32,
-    /// Records in `draws`.
-    pub draw_count: u32,
-    /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are written to
-    /// the geometry's header on the device, where a pass of the host or [`BoundsPass`] may write others
-    /// before a build; structures are planned by these, and built by those on the device. A build that meets a corner
-    /// outside of these is not complete, and says how many triangles do.
-    pub bounds: [[f32; 3]; 2],
-    /// What positions are relative to, metres, world.
-    pub frame_origin: [f64; 3],
-}
+/// Bytes of the arguments of an indirect draw.
+const DRAW_ARGUMENT_BYTES: u64 = 16;
+
+/// Who reads what the passes here write.
+const READERS: Access = Access::COMPUTE
+    .union(Access::VERTEX_READ)
+    .union(Access::FRAGMENT_READ)
+    .union(Access::INDIRECT_READ)
+    .union(Access::TRANSFER_READ);
 
 /// Posed triangles on the device, with the binding set that shaders read them through. Cheap to clone.
 #[derive(Clone, Debug)]
@@ -54,43 +37,224 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
+    /// Where the device alone knows how many triangles there are.
+    count: Option<Count>,
+    /// Where indices are not read in place.
+    gather: Option<Gather>,
+}
+
+/// What `ads/geometry_count` works with.
+#[derive(Clone, Debug)]
+struct Count {
+    pipeline: ComputePipeline,
+    set: BindingSet,
+    constants: CountConstants,
+    /// Of draws of all triangles onto one view, two, ...
+    draw_arguments: Buffer,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct CountConstants {
+    count_word: u32,
+    most_triangles: u32,
+}
+
+/// What `ads/geometry_gather` works with.
+#[derive(Clone, Debug)]
+struct Gather {
+    pipeline: ComputePipeline,
+    set: BindingSet,
+    constants: GatherConstants,
+    /// Absolute u32 indices.
+    indices: Buffer,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct GatherConstants {
+    first_place: u32,
+    index_count: u32,
+    index_bytes: u32,
+    per_draw: u32,
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 64 bytes) and the binding set.
+    /// Makes the header buffer ([`GeometryHeader`], 76 bytes), where they are needed one for gathered indices (12 bytes
+    /// per triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
-    /// Counts beyond what the buffers hold, bounds that are not finite or the wrong way round; out of memory, or a
-    /// buffer exceeds what one binding can hold.
+    /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or the wrong way
+    /// round; out of memory, or a range exceeds what one binding can hold.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
-        check_desc(&desc)?;
+        desc.check(device)?;
         let header = device.create_buffer(&BufferDesc {
             name: "geometry header",
             size: size_of::<GeometryHeader>() as u64,
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
             location: MemoryLocation::Upload,
         })?;
+        let bindings = desc.bindings(device);
+        let [(positions, before_positions), (indices, before_indices), (draws, _)] = bindings[..3] else {
+            unreachable!("positions, indices and draws are always bound")
+        };
+        let layout = device.create_set_layout("geometry", BINDINGS)?;
+        let gather = match desc.indices.is_gathered() {
+            true => Some(Gather::new(device, &layout, &desc, indices, before_indices)?),
+            false => None,
+        };
+        let count = match bindings.get(3) {
+            Some((range, before)) => Some(Count::new(device, &layout, &desc, *range, *before)?),
+            None => None,
+        };
         header.write(
             0,
             bytes_of(&GeometryHeader {
                 vertex_count: desc.vertex_count,
-                triangle_count: desc.triangle_count,
+                // Until the device has counted there is none.
+                triangle_count: if count.is_some() { 0 } else { desc.triangle_count },
                 draw_count: desc.draw_count,
                 outside: 0,
                 lower: desc.bounds[0],
                 upper: desc.bounds[1],
+                position_word: (before_positions / 4) as u32,
+                position_words: desc.positions.stride / 4,
+                index_word: if gather.is_some() { 0 } else { (before_indices / 4) as u32 },
                 lower_keys: [0; 3],
                 upper_keys: [0; 3],
             }),
         )?;
-        let layout = device.create_set_layout("geometry", BINDINGS)?;
-        let set = device.create_binding_set(
-            &layout,
-            "geometry",
-            &[&header, &desc.positions, &desc.indices, &desc.draws],
-        )?;
-        let check = pass(device, &layout, &ADS_GEOMETRY_CHECK)?;
-        Ok(Self { desc, header, check, layout, set })
+        let read = gather.as_ref().map_or(indices, |gather| whole(&gather.indices));
+        let ranges = [whole(&header), positions, read, draws];
+        let set = device.create_binding_set_of_ranges(&layout, "geometry", &ranges)?;
+        let check = pipeline(device, &rasray_shaders_glsl::ADS_GEOMETRY_CHECK, &[&layout], 0)?;
+        Ok(Self { desc, header, check, layout, set, count, gather })
+    }
+
+    /// Records what shaders read other than in place: the number of triangles where the device alone knows it, and
+    /// indices that are gathered, visible to all who read them. Nothing where neither is asked for.
+    pub(crate) fn record_gather(&self, recorder: &mut Recorder<'_>) {
+        if let Some(Count { pipeline, set, constants, .. }) = &self.count {
+            recorder.barrier(READERS, Access::COMPUTE);
+            self.record(recorder, pipeline, Some(set), bytes_of(constants), [1; 3]);
+            recorder.barrier(Access::COMPUTE, READERS);
+        }
+        let groups = self.groups();
+        if let (Some(Gather { pipeline, set, constants, .. }), Some(groups)) = (&self.gather, groups) {
+            recorder.barrier(READERS, Access::COMPUTE);
+            self.record(recorder, pipeline, Some(set), bytes_of(constants), groups);
+            recorder.barrier(Access::COMPUTE, READERS);
+        }
+    }
+
+    /// Records [`Geometry::record_gather`], the count of triangles that the bounds, the vertices and the maximum do not
+    /// allow for, visible to all who read it, and its copy to four bytes of `target`.
+    pub(crate) fn record_check(&self, recorder: &mut Recorder<'_>, target: &Buffer, offset: u64) {
+        let count = offset_of!(GeometryHeader, outside) as u64;
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(&self.header, count, 4, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        self.record_gather(recorder);
+        if let Some(groups) = self.groups() {
+            self.record(recorder, &self.check, None, &[], groups);
+        }
+        recorder.barrier(Access::COMPUTE, READERS);
+        recorder.copy(&self.header, count, target, offset, 4);
+    }
+
+    /// Workgroups of one thread per triangle; none without triangles.
+    pub(crate) fn groups(&self) -> Option<[u32; 3]> {
+        folded(u64::from(self.desc.triangle_count).div_ceil(TRIANGLES_PER_GROUP))
+    }
+
+    /// One dispatch that reads or writes the geometry.
+    pub(crate) fn record(
+        &self,
+        recorder: &mut Recorder<'_>,
+        pipeline: &ComputePipeline,
+        more: Option<&BindingSet>,
+        constants: &[u8],
+        groups: [u32; 3],
+    ) {
+        recorder.bind_compute(pipeline);
+        recorder.bind_sets(0, &[&self.set]);
+        if let Some(more) = more {
+            recorder.bind_sets(1, &[more]);
+        }
+        if !constants.is_empty() {
+            recorder.push_constants(constants);
+        }
+        recorder.dispatch(groups);
+    }
+
+    /// Draws all triangles onto that many views, at most [`GEOMETRY_DRAW_VIEWS`], within a rendering.
+    pub(crate) fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
+        match &self.count {
+            // What lies beyond the arguments is a mistake of the recording.
+            Some(count) => {
+                let place = u64::from(views.wrapping_sub(1)) * DRAW_ARGUMENT_BYTES;
+                recorder.draw_indirect(&count.draw_arguments, place);
+            }
+            None => recorder.draw(3 * self.desc.triangle_count, views, 0),
+        }
+    }
+
+    /// Takes the buffers handed in over from the queue family that wrote them, for the one of the device: the second half
+    /// of a transfer of ownership, after a semaphore that the first half signals. Families that are equal need none, and
+    /// nothing is recorded. What is written of a buffer by the same family later needs no other transfer.
+    pub fn record_acquire(&self, recorder: &mut Recorder<'_>, from_family: u32) {
+        let ranges = self.ranges(recorder.device());
+        recorder.acquire(&ranges, from_family, READERS);
+    }
+
+    /// Hands the buffers over to a queue family that writes them next: the first half of a transfer of ownership. The
+    /// other family records the second one, over [`Geometry::ranges`]. Families that are equal need none, and nothing is
+    /// recorded.
+    pub fn record_release(&self, recorder: &mut Recorder<'_>, to_family: u32) {
+        let ranges = self.ranges(recorder.device());
+        recorder.release(&ranges, to_family, READERS);
+    }
+
+    /// What is read of the buffers handed in, in bytes: positions, indices, draws and count. No byte is in two ranges: those
+    /// that overlap or touch are joined.
+    pub fn ranges(&self, device: &Device) -> Vec<BufferRange<'_>> {
+        self.desc.ranges(device)
+    }
+
+    /// Positions, metres relative to the frame origin, and absolute indices, three a triangle, as shaders read them.
+    /// Submits and waits.
+    ///
+    /// # Errors
+    /// The device fails, or a buffer was not made for [`BufferUsage::TRANSFER_SRC`].
+    pub fn download(&self, device: &Device) -> Result<(Vec<[f32; 3]>, Vec<u32>), GpuError> {
+        device.submit(|recorder| self.record_gather(recorder))?;
+        let count = 3 * self.download_count(device)? as usize;
+        let (buffer, offset) = match &self.gather {
+            Some(gather) => (&gather.indices, 0),
+            None => (&self.desc.indices.buffer, self.desc.indices.offset),
+        };
+        let indices = device.download_as::<u32>(buffer, offset, count)?;
+        let positions = &self.desc.positions;
+        let position_bytes = size_of::<[f32; 3]>();
+        let stride = positions.stride as usize;
+        let bytes = match self.desc.vertex_count as usize {
+            0 => Vec::new(),
+            count => {
+                let size = (count - 1) * stride + position_bytes;
+                device.download(&positions.buffer, positions.offset, size as u64)?
+            }
+        };
+        let positions = bytes.chunks(stride).map(|vertex| pod_read_unaligned(&vertex[..position_bytes]));
+        Ok((positions.collect(), indices))
+    }
+
+    /// Number of triangles of the last build, which where `count` was given only the device knows.
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn download_count(&self, device: &Device) -> Result<u32, GpuError> {
+        let place = offset_of!(GeometryHeader, triangle_count) as u64;
+        Ok(device.download_as::<u32>(&self.header, place, 1)?[0])
     }
 
     /// The header that shaders read: a [`GeometryHeader`]. A pass of the host that moves vertices writes `lower` and
@@ -99,33 +263,12 @@ impl Geometry {
         &self.header
     }
 
-    /// Workgroups of one thread per triangle; none without triangles.
-    fn groups(&self) -> Option<[u32; 3]> {
-        folded(u64::from(self.desc.triangle_count).div_ceil(TRIANGLES_PER_GROUP))
-    }
-
-    /// Records the count of triangles that the bounds and the vertices do not allow for, visible to compute shaders,
-    /// and its copy to four bytes of `target`.
-    pub(crate) fn record_check(&self, recorder: &mut Recorder<'_>, target: &Buffer, offset: u64) {
-        let count = offset_of!(GeometryHeader, outside) as u64;
-        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
-        recorder.fill(&self.header, count, 4, 0);
-        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        if let Some(groups) = self.groups() {
-            recorder.bind_compute(&self.check);
-            recorder.bind_sets(0, &[&self.set]);
-            recorder.dispatch(groups);
-        }
-        recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER_READ);
-        recorder.copy(&self.header, count, target, offset, 4);
-    }
-
     /// What it was made from.
     pub fn desc(&self) -> &GeometryDesc {
         &self.desc
     }
 
-    /// Number of triangles.
+    /// Number of triangles, or their maximum where the device counts them.
     pub fn triangle_count(&self) -> u32 {
         self.desc.triangle_count
     }
@@ -146,83 +289,76 @@ impl Geometry {
     }
 }
 
-/// A pass over the triangles of a geometry.
-fn pass(device: &Device, layout: &SetLayout, shader: &Shader) -> Result<ComputePipeline, GpuError> {
+impl Count {
+    fn new(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        range: BufferRange<'_>,
+        before: u64,
+    ) -> Result<Self, AdsError> {
+        let draw_arguments = device.create_buffer(&BufferDesc {
+            name: "geometry draw arguments",
+            size: DRAW_ARGUMENT_BYTES * u64::from(GEOMETRY_DRAW_VIEWS),
+            usage: BufferUsage::STORAGE | BufferUsage::INDIRECT,
+            location: MemoryLocation::Device,
+        })?;
+        let layout = device.create_set_layout("geometry count", 2)?;
+        let ranges = [range, whole(&draw_arguments)];
+        let set = device.create_binding_set_of_ranges(&layout, "geometry count", &ranges)?;
+        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_COUNT;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<CountConstants>())?;
+        let constants =
+            CountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
+        Ok(Self { pipeline, set, constants, draw_arguments })
+    }
+}
+
+impl Gather {
+    fn new(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        range: BufferRange<'_>,
+        before: u64,
+    ) -> Result<Self, AdsError> {
+        let indices = device.create_buffer(&BufferDesc {
+            name: "gathered indices",
+            size: u64::from(desc.triangle_count) * size_of::<[u32; 3]>() as u64,
+            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC,
+            location: MemoryLocation::Device,
+        })?;
+        let layout = device.create_set_layout("geometry gather", 1)?;
+        let set = device.create_binding_set_of_ranges(&layout, "geometry gather", &[range])?;
+        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_GATHER;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GatherConstants>())?;
+        let index_bytes = desc.indices.format.bytes();
+        let (index_count, per_draw) = match desc.indices.indexing {
+            // The host has checked that all of them are there, so the product is exact.
+            Indexing::Absolute => (3 * desc.triangle_count, 0),
+            Indexing::PerDraw { index_count } => (index_count, 1),
+        };
+        let first_place = (before / u64::from(index_bytes)) as u32;
+        let constants = GatherConstants { first_place, index_count, index_bytes, per_draw };
+        Ok(Self { pipeline, set, constants, indices })
+    }
+}
+
+fn whole(buffer: &Buffer) -> BufferRange<'_> {
+    BufferRange { buffer, offset: 0, size: buffer.size() }
+}
+
+pub(crate) fn pipeline(
+    device: &Device,
+    shader: &Shader,
+    sets: &[&SetLayout],
+    push_constant_bytes: usize,
+) -> Result<ComputePipeline, GpuError> {
     device.create_compute_pipeline(&ComputePipelineDesc {
         name: shader.name,
         spirv: shader.words(),
-        sets: &[layout],
-        push_constant_bytes: 0,
+        sets,
+        push_constant_bytes: push_constant_bytes as u32,
         constants: &[],
     })
-}
-
-/// Measures the bounds of geometries on the device, for positions that the device moved.
-#[derive(Debug)]
-pub struct BoundsPass {
-    measure: ComputePipeline,
-    end: ComputePipeline,
-}
-
-impl BoundsPass {
-    /// Makes the pipelines, for every geometry of the device.
-    ///
-    /// # Errors
-    /// The device refuses one.
-    pub fn new(device: &Device) -> Result<Self, AdsError> {
-        let layout = device.create_set_layout("geometry", BINDINGS)?;
-        let pass = |shader| pass(device, &layout, shader);
-        Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
-    }
-
-    /// Records the measuring of the bounds of all triangles, in two dispatches that read every triangle once, into the
-    /// header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all that
-    /// follows. Corners that are not finite are left out: the check of a build finds those that are infinite.
-    pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
-        let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
-            .map(|at| at as u64);
-        recorder.begin_pass("ads/geometry_bounds");
-        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
-        recorder.fill(&geometry.header, lower, KEY_BYTES, u32::MAX);
-        recorder.fill(&geometry.header, upper, KEY_BYTES, 0);
-        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        if let Some(groups) = geometry.groups() {
-            recorder.bind_compute(&self.measure);
-            recorder.bind_sets(0, &[&geometry.set]);
-            recorder.dispatch(groups);
-            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
-        }
-        recorder.bind_compute(&self.end);
-        recorder.bind_sets(0, &[&geometry.set]);
-        recorder.dispatch([1; 3]);
-        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
-        recorder.end_pass();
-    }
-}
-
-/// Whether the description is true of the buffers, as far as the host can see.
-fn check_desc(desc: &GeometryDesc) -> Result<(), AdsError> {
-    let wrong = |reason: String| Err(AdsError::Geometry { reason });
-    let parts: [(&str, &Buffer, u32, usize); 3] = [
-        ("vertices", &desc.positions, desc.vertex_count, size_of::<[f32; 3]>()),
-        ("triangles", &desc.indices, desc.triangle_count, size_of::<[u32; 3]>()),
-        ("draws", &desc.draws, desc.draw_count, size_of::<Draw>()),
-    ];
-    for (what, buffer, count, bytes) in parts {
-        let needed = u64::from(count) * bytes as u64;
-        if needed > buffer.size() {
-            return wrong(format!(
-                "{count} {what} are {needed} bytes, but buffer `{}` has {}",
-                buffer.name(),
-                buffer.size()
-            ));
-        }
-    }
-    let [lower, upper] = desc.bounds;
-    let ordered =
-        lower.iter().zip(&upper).all(|(low, high)| low.is_finite() && high.is_finite() && low <= high);
-    if !ordered {
-        return wrong(format!("bounds from {lower:?} to {upper:?} must be finite, the lower corner first"));
-    }
-    Ok(())
 }

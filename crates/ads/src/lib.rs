@@ -20,12 +20,14 @@
 //! What they read must be visible to compute, vertex and fragment shaders before.
 
 mod addressing;
+mod bounds_pass;
 mod brute_force;
 mod configured;
 mod counters;
 mod design;
 mod error;
 mod geometry;
+mod geometry_desc;
 mod kernels;
 mod list_sort;
 mod passes;
@@ -41,12 +43,14 @@ mod viewpoint;
 mod visit;
 
 pub use addressing::{Addressing, Modules, TraceModules};
+pub use bounds_pass::BoundsPass;
 pub use brute_force::BruteForce;
 pub use configured::{Common, Configured, bytes_of_words};
 pub use counters::Counters;
 pub use design::{Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
-pub use geometry::{BoundsPass, Geometry, GeometryDesc};
+pub use geometry::Geometry;
+pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use list_sort::ListSort;
 pub use passes::{BuildPipelines, BuildTarget, ViewDraw};

@@ -218,14 +218,13 @@ impl BuildTarget<'_> {
         views: u32,
         step: u32,
     ) {
-        let triangles = self.geometry.triangle_count();
-        if triangles == 0 {
+        if self.geometry.triangle_count() == 0 {
             return;
         }
         recorder.begin_rendering(side, side);
         recorder.bind_raster(pipeline);
         self.bind(recorder, step);
-        recorder.draw(3 * triangles, views, 0);
+        self.geometry.record_draw(recorder, views);
         recorder.end_rendering();
     }
 

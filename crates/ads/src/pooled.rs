@@ -288,7 +288,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn fault(&self, device: &Device) -> Result<Option<String>, GpuError> {
-        Ok(D::fault(&self.download(device)?, self.parts.geometry.triangle_count()))
+        Ok(D::fault(&self.download(device)?, self.parts.geometry.download_count(device)?))
     }
 
     fn report(&self) -> Result<StructureReport, GpuError> {

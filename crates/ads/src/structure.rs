@@ -115,8 +115,8 @@ pub struct BuildStatus {
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
     pub unsorted: u64,
-    /// Triangles with a corner outside of the bounds that their geometry states, or with a vertex that it does not have;
-    /// with any of them the build is not complete.
+    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does not have, or
+    /// beyond its maximum; with any of them the build is not complete.
     pub outside: u32,
     /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces find are
     /// in [`crate::QueueCounters::corrupted`].

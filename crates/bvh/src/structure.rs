@@ -8,7 +8,7 @@ use rasray_ads::{
     RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
+use rasray_shaders_glsl::constants::bvh::BVH_NONE;
 
 use crate::build::Build;
 use crate::host::{self, Box3};
@@ -45,21 +45,18 @@ pub struct Demand {
     pub triangles: u64,
 }
 
-/// Root and number of inner nodes of a tree in the pools.
+/// Root and numbers of inner nodes and triangles of a tree in the pools.
 #[derive(Clone, Copy, Debug)]
 struct Prepared {
     root: u32,
     nodes: u64,
+    triangles: u32,
 }
 
-/// The tree that the device builds over this many triangles.
-fn on_device(triangles: u64) -> Prepared {
-    let root = match triangles {
-        0 => BVH_NONE,
-        1 => BVH_LEAF,
-        _ => 0,
-    };
-    Prepared { root, nodes: triangles.saturating_sub(1) }
+/// What is known of the tree that the device builds over at most this many triangles: it has the last word on both root and
+/// triangles.
+fn on_device(triangles: u32) -> Prepared {
+    Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1).into(), triangles }
 }
 
 /// Whether the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
@@ -71,9 +68,8 @@ fn has_room(parts: &Parts<Config>) -> bool {
 }
 
 /// The header that the next build starts from.
-fn first_header(parts: &Parts<Config>, root: u32) -> Header {
-    let Parts { config, geometry, pools, .. } = parts;
-    let triangles = geometry.triangle_count();
+fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepared) -> Header {
+    let Parts { config, pools, .. } = parts;
     let has_room = has_room(parts);
     let capacity = |pool| if has_room { parts.elements(pool) as u32 } else { 0 };
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
@@ -175,20 +171,21 @@ impl Design for Tree {
             return Ok(());
         }
         self.prepared = None;
-        let triangles = parts.geometry.triangle_count() as usize;
+        let unknown = on_device(parts.geometry.triangle_count());
         if !has_room(parts) {
             // The build will say so.
-            self.prepared = Some(on_device(triangles as u64));
+            self.prepared = Some(unknown);
             return Ok(());
         }
-        parts.pools.set_header(&first_header(parts, BVH_NONE));
+        parts.pools.set_header(&first_header(parts, unknown));
         device.submit(|recorder| self.build.record_boxes(recorder, parts.target(None)))?;
-        let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles)?;
+        let triangles = parts.geometry.download_count(device)?;
+        let boxes = device.download_as::<Box3>(parts.pools.pool(Pool::Scratch), 0, triangles as usize)?;
         let tree = host::build(&boxes, parts.config.leaf);
         device.upload_slice(parts.pools.pool(Pool::Nodes), 0, &tree.nodes)?;
-        let order_at = size_of::<Box3>() * triangles;
-        device.upload_slice(parts.pools.pool(Pool::Scratch), order_at as u64, &tree.order)?;
-        self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64 });
+        let order_at = size_of::<Box3>() as u64 * u64::from(triangles);
+        device.upload_slice(parts.pools.pool(Pool::Scratch), order_at, &tree.order)?;
+        self.prepared = Some(Prepared { root: tree.root, nodes: tree.nodes.len() as u64, triangles });
         Ok(())
     }
 
@@ -200,10 +197,10 @@ impl Design for Tree {
         let prepared = match parts.config.builder {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
-            Builder::Lbvh => on_device(parts.geometry.triangle_count().into()),
+            Builder::Lbvh => on_device(parts.geometry.triangle_count()),
         };
         self.nodes = prepared.nodes;
-        Ok(first_header(parts, prepared.root))
+        Ok(first_header(parts, prepared))
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
@@ -247,22 +244,23 @@ impl Design for Tree {
         (pool == Pool::Nodes).then_some(asked.nodes)
     }
 
-    fn report(parts: &Parts<Config>, _header: &Header, asked: &Demand) -> StructureReport {
+    fn report(parts: &Parts<Config>, header: &Header, asked: &Demand) -> StructureReport {
         let Demand { nodes, triangles, .. } = *asked;
         StructureReport {
             options: parts.config.options(),
             paths: parts.config.paths(),
             formula_bytes: formula_bytes(parts.config.builder, nodes, triangles).total(),
-            stored: Some(triangles),
+            stored: Some(header.triangle_count.into()),
             ..StructureReport::default()
         }
     }
 
     fn download(&self, parts: &Parts<Config>, device: &Device, header: Header) -> Result<Contents, GpuError> {
         let triangles = header.triangle_count as usize;
+        let nodes = triangles.saturating_sub(1).min(self.nodes as usize);
         Ok(Contents {
             header,
-            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, self.nodes as usize)?,
+            nodes: device.download_as::<Node>(parts.pools.pool(Pool::Nodes), 0, nodes)?,
             records: device.download_as::<Record>(parts.pools.pool(Pool::Records), 0, triangles)?,
         })
     }

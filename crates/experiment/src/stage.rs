@@ -116,14 +116,7 @@ impl Stage {
     /// # Errors
     /// The device fails.
     pub fn triangles(&self, device: &Device) -> Result<(Vec<[f32; 3]>, Vec<u32>), ExperimentError> {
-        let geometry = self.scene.geometry().desc();
-        let positions = device
-            .download_as::<[f32; 3]>(&geometry.positions, 0, geometry.vertex_count as usize)
-            .map_err(device_error)?;
-        let indices = device
-            .download_as::<u32>(&geometry.indices, 0, 3 * geometry.triangle_count as usize)
-            .map_err(device_error)?;
-        Ok((positions, indices))
+        self.scene.geometry().download(device).map_err(device_error)
     }
 
     /// Sets how the pixels of an image are sampled.

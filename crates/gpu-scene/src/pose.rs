@@ -115,6 +115,7 @@ impl Posed {
             triangle_count: triangles as u32,
             instance: instance as u32,
             flags,
+            ..Draw::default()
         });
         Ok(())
     }

@@ -86,11 +86,12 @@ impl GpuScene {
         let geometry = Geometry::new(
             device,
             GeometryDesc {
-                positions: upload.table("positions", &posed.positions)?,
-                indices: upload.table("indices", &posed.indices)?,
-                draws: upload.table("draws", &posed.draws)?,
+                positions: upload.table("positions", &posed.positions)?.into(),
+                indices: upload.table("indices", &posed.indices)?.into(),
+                draws: upload.table("draws", &posed.draws)?.into(),
                 vertex_count: posed.positions.len() as u32,
                 triangle_count: posed.triangle_count() as u32,
+                count: None,
                 draw_count: posed.draws.len() as u32,
                 bounds: [posed.lower, posed.upper],
                 frame_origin: tables.frame_origin.to_array(),

@@ -48,6 +48,11 @@ impl Access {
         self.0 & other.0 == other.0
     }
 
+    /// Both, where `|` cannot stand: in constants.
+    pub const fn union(self, other: Access) -> Access {
+        Access(self.0 | other.0)
+    }
+
     /// Stages and accesses as Vulkan has them. `graphics` says whether the queue knows the stages of drawing.
     pub(crate) fn scope(self, graphics: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
         use vk::{AccessFlags2 as Flags, PipelineStageFlags2 as Stages};
@@ -88,7 +93,7 @@ impl BitOr for Access {
     type Output = Access;
 
     fn bitor(self, other: Access) -> Access {
-        Access(self.0 | other.0)
+        self.union(other)
     }
 }
 

@@ -3,6 +3,7 @@
 mod bind;
 mod commands_of_pass;
 mod compute;
+mod ownership;
 mod raster;
 mod transfer;
 

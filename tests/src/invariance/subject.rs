@@ -109,7 +109,7 @@ impl Subject {
     /// If the device fails, rays do not finish, or the build finds its own lists corrupted.
     pub fn answers(&self, bench: &Bench, eye: [f32; 3], triangles: &[Triangle], rays: &[Ray]) -> Answers {
         let mut structure = self.structure(bench, &bench.geometry(triangles));
-        self.answers_of(bench, structure.as_mut(), eye, rays)
+        self.answers_of(bench, eye, structure.as_mut(), rays)
     }
 
     /// The structure over a geometry, not built.
@@ -120,15 +120,15 @@ impl Subject {
         self.spec.create(bench.device(), geometry, None).expect("the options are valid")
     }
 
-    /// Builds a structure of its own and traces.
+    /// Builds and traces a structure that was made from the subject.
     ///
     /// # Panics
     /// As [`Subject::answers`].
     pub fn answers_of(
         &self,
         bench: &Bench,
-        structure: &mut dyn Structure,
         eye: [f32; 3],
+        structure: &mut dyn Structure,
         rays: &[Ray],
     ) -> Answers {
         let closest = bench.build_and_trace(structure, eye, rays);

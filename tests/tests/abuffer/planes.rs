@@ -212,7 +212,10 @@ fn rays_do_not_ask_for_triangles() {
         assert_eq!(structure.header().expect("it is readable").near_demand, 0);
         let before = keys(&bench.trace(&structure, &rays).hits);
         let nothing = vec![0.0_f32; 9 * triangles.len()];
-        bench.device().upload_slice(&geometry.desc().positions, 0, &nothing).expect("the device works");
+        bench
+            .device()
+            .upload_slice(&geometry.desc().positions.buffer, 0, &nothing)
+            .expect("the device works");
         let after = keys(&bench.trace(&structure, &rays).hits);
         assert_eq!(before == after, payload == Payload::Plane, "{payload:?}");
     }

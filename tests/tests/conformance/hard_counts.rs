@@ -40,16 +40,17 @@ fn shared(case: &HardCase) -> (Vec<[f32; 3]>, Vec<u32>) {
 fn upload(bench: &Bench, positions: &[[f32; 3]], indices: &[u32]) -> Result<Geometry, String> {
     let device = bench.device();
     let triangle_count = (indices.len() / 3) as u32;
-    let draws = [Draw { first_triangle: 0, triangle_count, instance: 0, flags: 0 }];
+    let draws = [Draw { first_triangle: 0, triangle_count, ..Draw::default() }];
     let buffer = |name, bytes: &[u8]| {
         device.create_buffer_with(name, BufferUsage::STORAGE, bytes).map_err(|error| error.to_string())
     };
     let desc = GeometryDesc {
-        positions: buffer("positions", bytemuck::cast_slice(positions))?,
-        indices: buffer("indices", bytemuck::cast_slice(indices))?,
-        draws: buffer("draws", bytemuck::cast_slice(&draws))?,
+        positions: buffer("positions", bytemuck::cast_slice(positions))?.into(),
+        indices: buffer("indices", bytemuck::cast_slice(indices))?.into(),
+        draws: buffer("draws", bytemuck::cast_slice(&draws))?.into(),
         vertex_count: positions.len() as u32,
         triangle_count,
+        count: None,
         draw_count: 1,
         bounds: [[-2.0; 3], [2.0; 3]],
         frame_origin: [0.0; 3],

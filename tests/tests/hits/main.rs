@@ -1,5 +1,7 @@
-//! Hits of all systems where something is unusual: surfaces as origins, masks, long lists, motion, huge pools, replayed rays.
+//! Hits of all systems where something is unusual: surfaces as origins, masks, long lists, motion, huge pools, buffers of an
+//! engine, replayed rays.
 
+mod engine_buffers;
 mod hard_transforms;
 mod large_pools;
 mod long_lists;

@@ -144,13 +144,13 @@ fn positions_that_the_device_moved_are_built_where_they_are() {
         let expected = subject.answers(&bench, EYE, &moved, &rays);
         let geometry = bench.geometry(&triangles);
         let mut structure = subject.structure(&bench, &geometry);
-        device.upload_slice(&geometry.desc().positions, 0, &moved).expect("the device works");
+        device.upload_slice(&geometry.desc().positions.buffer, 0, &moved).expect("the device works");
         let unmeasured = bench.build_once(structure.as_mut(), EYE);
         // What has no pools needs no bounds.
         let is_found = !unmeasured.complete && unmeasured.outside > 0;
         assert!(is_found || unmeasured.pools.is_empty(), "{name}: {unmeasured:?}");
         device.submit(|recorder| bounds_pass.record(recorder, &geometry)).expect("the device works");
-        let found = subject.answers_of(&bench, structure.as_mut(), EYE, &rays);
+        let found = subject.answers_of(&bench, EYE, structure.as_mut(), &rays);
         assert_same(&format!("{name}: moved"), &rays, &expected, &found);
     }
 }
@@ -180,7 +180,7 @@ fn bounds_are_measured_exactly() {
         };
         let stated: Vec<Triangle> = vec![[[0.0; 3]; 3]; triangles.len()];
         let geometry = bench.geometry(&stated);
-        device.upload_slice(&geometry.desc().positions, 0, &triangles).expect("the device works");
+        device.upload_slice(&geometry.desc().positions.buffer, 0, &triangles).expect("the device works");
         device.submit(|recorder| bounds_pass.record(recorder, &geometry)).expect("the device works");
         let header =
             device.download_as::<GeometryHeader>(geometry.header(), 0, 1).expect("the device works")[0];

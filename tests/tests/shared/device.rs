@@ -80,16 +80,17 @@ fn geometry(device: &Device) -> Geometry {
     let positions: Vec<[f32; 3]> = sphere([0.0; 3], 2.0, 8).concat();
     let count = positions.len() as u32 / 3;
     let indices: Vec<u32> = (0..positions.len() as u32).collect();
-    let draws = [Draw { first_triangle: 0, triangle_count: count, instance: 0, flags: 0 }];
+    let draws = [Draw { first_triangle: 0, triangle_count: count, ..Draw::default() }];
     let buffer = |name, bytes: &[u8]| {
         device.create_buffer_with(name, BufferUsage::STORAGE, bytes).expect("geometry fits")
     };
     let desc = GeometryDesc {
-        positions: buffer("positions", bytemuck::cast_slice(&positions)),
-        indices: buffer("indices", bytemuck::cast_slice(&indices)),
-        draws: buffer("draws", bytemuck::cast_slice(&draws)),
+        positions: buffer("positions", bytemuck::cast_slice(&positions)).into(),
+        indices: buffer("indices", bytemuck::cast_slice(&indices)).into(),
+        draws: buffer("draws", bytemuck::cast_slice(&draws)).into(),
         vertex_count: positions.len() as u32,
         triangle_count: count,
+        count: None,
         draw_count: 1,
         bounds: [[-2.0; 3], [2.0; 3]],
         frame_origin: [0.0; 3],

@@ -290,13 +290,14 @@ impl Host {
     /// Triangles of the host as rasray takes them, in buffers of the host's.
     pub fn geometry(&self, device: &Device, mesh: &Mesh, positions: HostBuffer) -> Result<Geometry> {
         let triangle_count = mesh.indices.len() as u32 / 3;
-        let draws = [Draw { first_triangle: 0, triangle_count, instance: 0, flags: 0 }];
+        let draws = [Draw { first_triangle: 0, triangle_count, ..Draw::default() }];
         let desc = GeometryDesc {
-            positions: self.adopted(device, "positions", positions),
-            indices: self.adopted(device, "indices", self.buffer(&mesh.indices)?),
-            draws: self.adopted(device, "draws", self.buffer(&draws)?),
+            positions: self.adopted(device, "positions", positions).into(),
+            indices: self.adopted(device, "indices", self.buffer(&mesh.indices)?).into(),
+            draws: self.adopted(device, "draws", self.buffer(&draws)?).into(),
             vertex_count: mesh.positions.len() as u32,
             triangle_count,
+            count: None,
             draw_count: 1,
             bounds: mesh.bounds,
             frame_origin: [0.0; 3],

@@ -48,11 +48,10 @@ fn what_was_packed_is_what_structures_read() {
         SceneTables::new(&scene, DVec3::new(100.0, 0.0, 0.0), &Parts::ALL).expect("the scene is well formed");
     let mut uploaded = GpuScene::upload(&device, &tables, &view()).expect("the scene fits");
     let geometry = uploaded.geometry().desc().clone();
-    let positions: Vec<[f32; 3]> = device.download_as(&geometry.positions, 0, 300).expect("readable");
+    let (positions, indices) = uploaded.geometry().download(&device).expect("readable");
     assert_eq!(positions, tables.posed.positions);
-    let indices: Vec<u32> = device.download_as(&geometry.indices, 0, 300).expect("readable");
     assert_eq!(indices, tables.posed.indices);
-    let draws: Vec<rasray_ads::Draw> = device.download_as(&geometry.draws, 0, 1).expect("readable");
+    let draws: Vec<rasray_ads::Draw> = device.download_as(&geometry.draws.buffer, 0, 1).expect("readable");
     assert_eq!(draws, tables.posed.draws);
     assert_eq!((geometry.vertex_count, geometry.triangle_count, geometry.draw_count), (300, 100, 1));
     assert_eq!(geometry.bounds, [[0.0; 3], [299.0, 2.0, 6.0]]);

@@ -1,0 +1,52 @@
+//! Bounds that the device measures.
+
+use std::mem::offset_of;
+
+use rasray_gpu::{Access, ComputePipeline, Device, Recorder};
+use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END};
+
+use crate::geometry::{BINDINGS, pipeline};
+use crate::{AdsError, Geometry, GeometryHeader};
+
+/// Bytes of the keys of a corner of the bounds.
+const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
+
+/// Measures the bounds of geometries on the device, for positions that the device moved.
+#[derive(Debug)]
+pub struct BoundsPass {
+    measure: ComputePipeline,
+    end: ComputePipeline,
+}
+
+impl BoundsPass {
+    /// Makes the pipelines, for every geometry of the device.
+    ///
+    /// # Errors
+    /// The device refuses one.
+    pub fn new(device: &Device) -> Result<Self, AdsError> {
+        let layout = device.create_set_layout("geometry", BINDINGS)?;
+        let pass = |shader| pipeline(device, shader, &[&layout], 0);
+        Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
+    }
+
+    /// Records the measuring of the bounds of all triangles, in two dispatches that read every triangle once, into the
+    /// header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all that
+    /// follows. Corners that are not finite are left out: the check of a build finds those that are infinite.
+    pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
+        let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
+            .map(|at| at as u64);
+        recorder.begin_pass("ads/geometry_bounds");
+        recorder.barrier(Access::COMPUTE, Access::TRANSFER_WRITE);
+        recorder.fill(geometry.header(), lower, KEY_BYTES, u32::MAX);
+        recorder.fill(geometry.header(), upper, KEY_BYTES, 0);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
+        geometry.record_gather(recorder);
+        if let Some(groups) = geometry.groups() {
+            geometry.record(recorder, &self.measure, None, &[], groups);
+            recorder.barrier(Access::COMPUTE, Access::COMPUTE);
+        }
+        geometry.record(recorder, &self.end, None, &[], [1; 3]);
+        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
+        recorder.end_pass();
+    }
+}

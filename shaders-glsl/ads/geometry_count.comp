@@ -1,0 +1,32 @@
+// What: how many triangles there are, where only the device knows: one invocation. Those beyond the maximum do not exist,
+// and are counted as outside.
+// Reads: the count, in a buffer of the embedder's. Writes: triangle_count and outside of GEOMETRY_SET's header, and the
+// arguments of the draws of all triangles onto 1 to GEOMETRY_DRAW_VIEWS views.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/constants.glsl"
+
+layout(local_size_x = 1) in;
+
+#define GEOMETRY_WRITTEN
+#include "ads/geometry.glsl"
+
+layout(push_constant, scalar) uniform GeometryCountConstants {
+    uint count_word;     // of the count, in what is bound
+    uint most_triangles;
+};
+layout(set = 1, binding = 0, scalar) readonly buffer GeometryCountBuffer {
+    uint geometry_counts[];
+};
+layout(set = 1, binding = 1, scalar) writeonly buffer GeometryDrawArgumentBuffer {
+    uvec4 geometry_draw_arguments[];   // vertices, instances, first vertex, first instance
+};
+
+void main() {
+    uint triangles = min(geometry_counts[count_word], most_triangles);
+    geometry_header.triangle_count = triangles;
+    geometry_header.outside = geometry_counts[count_word] - triangles;
+    for (uint views = 1u; views <= GEOMETRY_DRAW_VIEWS; views++) {
+        geometry_draw_arguments[views - 1u] = uvec4(3u * triangles, views, 0u, 0u);
+    }
+}
