@@ -14,6 +14,8 @@ use rasray_tracer::{BatchTracer, TraceOutcome, build_until_complete};
 /// A device with the validation layer watching. Dropping it fails the test if the layer said anything.
 pub struct Bench {
     device: Device,
+    /// Processor time of this process when the test began, seconds.
+    begun: Option<f64>,
     _turn: MutexGuard<'static, ()>,
 }
 
@@ -44,7 +46,7 @@ impl Bench {
             device.keep_pipelines(KEPT_PIPELINES);
             device
         });
-        Self { device: device.clone(), _turn: turn }
+        Self { device: device.clone(), begun: processor_seconds(), _turn: turn }
     }
 
     /// The device.
@@ -177,11 +179,24 @@ impl Default for Bench {
 
 impl Drop for Bench {
     fn drop(&mut self) {
+        if let (Some(begun), Some(ended)) = (self.begun, processor_seconds()) {
+            println!("processor time: {:.1} s", ended - begun);
+        }
         let messages = self.device.validation_messages();
         if !std::thread::panicking() {
             assert!(messages.is_empty(), "the validation layer says: {messages:#?}");
         }
     }
+}
+
+/// Processor time of all threads of this process so far, in seconds; absent where the system does not tell it in
+/// `/proc`. Tests take turns, so what passes between two calls within a turn is that test's.
+fn processor_seconds() -> Option<f64> {
+    // Ticks of user and system time are fields 14 and 15; the name before them may hold spaces. Linux counts 100 a second.
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
+    Some((ticks(14)? + ticks(15)?) / 100.0)
 }
 
 /// All bits of a hit, so that equal means equal in every one of them.

@@ -13,6 +13,19 @@ pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
 
+/// All of them in the full tier. In the quick one those whose turn it is: where one option is switched in an outer loop
+/// and others in an inner one, every value is tried, and not beside every other. Each is a kernel of its own, which a
+/// driver on the processor compiles for seconds.
+pub fn in_turn<T>(all: &[T], turn: usize) -> &[T] {
+    let place = turn % all.len();
+    if is_full() { all } else { &all[place..=place] }
+}
+
+/// All of them in the full tier, the first ones in the quick one.
+pub fn first<T>(all: &[T], quick: usize) -> &[T] {
+    if is_full() { all } else { &all[..quick] }
+}
+
 /// How often something is done, by tier and kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<T> {

@@ -9,6 +9,7 @@ use rasray_tests::capacity::check_capacities_of;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, all_sizes};
+use rasray_tests::tier::{in_turn, is_full};
 use rasray_tests::views::LEANING;
 use rasray_tracer::build_until_complete;
 
@@ -56,14 +57,15 @@ fn both_builders_store_the_same_fragments() {
     let (triangles, rays) = (scene(), rays(2000));
     let mut compared = 0;
     for (index, storage) in Storage::ALL.into_iter().enumerate() {
-        for (coverage, accept, views, resolution, eye) in [
+        let tried = [
             (Coverage::Exact, Accept::Plane, Views::Cube, 37, [0.0; 3]),
             (Coverage::Exact, Accept::Interval, Views::CubeCamera, 64, [0.3, -0.7, 0.2]),
             (Coverage::Conservative, Accept::Plane, Views::Cube, 48, [12.0, 1.0, -3.0]),
             (Coverage::Conservative, Accept::Plane, Views::CubeCamera, 5, [0.1, 0.0, 0.0]),
             (Coverage::EdgeOn, Accept::Plane, Views::CubeCamera, 29, [0.3, -0.7, 0.2]),
             (Coverage::Exact, Accept::Plane, Views::Cube, 1, [0.0; 3]),
-        ] {
+        ];
+        for &(coverage, accept, views, resolution, eye) in in_turn(&tried, index) {
             let addressing = if index % 2 == 0 { Addressing::Descriptor } else { Addressing::Address };
             let config = Config {
                 storage,
@@ -91,7 +93,7 @@ fn both_builders_store_the_same_fragments() {
             }
         }
     }
-    assert_eq!(compared, 6);
+    assert_eq!(compared, if is_full() { 6 } else { 1 });
 }
 
 /// What has no room among the triangles with many cells is counted and grown, and nothing is answered until it has.

@@ -9,7 +9,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::invariance::{EYE, rays, scene};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::{first, is_full};
 use rasray_tracer::build_until_complete;
 
 /// Enough for the smallest budget below: a ray has at most a few thousand work units here.
@@ -28,8 +28,40 @@ fn sampled() -> Config {
 
 type Change = fn(Config) -> Config;
 
+/// How many of [`CHANGES`] are tried in the quick tier: the first ones try every option in company.
+const IN_COMPANY: usize = 8;
+
 /// One change a row.
 const CHANGES: &[(&str, Change)] = &[
+    ("sb, address, 7 units a dispatch", |config| Config {
+        storage: Storage::Sb,
+        addressing: Addressing::Address,
+        work_budget: Some(7),
+        ..config
+    }),
+    ("paged, 8 a page, 1 bucket, 7 units a dispatch", |config| Config {
+        storage: Storage::Paged,
+        page: 8,
+        buckets: 1,
+        work_budget: Some(7),
+        ..config
+    }),
+    ("dll, inline, skip off", |config| Config { storage: Storage::Dll, inline: true, skip: false, ..config }),
+    ("llb, 32 buckets, sort off", |config| Config {
+        storage: Storage::Llb,
+        buckets: 32,
+        sort: false,
+        ..config
+    }),
+    ("ll, 64 units a dispatch", |config| Config { storage: Storage::Ll, work_budget: Some(64), ..config }),
+    ("paged, 1 a page, inline", |config| Config { storage: Storage::Paged, page: 1, inline: true, ..config }),
+    ("paged, address, room for one page at first", |config| Config {
+        storage: Storage::Paged,
+        addressing: Addressing::Address,
+        fragments: Some(1),
+        ..config
+    }),
+    ("counters per ray", |config| Config { counters: Counters::PerRay, ..config }),
     ("repeated", |config| config),
     ("repeated again", |config| config),
     ("sort off", |config| Config { sort: false, ..config }),
@@ -43,9 +75,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("1 bucket, sort off", |config| Config { buckets: 1, sort: false, ..config }),
     ("ll", |config| Config { storage: Storage::Ll, ..config }),
     ("ll, sort off", |config| Config { storage: Storage::Ll, sort: false, ..config }),
-    ("ll, 64 units a dispatch", |config| Config { storage: Storage::Ll, work_budget: Some(64), ..config }),
     ("dll", |config| Config { storage: Storage::Dll, ..config }),
-    ("dll, inline, skip off", |config| Config { storage: Storage::Dll, inline: true, skip: false, ..config }),
     ("dll, 7 units a dispatch", |config| Config { storage: Storage::Dll, work_budget: Some(7), ..config }),
     ("llb", |config| Config { storage: Storage::Llb, ..config }),
     ("llb, inline, address", |config| Config {
@@ -55,42 +85,16 @@ const CHANGES: &[(&str, Change)] = &[
         ..config
     }),
     ("llb, 12 buckets", |config| Config { storage: Storage::Llb, buckets: 12, ..config }),
-    ("llb, 32 buckets, sort off", |config| Config {
-        storage: Storage::Llb,
-        buckets: 32,
-        sort: false,
-        ..config
-    }),
     ("dllb, inline", |config| Config { inline: true, ..config }),
     ("sb", |config| Config { storage: Storage::Sb, ..config }),
     ("sb, inline", |config| Config { storage: Storage::Sb, inline: true, ..config }),
     ("sb, sort off", |config| Config { storage: Storage::Sb, sort: false, ..config }),
-    ("sb, address, 7 units a dispatch", |config| Config {
-        storage: Storage::Sb,
-        addressing: Addressing::Address,
-        work_budget: Some(7),
-        ..config
-    }),
     ("sb, room for nothing at first", |config| Config { storage: Storage::Sb, fragments: Some(0), ..config }),
     ("paged", |config| Config { storage: Storage::Paged, ..config }),
-    ("paged, 1 a page, inline", |config| Config { storage: Storage::Paged, page: 1, inline: true, ..config }),
     ("paged, 2 a page, sort off", |config| Config {
         storage: Storage::Paged,
         page: 2,
         sort: false,
-        ..config
-    }),
-    ("paged, 8 a page, 1 bucket, 7 units a dispatch", |config| Config {
-        storage: Storage::Paged,
-        page: 8,
-        buckets: 1,
-        work_budget: Some(7),
-        ..config
-    }),
-    ("paged, address, room for one page at first", |config| Config {
-        storage: Storage::Paged,
-        addressing: Addressing::Address,
-        fragments: Some(1),
         ..config
     }),
     ("address", |config| Config { addressing: Addressing::Address, ..config }),
@@ -105,7 +109,6 @@ const CHANGES: &[(&str, Change)] = &[
     ("room for nothing at first", |config| Config { fragments: Some(0), ..config }),
     ("room for one fragment at first", |config| Config { fragments: Some(1), ..config }),
     ("counters", |config| Config { counters: Counters::Sums, ..config }),
-    ("counters per ray", |config| Config { counters: Counters::PerRay, ..config }),
 ];
 
 /// What of a hit may not change. With interval acceptance a and b name the fragment's place in the pool,
@@ -160,13 +163,9 @@ fn no_change_changes_a_hit(base: Config) {
             "ray {index}: closest against occluded"
         );
     }
-    // Each is a kernel of its own: the quick tier tries some, and fewer of the published march, which meets the same lists.
-    let every = match (is_full(), base.march) {
-        (true, _) => 1,
-        (false, March::Exact) => 3,
-        (false, _) => 6,
-    };
-    for (name, change) in CHANGES.iter().step_by(every) {
+    // The published march meets the same lists.
+    let quick = if base.march == March::Exact { IN_COMPANY } else { IN_COMPANY / 2 };
+    for (name, change) in first(CHANGES, quick) {
         let config = change(base);
         let found = answers(&bench, config, &triangles, &rays);
         if let Some(ray) = first_difference(&expected.closest, &found.closest) {
@@ -191,9 +190,15 @@ fn sloped_hits_do_not_depend_on_the_storage() {
     let (triangles, rays) = (scene(true), rays(600));
     let base = Config { accept: Accept::Slope, march: March::Dda, ..robust() };
     let expected = answers(&bench, base, &triangles, &rays);
-    let mut changes: Vec<Config> = Storage::ALL.map(|storage| Config { storage, ..base }).into();
-    changes.extend([Config { skip: false, ..base }, Config { sort: false, buckets: 1, ..base }]);
-    for config in changes {
+    let changes = [
+        Config { storage: Storage::Ll, ..base },
+        Config { storage: Storage::Sb, skip: false, ..base },
+        Config { storage: Storage::Paged, sort: false, buckets: 1, ..base },
+        Config { skip: false, ..base },
+        Config { sort: false, buckets: 1, ..base },
+    ];
+    let storages = Storage::ALL.map(|storage| Config { storage, ..base });
+    for &config in first(&changes, 3).iter().chain(first(&storages, 0)) {
         let found = answers(&bench, config, &triangles, &rays);
         assert_eq!(first_difference(&expected.closest, &found.closest), None, "{config:?}");
         assert_eq!(first_difference(&expected.occluded, &found.occluded), None, "{config:?}");

@@ -7,6 +7,7 @@ use rasray_shaders_glsl::constants::ads::{NODE_SORT_LIMIT, NODE_SORT_LONG_LIMIT}
 use rasray_tests::harness::{Bench, oracle_of, oracle_ray};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
+use rasray_tests::tier::first;
 use rasray_tracer::build_until_complete;
 
 fn abuffer(bench: &Bench, config: Config, triangles: &[Triangle], eye: [f32; 3]) -> ABuffer {
@@ -72,13 +73,21 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     let rays = rays_between_layers(LAYERS, 200);
     let expected = brute_force(&bench, &triangles, &rays);
     assert!(expected.iter().all(Hit::is_hit));
-    let mut configs: Vec<Config> =
-        Storage::ALL.map(|storage| Config { storage, buckets: 1, ..Config::robust(16) }).into();
-    // Lists of 5,000, and of fewer than one dispatch sorts.
-    configs.push(Config { buckets: 2, ..Config::robust(16) });
-    configs.push(Config { buckets: 16, ..Config::robust(16) });
-    configs.push(Config { storage: Storage::Sb, inline: true, ..Config::robust(16) });
-    for config in configs {
+    let one = |storage| Config { storage, buckets: 1, ..Config::robust(16) };
+    // Lists of 10,000, of 5,000, and of fewer than one dispatch sorts.
+    let configs = [
+        one(Storage::Ll),
+        one(Storage::Dll),
+        one(Storage::Paged),
+        Config { storage: Storage::Sb, inline: true, ..Config::robust(16) },
+        Config { storage: Storage::Llb, buckets: 2, ..Config::robust(16) },
+        Config { buckets: 16, ..Config::robust(16) },
+        one(Storage::Llb),
+        one(Storage::Dllb),
+        one(Storage::Sb),
+        Config { buckets: 2, ..Config::robust(16) },
+    ];
+    for &config in first(&configs, 6) {
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
         let status = structure.status(0).expect("the header is readable");
         assert_eq!((status.unsorted, status.corrupted), (0, 0), "{config:?}: {status:?}");

@@ -6,7 +6,7 @@ use rasray_gpu_scene::GpuScene;
 use rasray_tests::capacity::{Counted, check_capacities};
 use rasray_tests::harness::Bench;
 use rasray_tests::pictures::{rays_inside, stage};
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::{in_turn, is_full};
 
 /// Cells a side of each view.
 const RESOLUTION: u32 = 24;
@@ -66,10 +66,7 @@ fn every_edge_capacity_of_a_buffers() {
         Config { ids: true, inline: true, ..normals },
     ];
     for (index, storage) in Storage::ALL.into_iter().enumerate() {
-        // In the quick tier a storage takes turns at one of them.
-        let turn = index % tried.len();
-        let tried = if is_full() { &tried[..] } else { &tried[turn..=turn] };
-        for &config in tried {
+        for &config in in_turn(&tried, index) {
             let config = Config { storage, ..config };
             let mut structure = ABuffer::new(bench.device(), config, geometry, Some(room.0.binding()))
                 .expect("the options are valid");
@@ -93,9 +90,9 @@ fn every_edge_capacity_of_voxels() {
     let bench = Bench::new();
     let room = room(&bench);
     let hu = Config::published_hu(RESOLUTION);
-    for storage in Storage::ALL {
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
         let tried = [hu, Config::published_selective(RESOLUTION), Config { ids: true, ..hu }];
-        for &config in if is_full() { &tried[..] } else { &tried[..2] } {
+        for &config in in_turn(&tried, index) {
             let config = Config { storage, ..config };
             let mut structure =
                 Voxels::new(bench.device(), config, room.0.geometry(), Some(room.0.binding()))

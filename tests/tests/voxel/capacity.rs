@@ -7,6 +7,7 @@ use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box};
+use rasray_tests::tier::in_turn;
 use rasray_tests::voxels::{hu, made, selective};
 use rasray_voxel::{
     Accept, Addressing, Axes, Config, Contents, Coverage, Demand, Fault, March, Storage, Voxels,
@@ -101,23 +102,25 @@ fn every_edge_capacity_of_one_view_a_voxel() {
 
 #[test]
 fn every_edge_capacity_of_every_storage() {
-    for storage in Storage::ALL {
-        every_edge_capacity(Config { storage, ..Config::robust(32) });
-        every_edge_capacity(Config { storage, march: March::Exact, ..hu(24) });
-        every_edge_capacity(Config {
-            storage,
-            page: 3,
-            coverage: Coverage::Conservative,
-            ..Config::robust(20)
-        });
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
+        let tried = [
+            Config { storage, ..Config::robust(32) },
+            Config { storage, march: March::Exact, ..hu(24) },
+            Config { storage, page: 3, coverage: Coverage::Conservative, ..Config::robust(20) },
+        ];
+        for &config in in_turn(&tried, index) {
+            every_edge_capacity(config);
+        }
     }
 }
 
 #[test]
 fn every_edge_capacity_by_address() {
-    for storage in Storage::ALL {
-        every_edge_capacity(Config { storage, addressing: Addressing::Address, ..Config::robust(32) });
-        every_edge_capacity(Config { storage, addressing: Addressing::Address, ..selective(32) });
+    for (index, storage) in Storage::ALL.into_iter().enumerate() {
+        let tried = [Config::robust(32), selective(32)];
+        for &config in in_turn(&tried, index) {
+            every_edge_capacity(Config { storage, addressing: Addressing::Address, ..config });
+        }
     }
 }
 

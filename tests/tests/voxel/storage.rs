@@ -6,7 +6,7 @@ use rasray_scene::facing::Facing;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, closed_box, sphere};
-use rasray_tests::tier::is_full;
+use rasray_tests::tier::{first, in_turn};
 use rasray_tests::voxels::{built, contents, hu, selective};
 use rasray_voxel::{Accept, Axes, Config, Contents, Coverage, Fragment, March, Marking, Storage};
 
@@ -172,23 +172,24 @@ fn storages_change_no_hit() {
     let bench = Bench::new();
     let (mut triangles, rays) = (layered(), rays(2000));
     triangles.extend(tilted(&sphere([-1.0, 0.5, 1.5], 1.5, 12)));
-    for config in [
+    let configs = [
         Config::robust(64),
         Config { coverage: Coverage::Conservative, ..Config::robust(16) },
         hu(64),
         Config { march: March::Exact, ..hu(48) },
         selective(64),
         Config { accept: Accept::Parity, ..Config::robust(64) },
-    ] {
+    ];
+    for (index, config) in configs.into_iter().enumerate() {
         let expected = built(&bench, Config { storage: Storage::Contiguous, ..config }, &triangles);
         let (expected, occluded) =
             (bits(&bench.trace(&expected, &rays).hits), bench.occluded(&expected, &rays));
         assert!(occluded.iter().filter(|hit| **hit).count() > rays.len() / 16, "{config:?}");
         let unsorted = Config { storage: Storage::Contiguous, sort: false, ..config };
         let linked = Config { storage: Storage::Linked, ..config };
-        let pages = if is_full() { &[1, 4, 7][..] } else { &[4] };
-        let paged = pages.iter().map(|&page| Config { storage: Storage::Paged, page, ..config });
-        for config in [unsorted, linked].into_iter().chain(paged) {
+        let paged = |page| Config { storage: Storage::Paged, page, ..config };
+        let alone = [paged(1), paged(7)];
+        for &config in in_turn(&[unsorted, linked, paged(4)], index).iter().chain(first(&alone, 0)) {
             let structure = built(&bench, config, &triangles);
             assert!(bits(&bench.trace(&structure, &rays).hits) == expected, "{config:?}");
             assert!(bench.occluded(&structure, &rays) == occluded, "{config:?}");
