@@ -1,9 +1,9 @@
 //! Structs of GLSL as structs of Rust.
 //!
 //! A record is a struct of an included file (`.glsl`) whose comment says its size ("336 bytes."): the host and shaders
-//! both have it. Everything is read
-//! from the text of the GLSL, and no compiled module is: modules are what tests hold the result against. Offsets follow
-//! scalar block layout, in which a member has the alignment of its scalars; those are words of 4 bytes.
+//! both have it. Everything is read from the text of the GLSL, and no compiled module is: modules are what tests hold
+//! the result against. Offsets follow scalar block layout, in which a member has the alignment of its scalars; those are
+//! words of 4 bytes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
