@@ -1,6 +1,6 @@
 // What: the A-buffer's pools, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, fringe. Every access checks the capacity.
+// Reads, writes: header, bounds, lists, nodes, data, near-region list, scratch, conservative lists. Every access checks the capacity.
 // Source: MMRT table 2: what a cell and a node hold under each storage.
 #ifndef ABUFFER_ACCESSORS_GLSL
 #define ABUFFER_ACCESSORS_GLSL
@@ -16,7 +16,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer AbufferWordA
 #define ABUFFER_DATA(s) AbufferWordAddress(ABUFFER_HEADER(s).data_address).words
 #define ABUFFER_NEAR(s) AbufferWordAddress(ABUFFER_HEADER(s).near_address).words
 #define ABUFFER_SCRATCH(s) AbufferWordAddress(ABUFFER_HEADER(s).scratch_address).words
-#define ABUFFER_FRINGE(s) AbufferWordAddress(ABUFFER_HEADER(s).fringe_address).words
+#define ABUFFER_CONSERVATIVE_NODES(s) AbufferWordAddress(ABUFFER_HEADER(s).conservative_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer AbufferBoundsBuffer { uint abuffer_bounds_words[]; };
 layout(set = STRUCTURE_SET, binding = 2, scalar) buffer AbufferListsBuffer { uint abuffer_list_words[]; };
@@ -24,14 +24,15 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer AbufferNodesBuffer { uin
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer AbufferDataBuffer { uint abuffer_data_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer AbufferNearBuffer { uint abuffer_near_words[]; };
 layout(set = STRUCTURE_SET, binding = 6, scalar) buffer AbufferScratchBuffer { uint abuffer_scratch_words[]; };
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer AbufferFringeBuffer { uint abuffer_fringe_words[]; };
+layout(set = STRUCTURE_SET, binding = 7,
+    scalar) buffer AbufferConservativeBuffer { uint abuffer_conservative_nodes[]; };
 #define ABUFFER_BOUNDS(s) abuffer_bounds_words
 #define ABUFFER_LISTS(s) abuffer_list_words
 #define ABUFFER_NODES(s) abuffer_node_words
 #define ABUFFER_DATA(s) abuffer_data_words
 #define ABUFFER_NEAR(s) abuffer_near_words
 #define ABUFFER_SCRATCH(s) abuffer_scratch_words
-#define ABUFFER_FRINGE(s) abuffer_fringe_words
+#define ABUFFER_CONSERVATIVE_NODES(s) abuffer_conservative_nodes
 #endif
 
 // Lists by depth bucket, with depth bounds of each cell.
@@ -42,7 +43,7 @@ const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_
 const bool ABUFFER_HAS_BUCKETS = ABUFFER_BUCKETED && ABUFFER_SINGLE_LAYER == 0u;
 
 // Whether cells know the smallest and largest depth of their fragments.
-const bool ABUFFER_HAS_ENDS = ABUFFER_BUCKETED || ABUFFER_STEP == ABUFFER_STEP_LEAPS || ABUFFER_SINGLE_LAYER != 0u;
+const bool ABUFFER_HAS_ENDS = ABUFFER_BUCKETED || ABUFFER_STEP == ABUFFER_STEP_SKIPS || ABUFFER_SINGLE_LAYER != 0u;
 
 // Nodes in pages that are linked.
 const bool ABUFFER_PAGED = ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
@@ -62,7 +63,7 @@ const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_A
 // Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the
 // head of its conservative list.
 const uint ABUFFER_BOUNDS_STRIDE = (ABUFFER_HAS_ENDS ? 2u : 0u)
-    + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_FRINGE ? 1u : 0u);
+    + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_CONSERVATIVE ? 1u : 0u);
 
 // Word of the extent among a cell's bounds; the scale is the next one.
 const uint ABUFFER_EXTENT_WORD = ABUFFER_HAS_ENDS ? 2u : 0u;

@@ -6,16 +6,16 @@
 
 #include "ads/constants.glsl"
 #include "abuffer/visit.glsl"
-#if BIN_VISIT == BIN_VISIT_FRINGE
-#include "abuffer/visit_fringe.glsl"
+#if BIN_VISIT == BIN_VISIT_CONSERVATIVE
+#include "abuffer/visit_conservative.glsl"
 #endif
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
-#define PairRef AbufferRef
-#define PAIR_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + place]
-#define PAIR_HEADER(s) ABUFFER_HEADER(s)
-#define PAIR_CAPACITY(s) ABUFFER_HEADER(s).pair_capacity
-#include "ads/bin_pairs.glsl"
+#define LargeRef AbufferRef
+#define LARGE_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + place]
+#define LARGE_HEADER(s) ABUFFER_HEADER(s)
+#define LARGE_CAPACITY(s) ABUFFER_HEADER(s).large_capacity
+#include "ads/bin_large.glsl"
 
 #define bin_built abuffer_built
 
@@ -38,7 +38,7 @@ struct Bin {
     vec3 c;
     ivec2 lower;
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -56,8 +56,8 @@ bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     bin.c = triangle.c;
     abuffer_view_corners(abuffer_built, bin.view, bin.a, bin.b, bin.c);
     float margin = 0.0;
-    if (ABUFFER_HAS_FRINGE) {
-        margin = abuffer_fringe_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
+    if (ABUFFER_HAS_CONSERVATIVE) {
+        margin = abuffer_conservative_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
     }
     if (!coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper)) {
         return false;
@@ -67,13 +67,13 @@ bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     abuffer_view_cells(abuffer_built, bin.view, lower, upper);
     bin.lower = max(bin.lower, lower);
     bin.upper = min(bin.upper, upper);
-    bin.many = bin_is_many(bin.lower, bin.upper);
+    bin.large = bin_is_large(bin.lower, bin.upper);
     return all(lessThanEqual(bin.lower, bin.upper));
 }
 
 void bin_visit(Bin bin, ivec2 place) {
-#if BIN_VISIT == BIN_VISIT_FRINGE
-    abuffer_visit_fringe(bin.primitive, bin.view, place);
+#if BIN_VISIT == BIN_VISIT_CONSERVATIVE
+    abuffer_visit_conservative(bin.primitive, bin.view, place);
 #else
     CellCoverage coverage;
     if (!abuffer_covers(bin.a, bin.b, bin.c, place, bin.resolution, coverage)) {

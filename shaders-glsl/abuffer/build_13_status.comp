@@ -15,8 +15,8 @@ void main() {
     bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
         && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
         && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity
-        && ABUFFER_HEADER(abuffer_built).fringe_demand <= ABUFFER_HEADER(abuffer_built).fringe_capacity
-        && ABUFFER_HEADER(abuffer_built).pairs <= ABUFFER_HEADER(abuffer_built).pair_capacity
+        && ABUFFER_HEADER(abuffer_built).conservative_demand <= ABUFFER_HEADER(abuffer_built).conservative_capacity
+        && ABUFFER_HEADER(abuffer_built).large_demand <= ABUFFER_HEADER(abuffer_built).large_capacity
         && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
     uint status = build_status(fits);
     ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);

@@ -1,4 +1,4 @@
-// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with FRINGE
+// What: proposes, for each triangle and view, the cells whose centres the triangle may cover, with CONSERVATIVE
 // those that it may reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: MMRT section 3.3; instances replace the paper's geometry-shader amplification.
@@ -19,9 +19,9 @@ void main() {
     vec3 b;
     vec3 c;
     abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
-#ifdef FRINGE
+#ifdef CONSERVATIVE
     // Half a cell to its sides, and 1/32 for the hardware's grid.
-    float margin = abuffer_fringe_margin(abuffer_built, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
+    float margin = abuffer_conservative_margin(abuffer_built, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
     gl_Position = coverage_proposal_within(a, b, c, corner, resolution, margin);
 #else
     if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {

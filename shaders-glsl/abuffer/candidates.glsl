@@ -5,7 +5,7 @@
 
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
-#include "ads/judge_plane.glsl"
+#include "ads/evaluate_plane.glsl"
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
@@ -44,7 +44,7 @@ void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, fl
     precise vec3 origin = ray.origin - abuffer_eye(s);
     float t;
     uint verdict = TEST_ACCEPTED;
-    if (!abuffer_meets_plane(abuffer_payload(s, link), origin, ray.direction, t)) {
+    if (!abuffer_intersects_plane(abuffer_payload(s, link), origin, ray.direction, t)) {
         verdict = TEST_PARALLEL;
     } else if (!(t > ray.t_min)) {
         verdict = TEST_BEFORE;

@@ -10,7 +10,7 @@
 
 // How a ray steps, as modules tell it apart: from cell to cell, skipping blocks of them, or by samples.
 #define ABUFFER_STEP_CELLS 0u
-#define ABUFFER_STEP_LEAPS 1u
+#define ABUFFER_STEP_SKIPS 1u
 #define ABUFFER_STEP_SAMPLES 2u
 
 // What a ray tests, as modules tell it apart: triangles alone, the planes of fragments, or their depths.
@@ -68,7 +68,7 @@
 #define ABUFFER_GROUP_SIZE 64u
 
 // Half side of the near region over cells a side times the distance of the geometry: closer to the eye a point's cell is lost
-// in rounding. NEAR_BOX where no triangle may be lost.
+// in rounding. NEAR_REGION where no triangle may be lost.
 #define ABUFFER_NEAR_BOX 4.8e-7
 
 // Margin for the rounding of what is subtracted from the eye, over the distance of the geometry and the eye's own.

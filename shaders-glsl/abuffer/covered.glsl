@@ -15,7 +15,7 @@ layout(push_constant, scalar) uniform AbufferBuildConstants {
 
 // Whether a triangle reaches into a cell, and its depths there. a, b, c in the view.
 bool abuffer_overlaps(AbufferRef s, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out vec2 depths) {
-    float half_side = 1.0 / float(resolution) + abuffer_fringe_margin(s, a, b, c);
+    float half_side = 1.0 / float(resolution) + abuffer_conservative_margin(s, a, b, c);
     return overlap_at(abuffer_near_size(s), overlap_begin(a, b, c), coverage_center(place, resolution), half_side, depths);
 }
 

@@ -23,7 +23,7 @@ void abuffer_from_bounds(AbufferRef s, vec3 lower, vec3 upper) {
     // Closer to the eye than this a point's cell is lost in rounding. Where nothing may be lost the march needs more, and
     // what a ray hits outside of the near region is not behind the eye.
     float near = near_per_reach * reach;
-    if (ABUFFER_HAS_FRINGE) {
+    if (ABUFFER_HAS_CONSERVATIVE) {
         near = max(max(near, 2.0 * triangle_rounding), PLACEMENT_SMALLEST);
     }
     ABUFFER_HEADER(s).lower = first - margin;

@@ -1,6 +1,6 @@
 // What: tests the triangles that are listed by themselves, one by one: those of the near region, those of a cell's
 // conservative list, or all.
-// Reads: near-region list, fringe, geometry. Writes: header.corrupted.
+// Reads: near-region list, conservative lists, geometry. Writes: header.corrupted.
 // Source: not in the paper, which keeps fragments alone.
 #ifndef ABUFFER_LISTED_GLSL
 #define ABUFFER_LISTED_GLSL
@@ -8,62 +8,64 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
-#include "ads/judge_plane.glsl"
-#include "abuffer/fringe.glsl"
+#include "ads/evaluate_plane.glsl"
+#include "abuffer/conservative.glsl"
 #include "abuffer/search.glsl"
-#include "abuffer/walk.glsl"
+#include "abuffer/traversal.glsl"
 
 // Which triangles.
 #define ABUFFER_LISTED_NEAR 0u
-#define ABUFFER_LISTED_FRINGE 1u
+#define ABUFFER_LISTED_CONSERVATIVE 1u
 #define ABUFFER_LISTED_ALL 2u
 
 // Tests those of the conservative list of the cell that is searched, as far as their depths overlap the ray's
 // there, or those from the traversal's place on. Returns true if the work budget ended before.
-bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferWalk walk, inout AbufferSearch search,
+bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraversal traversal,
+    inout AbufferSearch search,
     inout TraceState state, inout uint work) {
-    bool in_fringe = ABUFFER_HAS_FRINGE && source == ABUFFER_LISTED_FRINGE;
+    bool in_conservative = ABUFFER_HAS_CONSERVATIVE && source == ABUFFER_LISTED_CONSERVATIVE;
     uint count = 0u;
-    if (in_fringe) {
-        search.link = search.in_fringe ? search.link : abuffer_fringe_head(s, search.cell);
-        search.in_fringe = true;
+    if (in_conservative) {
+        search.link = search.in_conservative ? search.link : abuffer_conservative_head(s, search.cell);
+        search.in_conservative = true;
     } else {
         count = source == ABUFFER_LISTED_ALL ? geometry_triangle_count()
             : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
     }
     // Triangles of a conservative list count wherever they are hit, and so do all where nothing else is tested.
-    bool anywhere = in_fringe || ABUFFER_CONSERVATIVE;
-    float t_low = anywhere ? -ABUFFER_INFINITY : walk.segment.t_begin - walk.segment.t_error;
-    float t_high = anywhere ? ABUFFER_INFINITY : walk.segment.t_end + walk.segment.t_error;
+    bool anywhere = in_conservative || ABUFFER_CONSERVATIVE;
+    float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
+    float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;
     vec2 depths = search.z + vec2(-search.rounding, search.rounding);
-    while (in_fringe ? search.link != 0u : walk.place < count) {
+    while (in_conservative ? search.link != 0u : traversal.place < count) {
         if (work >= work_budget) {
             return true;
         }
         work++;
         uint primitive = PRIMITIVE_NONE;
-        if (in_fringe) {
+        if (in_conservative) {
             state.entries++;
             trace_log(STEP_ENTRY, search.link, 0u, 0u, 0.0, 0.0);
-            FringeNode node = fringe_node(s, search.link);
+            ConservativeNode node = conservative_node(s, search.link);
             search.link = node.next;
             primitive = node.primitive;
             // With planes it is the stay in the cell that counts, with or without skipping.
-            bool meets = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || fringe_meets(node, depths.x, depths.y);
-            if (primitive != PRIMITIVE_NONE && !meets) {
+            bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
+                depths.y);
+            if (primitive != PRIMITIVE_NONE && !intersects) {
                 trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
                 primitive = PRIMITIVE_NONE;
             }
         } else {
-            primitive = source == ABUFFER_LISTED_ALL ? walk.place : ABUFFER_NEAR(s)[walk.place];
-            walk.place++;
+            primitive = source == ABUFFER_LISTED_ALL ? traversal.place : ABUFFER_NEAR(s)[traversal.place];
+            traversal.place++;
         }
         if (primitive != PRIMITIVE_NONE) {
             state.tests++;
-            test_listed(ray, primitive, t_low, t_high, in_fringe && !ABUFFER_CONSERVATIVE, state.best);
+            test_listed(ray, primitive, t_low, t_high, in_conservative && !ABUFFER_CONSERVATIVE, state.best);
         }
     }
-    search.in_fringe = false;
+    search.in_conservative = false;
     return false;
 }
 

@@ -1,12 +1,12 @@
 // What: where the pyramids of an A-buffer are, the cube's and the camera's: behind the bounds of all cells
 // and the marks; and what a cell brings to them.
-// Reads: header, bounds, fringe. Writes: bounds, of blocks.
+// Reads: header, bounds, conservative lists. Writes: bounds, of blocks.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
 #ifndef ABUFFER_PYRAMID_GLSL
 #define ABUFFER_PYRAMID_GLSL
 
 #include "ads/pyramid.glsl"
-#include "abuffer/fringe.glsl"
+#include "abuffer/conservative.glsl"
 #include "abuffer/views.glsl"
 
 uint abuffer_pyramid_cells(AbufferRef s, uint view) {
@@ -33,18 +33,18 @@ void abuffer_pyramid_write(AbufferRef s, uint word, uvec2 words) {
 }
 
 // Triangles of a conservative list whose depths are evaluated; a cell with more is never skipped.
-#define ABUFFER_PYRAMID_FRINGE 1024u
+#define ABUFFER_PYRAMID_CONSERVATIVE 1024u
 
 // The depths that the triangles of a cell's conservative list have in it.
-uvec2 abuffer_pyramid_fringe(AbufferRef s, uint cell) {
+uvec2 abuffer_pyramid_conservative(AbufferRef s, uint cell) {
     uvec2 words = uvec2(0u);
-    uint link = abuffer_fringe_head(s, cell);
+    uint link = abuffer_conservative_head(s, cell);
     float rounding = ABUFFER_HEADER(s).rounding;
     for (uint i = 0u; link != 0u; i++) {
-        if (i == ABUFFER_PYRAMID_FRINGE) {
+        if (i == ABUFFER_PYRAMID_CONSERVATIVE) {
             return uvec2(~0u, 0x7F800000u);
         }
-        FringeNode node = fringe_node(s, link);
+        ConservativeNode node = conservative_node(s, link);
         link = node.next;
         if (node.primitive != PRIMITIVE_NONE) {
             vec2 depths = vec2(max(node.depths.x - rounding, 0.0), node.depths.y + rounding);
@@ -69,7 +69,7 @@ uvec2 abuffer_pyramid_fragments(AbufferRef s, uint view, ivec2 cell) {
 
 // The depths of rays at which anything in the cell may be accepted.
 uvec2 abuffer_pyramid_cell(AbufferRef s, uint view, ivec2 cell) {
-    return max(abuffer_pyramid_fragments(s, view, cell), abuffer_pyramid_fringe(s, abuffer_cell(s, view, cell)));
+    return max(abuffer_pyramid_fragments(s, view, cell), abuffer_pyramid_conservative(s, abuffer_cell(s, view, cell)));
 }
 
 #endif

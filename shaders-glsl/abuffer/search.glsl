@@ -8,7 +8,7 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
-#include "ads/judge_plane.glsl"
+#include "ads/evaluate_plane.glsl"
 #include "ads/triangle.glsl"
 #include "abuffer/slope.glsl"
 #include "abuffer/seek.glsl"
@@ -28,11 +28,11 @@ struct AbufferSearch {
     uint bucket;
     uint link;            // next node, of the bucket or of the conservative list; 0: begin the bucket
     bool in_bucket;       // the bucket has been begun
-    bool in_fringe;       // the conservative list has been begun
+    bool in_conservative;       // the conservative list has been begun
 };
 
 // Whether the depths that a fragment stands for overlap those of the ray: [low, high] holds the depths looked for.
-bool abuffer_meets(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
+bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;
     }
@@ -128,7 +128,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
             if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_INDEX && ((z >= low && z <= high) || COUNTERS >= COUNTERS_STEPS)) {
                 primitive = abuffer_data(s, current, 0u);
             }
-            if (!abuffer_meets(s, search, primitive, z, low, high)) {
+            if (!abuffer_intersects(s, search, primitive, z, low, high)) {
                 trace_log(STEP_FRAGMENT, primitive, TEST_OUTSIDE_CELL, 0u, 0.0, z);
                 continue;
             }

@@ -21,13 +21,13 @@
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
 // How far the segments of a ray have been followed.
-struct AbufferStretch {
+struct AbufferProgress {
     uint stage;           // the next one
     float t;              // where the next segment in a face begins
 };
 
-AbufferStretch abuffer_stretch_begin(vec2 clip) {
-    return AbufferStretch(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
+AbufferProgress abuffer_progress_begin(vec2 clip) {
+    return AbufferProgress(ABUFFER_HAS_CAMERA ? ABUFFER_STAGE_BEFORE : ABUFFER_STAGE_FACES, clip.x);
 }
 
 // The part of `clip` in which the ray lies in the camera's pyramid; empty if x > y.
@@ -71,11 +71,11 @@ vec2 abuffer_stage_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near
 
 // The next segment that may hold something nearer than `best`: its ends and its view, or ABUFFER_IN_FACES where the
 // face is still to be found and the segment ends with it; false where none is left.
-bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
-    inout AbufferStretch stretch, out vec2 ends, out uint view) {
+bool abuffer_next_interval(AbufferRef s, vec3 origin, vec3 direction, vec2 near, vec2 clip, float best,
+    inout AbufferProgress progress, out vec2 ends, out uint view) {
     view = ABUFFER_IN_FACES;
-    while (stretch.stage < ABUFFER_STAGE_FACES) {
-        uint stage = stretch.stage++;
+    while (progress.stage < ABUFFER_STAGE_FACES) {
+        uint stage = progress.stage++;
         vec2 interval = abuffer_stage_interval(s, origin, direction, near, clip, stage);
         if (interval.x < interval.y && !(interval.x > best)) {
             view = stage == ABUFFER_STAGE_NEAR ? SEGMENT_NEAR : ABUFFER_CAMERA;
@@ -83,7 +83,7 @@ bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, 
             return true;
         }
     }
-    ends = vec2(stretch.t, clip.y);
+    ends = vec2(progress.t, clip.y);
     if (!ABUFFER_HAS_CUBE || !(ends.x < clip.y) || ends.x > best) {
         trace_log(STEP_SKIP, ABUFFER_HAS_CUBE && ends.x < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, ends.x, ends.y);
         return false;
@@ -92,10 +92,10 @@ bool abuffer_next_stretch(AbufferRef s, vec3 origin, vec3 direction, vec2 near, 
 }
 
 // The segment of these ends in that view.
-Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferStretch stretch) {
+Segment abuffer_segment(vec3 origin, vec3 direction, vec2 near, vec2 ends, uint view, inout AbufferProgress progress) {
     Segment segment = segment_at(origin, direction, ends.x, ends.y, near);
     if (view == ABUFFER_IN_FACES) {
-        stretch.t = segment.t_end;
+        progress.t = segment.t_end;
     } else {
         segment.face = view;
         segment.t_end = ends.y;

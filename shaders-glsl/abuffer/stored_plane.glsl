@@ -30,7 +30,7 @@ uvec4 abuffer_pack_plane(uint primitive, vec2 barycentrics, vec3 eye) {
 }
 
 // Where a ray intersects a plane; `origin` relative to the eye. False where it runs along the plane.
-bool abuffer_meets_plane(uvec4 words, vec3 origin, vec3 direction, out float t) {
+bool abuffer_intersects_plane(uvec4 words, vec3 origin, vec3 direction, out float t) {
     vec3 normal = uintBitsToFloat(words.xyz);
     precise float speed = dot(normal, direction);
     precise float ahead = uintBitsToFloat(words.w) - dot(normal, origin);

@@ -9,90 +9,95 @@
 #include "contract/trace_log.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
-#include "abuffer/leap.glsl"
+#include "abuffer/skip.glsl"
 #include "abuffer/listed.glsl"
 
 uint abuffer_trace(AbufferRef s, Ray ray, inout TraceState state, bool any_hit) {
     bool ordered = ABUFFER_SORT != 0u && ABUFFER_HEADER(s).unsorted == 0u;
     precise vec3 origin = ray.origin - abuffer_eye(s);
     vec3 direction = ray.direction;
-    vec2 near = near_box_interval(origin, direction, ABUFFER_HEADER(s).near_size);
+    vec2 near = near_region_interval(origin, direction, ABUFFER_HEADER(s).near_size);
     // Where triangles are tested a hit counts by its t alone, wherever rounding has moved it.
     float reach = ABUFFER_HEADER(s).reach;
     float slack = ABUFFER_CONSERVATIVE ? hit_slack(origin, direction, reach) : 0.0;
     bool distant = ABUFFER_CONSERVATIVE && largest_coordinate(origin) > ORIGIN_LIMIT * reach;
     vec2 clip = bounds_interval(ABUFFER_HEADER(s).lower, ABUFFER_HEADER(s).upper, origin, direction, ray.t_min - slack,
         ray.t_max + slack);
-    AbufferWalk walk;
+    AbufferTraversal traversal;
     AbufferSearch search = AbufferSearch(0u, ivec2(0), 0u, 0.0, 0.0, vec2(0.0), 0.0, 0u, 0u, false, false);
     uint work = 0u;
     bool paused = false;
-    walk.stretch = abuffer_stretch_begin(clip);
+    traversal.progress = abuffer_progress_begin(clip);
     bool restored = bits_are_set(state.cursor[0], ABUFFER_CURSOR_STARTED);
     bool searching = bits_are_set(state.cursor[0], ABUFFER_CURSOR_SEARCHING);
     for (uint segments = 0u; segments < ABUFFER_SEGMENT_LIMIT; segments++) {
         vec2 ends;
         uint view;
         if (restored) {
-            abuffer_restore_stretch(state, clip, walk.stretch, ends, view);
-        } else if (!abuffer_next_stretch(s, origin, direction, near, clip, state.best.t + slack, walk.stretch, ends, view)) {
+            abuffer_restore_progress(state, clip, traversal.progress, ends, view);
+        } else if (!abuffer_next_interval(s, origin, direction, near, clip, state.best.t + slack, traversal.progress,
+            ends, view)) {
             // Nothing behind the best hit can be nearer.
             break;
         }
-        walk.segment = abuffer_segment(origin, direction, near, ends, view, walk.stretch);
-        walk.segment.face = distant ? SEGMENT_NEAR : walk.segment.face;
-        abuffer_begin_walk(s, origin, direction, walk);
+        traversal.segment = abuffer_segment(origin, direction, near, ends, view, traversal.progress);
+        traversal.segment.face = distant ? SEGMENT_NEAR : traversal.segment.face;
+        abuffer_begin_traversal(s, origin, direction, traversal);
         if (restored) {
-            abuffer_restore(state, walk, search);
+            abuffer_restore(state, traversal, search);
         } else {
-            trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
+            trace_log(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
             searching = false;
         }
         restored = false;
-        bool near_list = walk.segment.face == SEGMENT_NEAR;
+        bool in_near_region = traversal.segment.face == SEGMENT_NEAR;
         bool more = true;
         while (more) {
-            abuffer_find_exit(walk);
+            abuffer_find_exit(traversal);
             if (work >= work_budget) {
                 paused = true;
                 break;
             }
-            if (!near_list) {
-                abuffer_begin_search(s, searching, walk, search);
+            if (!in_near_region) {
+                abuffer_begin_search(s, searching, traversal, search);
                 if (search.t_low > state.best.t + slack) {
                     trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, search.t_low, search.t_high);
                     break;
                 }
                 work++;
                 state.cells++;
-                trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), search.t_low, search.t_high);
+                trace_log(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
+                    search.t_low, search.t_high);
                 // A search that was begun goes on: only cells whose search has not begun are skipped.
-                if (ABUFFER_STEP == ABUFFER_STEP_LEAPS && !searching
-                    && abuffer_leap(s, walk, search, state.best.t + slack, work, more)) {
+                if (ABUFFER_STEP == ABUFFER_STEP_SKIPS && !searching
+                    && abuffer_skip(s, traversal, search, state.best.t + slack, work, more)) {
                     continue;
                 }
             }
             searching = false;
-            uint listed = near_list ? (distant ? ABUFFER_LISTED_ALL : ABUFFER_LISTED_NEAR) : ABUFFER_LISTED_FRINGE;
-            bool has_listed = near_list || (ABUFFER_HAS_FRINGE && !search.in_bucket);
-            if (has_listed && abuffer_test_listed(s, ray, listed, walk, search, state, work)) {
-                searching = !near_list;
+            uint listed = in_near_region ? (distant ? ABUFFER_LISTED_ALL : ABUFFER_LISTED_NEAR)
+                : ABUFFER_LISTED_CONSERVATIVE;
+            bool has_listed = in_near_region || (ABUFFER_HAS_CONSERVATIVE && !search.in_bucket);
+            if (has_listed && abuffer_test_listed(s, ray, listed, traversal, search, state, work)) {
+                searching = !in_near_region;
                 paused = true;
                 break;
             }
-            if (!near_list && abuffer_search(s, ray, walk.origin.z, walk.direction.z, ordered, search, state, work)) {
+            if (!in_near_region && abuffer_search(s, ray, traversal.origin.z, traversal.direction.z, ordered, search,
+                state, work)) {
                 searching = true;
                 paused = true;
                 break;
             }
-            more = !near_list && !(any_hit && state.best.primitive != PRIMITIVE_NONE) && abuffer_next_cell(walk);
+            more = !in_near_region && !(any_hit && state.best.primitive != PRIMITIVE_NONE)
+                && abuffer_next_cell(traversal);
         }
         if (paused || distant || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
             break;
         }
     }
     if (paused) {
-        abuffer_save(walk, search, searching, state);
+        abuffer_save(traversal, search, searching, state);
         return TRACE_PAUSED;
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;

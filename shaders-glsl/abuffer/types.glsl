@@ -31,7 +31,7 @@ layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 const uint ABUFFER_STEP = ABUFFER_STEPS;
 #else
 const uint ABUFFER_STEP = ABUFFER_MARCH == ABUFFER_MARCH_EXACT ? ABUFFER_STEP_CELLS
-    : (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID ? ABUFFER_STEP_LEAPS : ABUFFER_STEP_SAMPLES);
+    : (ABUFFER_MARCH == ABUFFER_MARCH_PYRAMID ? ABUFFER_STEP_SKIPS : ABUFFER_STEP_SAMPLES);
 #endif
 #ifdef ABUFFER_TESTS
 const uint ABUFFER_TEST = ABUFFER_TESTS;
@@ -45,7 +45,7 @@ const bool ABUFFER_CONSERVATIVE = ABUFFER_TEST == ABUFFER_TEST_TRIANGLES;
 
 // Whether cells keep triangles outside of their centres.
 const bool ABUFFER_EDGE_ON = ABUFFER_TEST == ABUFFER_TEST_PLANES && ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON;
-const bool ABUFFER_HAS_FRINGE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
+const bool ABUFFER_HAS_CONSERVATIVE = ABUFFER_CONSERVATIVE || ABUFFER_EDGE_ON;
 
 // Whether rays visit the cells that they cross; else they are sampled.
 const bool ABUFFER_FOLLOWS_CELLS = ABUFFER_STEP != ABUFFER_STEP_SAMPLES;
@@ -86,12 +86,12 @@ struct AbufferHeader {
     uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // triangles of the geometry that there are marks for
     // triangles kept outside of centres, also those beyond the capacity; only with conservative lists
-    uint fringe_demand;
-    uint fringe_capacity; // triangles that the conservative lists hold
+    uint conservative_demand;
+    uint conservative_capacity; // triangles that the conservative lists hold
     float reach;          // metres: largest coordinate of the geometry relative to the eye
     float rounding;       // metres: how far rounding moves a triangle against a ray; only with conservative lists
-    uint pairs;           // triangles with many cells of a view, also those beyond the capacity; binning only
-    uint pair_capacity;   // triangles that their queue holds
+    uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
+    uint large_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
     uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
     uvec2 lists_address;  // device address of the heads and tails of lists
@@ -99,7 +99,7 @@ struct AbufferHeader {
     uvec2 data_address;   // device address of the payload
     uvec2 near_address;   // device address of the near-region list
     uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists
-    uvec2 fringe_address; // device address of the conservative lists
+    uvec2 conservative_address; // device address of the conservative lists
 };
 
 // Depths of a cell's fragments, as far as the storage keeps them.

@@ -7,7 +7,7 @@
 #include "structure/binned.glsl"
 
 #ifndef BIN_ENQUEUES
-#define BIN_ENQUEUES BIN_VISIT_PAIRS
+#define BIN_ENQUEUES BIN_VISIT_LARGE
 #endif
 
 // One loop: invocations that run side by side pay for the longest of each.

@@ -1,10 +1,10 @@
 // What: the passes that bin triangles, by number. They include structure/binned.glsl, in which a structure that may be built
-// by computing says what they do with a triangle in a view. It includes ads/bin_pairs.glsl and defines bin_built, a PairRef,
+// by computing says what they do with a triangle in a view. It includes ads/bin_large.glsl and defines bin_built, a LargeRef,
 // and
 //   uint bin_view_count()                                     views that are built
 //   bool bin_load(uint primitive, out BinTriangle triangle)   false where the triangle is in no view
 //   Bin                                                       a triangle in a view, with `lower` and `upper`, the first and last
-//                                                             cell that the pass may visit, and whether they are `many`
+//                                                             cell that the pass may visit, and whether they are `large`
 //   bool bin_begin(BinTriangle triangle, uint view, out Bin bin)    false where no pass visits a cell
 //   void bin_visit(Bin bin, ivec2 place)                      what the pass BIN_VISIT does in a cell
 // and where it wants to
@@ -12,7 +12,7 @@
 //                                                             the first one that visits cells
 //   BIN_TELLS_BLOCKS, bool bin_reaches(Bin bin, ivec2 lower)  whether the triangle may reach into BIN_BLOCK columns and rows
 //   BIN_ENDS, void bin_end()                                  what an invocation does after its last visit
-// Every pass finds the same triangles to have many cells. BIN_VISIT_PAIRS only enqueues those.
+// Every pass finds the same triangles to have many cells. BIN_VISIT_LARGE only enqueues those.
 // Reads, writes: see the structure.
 #ifndef ADS_BIN_VISITS_GLSL
 #define ADS_BIN_VISITS_GLSL
@@ -20,14 +20,14 @@
 #include "ads/bin_triangle.glsl"
 #include "ads/constants.glsl"
 
-#define BIN_VISIT_PAIRS 0
+#define BIN_VISIT_LARGE 0
 #define BIN_VISIT_BOUNDS 1
 #define BIN_VISIT_COUNT 2
 #define BIN_VISIT_STORE 3
-#define BIN_VISIT_FRINGE 4
+#define BIN_VISIT_CONSERVATIVE 4
 #define BIN_VISIT_VOXELS 5
 
-bool bin_is_many(ivec2 lower, ivec2 upper) {
+bool bin_is_large(ivec2 lower, ivec2 upper) {
     ivec2 size = upper - lower + 1;
     return size.x * size.y > BIN_CELLS;
 }

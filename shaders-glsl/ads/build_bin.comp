@@ -1,6 +1,6 @@
 // What: goes through the cells of each triangle in each view and does there what BIN_VISIT says; one
 // invocation per triangle. Those with many cells of a view are in the large-triangle queue, for the pass for many.
-// Reads, writes: see the structure's binned.glsl; the pass that enqueues writes pairs, header.pairs, header.groups.
+// Reads, writes: see the structure's binned.glsl; the pass that enqueues writes pairs, header.large_demand, header.groups.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_cells.glsl"
@@ -21,12 +21,12 @@ void main() {
             continue;
         }
 #if BIN_VISIT == BIN_ENQUEUES
-        if (bin.many) {
+        if (bin.large) {
             bin_enqueue(bin_built, view * triangles + primitive);
         }
 #endif
-#if BIN_VISIT != BIN_VISIT_PAIRS
-        if (!bin.many) {
+#if BIN_VISIT != BIN_VISIT_LARGE
+        if (!bin.large) {
             bin_visit_cells(bin, bin.lower, bin.upper);
         }
 #endif

@@ -41,11 +41,11 @@
 
 // Longest list that is searched for a fragment that can represent a triangle which misses the cell's centre. In cells
 // with longer lists every such triangle goes into the conservative list.
-#define FRINGE_LIMIT 4096u
+#define CONSERVATIVE_LIMIT 4096u
 
 // A fragment represents a triangle that misses the centre if the distance of its plane from the triangle's nearest
 // point is at most this, in widths of the cell or, where that is smaller, of the triangle.
-#define FRINGE_DEPTH 0.25
+#define CONSERVATIVE_DEPTH 0.25
 
 // Rays whose origin is farther from the centre of the views than this many times the geometry are tested against every
 // triangle where no hit may be lost: their rounding exceeds the margins of the cells near the centre.
@@ -58,7 +58,7 @@
 // Half side of the near region, divided by the number of cells along a side and by the distance of the geometry, where
 // no hit may be lost. At that distance a cell is as wide as the rounding guard of the march, 16 units of rounding for
 // each of nine distances.
-#define NEAR_BOX 4.8e-6
+#define NEAR_REGION 4.8e-6
 
 // Cells list what lies within the rounding of the test in two coordinates (240 units) and that of the march (96), over
 // the distance of the geometry.
@@ -96,7 +96,7 @@
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000
 // Workgroups per row of their dispatch.
-#define BIN_PAIR_ROW 32768u
+#define BIN_LARGE_ROW 32768u
 
 // Threads in a workgroup of the pass that builds a pyramid.
 #define PYRAMID_THREADS 64u

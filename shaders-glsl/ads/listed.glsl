@@ -6,7 +6,7 @@
 //   LISTED_NEAR(s)        words of the near-region list; these two only where the structure has one
 // Source: ours: where rounding is too large for cells, every triangle that may be hit is tested.
 
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 
 // Resumes at `place`. True if the work budget was used up first.
 bool listed_test(ListedRef s, Ray ray, bool all_triangles, bool any_hit, inout uint place, inout TraceState state, inout uint work) {

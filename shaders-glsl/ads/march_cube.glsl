@@ -22,7 +22,7 @@ struct Segment {
 };
 
 // t interval of a ray within the box |p|_max <= size, widened by rounding; empty if x > y.
-vec2 near_box_interval(vec3 origin, vec3 direction, float size) {
+vec2 near_region_interval(vec3 origin, vec3 direction, float size) {
     float t0 = -uintBitsToFloat(0x7F800000u);
     float t1 = uintBitsToFloat(0x7F800000u);
     for (int axis = 0; axis < 3; axis++) {

@@ -40,7 +40,7 @@ void main() {
         return;
     }
     Ray ray = rays[index];
-    vec2 near = near_box_interval(ray.origin, ray.direction, near_size);
+    vec2 near = near_region_interval(ray.origin, ray.direction, near_size);
     float t = ray.t_min;
     for (uint i = 0u; i < SEGMENT_LIMIT && t < ray.t_max; i++) {
         Segment segment = segment_at(ray.origin, ray.direction, t, ray.t_max, near);

@@ -32,7 +32,7 @@ struct BrickBin {
     BoxClip clip;       // of views along axes
     ivec2 lower;          // first and last column and row that may hold any of it
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 // The triangle is relative to the centre. False where it reaches into no column of the view.
@@ -45,7 +45,7 @@ bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out Bric
         ivec2 last = ivec2(space.cells.xy) - 1;
         bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
         bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
-        bin.many = bin_is_many(bin.lower, bin.upper);
+        bin.large = bin_is_large(bin.lower, bin.upper);
         return true;
     }
     vec3 a = face_from_world(triangle.a, face);
@@ -60,7 +60,7 @@ bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out Bric
         return false;
     }
     bin.overlap = overlap_begin(a, b, c);
-    bin.many = bin_is_many(bin.lower, bin.upper);
+    bin.large = bin_is_large(bin.lower, bin.upper);
     return true;
 }
 

@@ -1,5 +1,5 @@
 // What: what the binning pass of bricks does with a triangle in a view: it stores it in the columns it reaches into.
-// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs, header.pairs,
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs, header.large_demand,
 // header.groups.
 // Source: DIRT section 3.2, by computing instead of drawing. The same functions decide as in the raster builder.
 // With BRICK_SIDE_LIMIT columns along a side one workgroup suffices for a large triangle: an invocation gets 1,024 blocks of
@@ -15,16 +15,16 @@ layout(push_constant, scalar) uniform BrickBuildConstants {
 
 // The large-triangle queue is where the corners of triangles will be.
 #ifdef ADDRESSING_ADDRESS
-#define PAIR_WORD(s, place) BrickWordAddress(BRICK_HEADER(s).triangles_address).words[place]
+#define LARGE_WORD(s, place) BrickWordAddress(BRICK_HEADER(s).triangles_address).words[place]
 #else
-layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickPairsBuffer { uint brick_pair_words[]; };
-#define PAIR_WORD(s, place) brick_pair_words[place]
+layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickLargeBuffer { uint brick_large_words[]; };
+#define LARGE_WORD(s, place) brick_large_words[place]
 #endif
 
-#define PairRef BrickRef
-#define PAIR_HEADER(s) BRICK_HEADER(s)
-#define PAIR_CAPACITY(s) (BRICK_PAIR_LIMIT * BRICK_HEADER(s).triangle_capacity)
-#include "ads/bin_pairs.glsl"
+#define LargeRef BrickRef
+#define LARGE_HEADER(s) BRICK_HEADER(s)
+#define LARGE_CAPACITY(s) (BRICK_LARGE_LIMIT * BRICK_HEADER(s).triangle_capacity)
+#include "ads/bin_large.glsl"
 
 #define bin_built brick_built
 #define BIN_ENQUEUES BIN_VISIT_STORE

@@ -17,6 +17,6 @@ void main() {
         && BRICK_HEADER(brick_built).record_demand <= BRICK_HEADER(brick_built).record_capacity
         && BRICK_HEADER(brick_built).cell_demand <= BRICK_HEADER(brick_built).cell_capacity;
     bool fits = lists_fit && geometry_triangle_count() <= BRICK_HEADER(brick_built).triangle_capacity
-        && BRICK_HEADER(brick_built).pairs <= BRICK_PAIR_LIMIT * BRICK_HEADER(brick_built).triangle_capacity;
+        && BRICK_HEADER(brick_built).large_demand <= BRICK_LARGE_LIMIT * BRICK_HEADER(brick_built).triangle_capacity;
     BRICK_HEADER(brick_built).status = build_status(fits);
 }

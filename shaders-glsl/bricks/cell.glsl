@@ -5,10 +5,10 @@
 #define BRICKS_CELL_GLSL
 
 #include "bricks/accessors.glsl"
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 
 // What stays the same for a ray.
-struct BrickWalk {
+struct BrickTraversal {
     ivec3 cells;          // columns, rows and slices
     // What follows is of the faces of a cube.
     BrickSlices slices;
@@ -28,8 +28,8 @@ struct BrickBox {
     uint list;
 };
 
-BrickBox brick_box(BrickRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 up) {
-    uint brick = brick_index(face, cell, uvec3(walk.cells));
+BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up) {
+    uint brick = brick_index(face, cell, uvec3(traversal.cells));
     uint word = BRICK_WORDS(s)[brick_at(brick)];
     BrickBox box = BrickBox(cell, cell, false, 0u);
     int inside = 0;
@@ -51,15 +51,15 @@ BrickBox brick_box(BrickRef s, BrickWalk walk, uint face, ivec3 cell, bvec3 up) 
         }
     }
     box.first = max((cell & ~inside) - beyond, ivec3(0));
-    box.last = min((cell | inside) + beyond, walk.cells - 1);
+    box.last = min((cell | inside) + beyond, traversal.cells - 1);
     return box;
 }
 
 // Where the list of a cell begins and ends. One that leaves the pool is counted and is empty.
-uvec2 brick_entries(BrickRef s, BrickWalk walk, uint list) {
-    if (list < walk.listed) {
+uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list) {
+    if (list < traversal.listed) {
         uvec2 entries = uvec2(list == 0u ? 0u : BRICK_LISTS(s)[list - 1u], BRICK_LISTS(s)[list]);
-        if (entries.y <= walk.stored) {
+        if (entries.y <= traversal.stored) {
             return entries;
         }
     }

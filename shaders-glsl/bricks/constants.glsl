@@ -25,7 +25,7 @@
 #define BRICK_OCTAVE_SHARE 256u
 
 // Words per triangle of the large-triangle queue: one per view.
-#define BRICK_PAIR_LIMIT 6u
+#define BRICK_LARGE_LIMIT 6u
 
 // Threads in a workgroup of the build's compute passes.
 #define BRICK_GROUP_SIZE 64u

@@ -40,15 +40,15 @@
 // True if the budget ended first.
 bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, vec2 near, float slack, bool any_hit,
     bool resumed, inout TraceState state, inout uint work) {
-    BrickWalk walk;
+    BrickTraversal traversal;
     const bool axes = BRICK_VIEWS == BRICK_VIEWS_AXES;
-    walk.cells = ivec3(brick_cells(s));
-    walk.slices = brick_slices(s);
-    walk.half_side = 0.5 * float(walk.cells.x);
-    walk.column = 2.0 / float(walk.cells.x);
-    walk.rounding = BRICK_PLACE * BRICK_HEADER(s).reach;
-    walk.stored = min(BRICK_HEADER(s).capacity, BRICK_HEADER(s).demand);
-    walk.listed = brick_listed_cells(s);
+    traversal.cells = ivec3(brick_cells(s));
+    traversal.slices = brick_slices(s);
+    traversal.half_side = 0.5 * float(traversal.cells.x);
+    traversal.column = 2.0 / float(traversal.cells.x);
+    traversal.rounding = BRICK_PLACE * BRICK_HEADER(s).reach;
+    traversal.stored = min(BRICK_HEADER(s).capacity, BRICK_HEADER(s).demand);
+    traversal.listed = brick_listed_cells(s);
     // A finite end, also where the geometry ends beyond what numbers hold.
     t_last = min(t_last, 3.0e38);
     bool crosses_near = near.x <= near.y && near.y < t_last;
@@ -90,9 +90,9 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             }
             trace_log(STEP_VIEW, face, 0u, 0u, t, t_last);
             if (begins) {
-                cell = axes ? box_line_cell_at(line, t, walk.cells)
-                    : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
-                cell = clamp(cell, ivec3(0), walk.cells - 1);
+                cell = axes ? box_line_cell_at(line, t, traversal.cells)
+                    : brick_cell_at(r, t, traversal.half_side, traversal.rounding, traversal.slices);
+                cell = clamp(cell, ivec3(0), traversal.cells - 1);
             }
             turns = false;
             begins = false;
@@ -106,16 +106,16 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             }
             work++;
         }
-        BrickBox box = brick_box(s, walk, face, cell, up);
+        BrickBox box = brick_box(s, traversal, face, cell, up);
         ivec3 planes = mix(box.first, box.last + 1, up);
-        vec3 exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, walk.column, walk.slices);
+        vec3 exits = axes ? box_line_exits(line, planes) : brick_exits(r, planes, traversal.column, traversal.slices);
         float t_out = max(min(exits.x, min(exits.y, exits.z)), t);
         if (enters) {
             state.cells++;
             trace_log(STEP_CELL, face, uint(cell.x), uint(cell.y), t, t_out);
         }
         if (box.listed) {
-            uvec2 entries = brick_entries(s, walk, box.list);
+            uvec2 entries = brick_entries(s, traversal, box.list);
             if (enters) {
                 entry = entries.x;
                 trace_log(STEP_LIST, uint(cell.z), entries.x, 0u, 0.0, 0.0);
@@ -150,8 +150,8 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
         t = t_out;
         bool leaves_x = exits.x <= exits.y && exits.x <= exits.z;
         bool leaves_y = !leaves_x && exits.y <= exits.z;
-        ivec3 next = axes ? box_line_cell_at(line, t, walk.cells)
-            : brick_cell_at(r, t, walk.half_side, walk.rounding, walk.slices);
+        ivec3 next = axes ? box_line_cell_at(line, t, traversal.cells)
+            : brick_cell_at(r, t, traversal.half_side, traversal.rounding, traversal.slices);
         next = clamp(next, mix(box.first, cell, up), mix(cell, box.last, up));
         ivec3 over = mix(box.first - 1, box.last + 1, up);
         if (leaves_x) {
@@ -162,12 +162,12 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             next.z = over.z;
         }
         cell = next;
-        if (axes && (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, walk.cells)))) {
+        if (axes && (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, traversal.cells)))) {
             break;
         }
-        int beside = leaves_x ? cell.x : cell.y;
-        if (!axes && (leaves_x || leaves_y) && (beside < 0 || beside >= walk.cells.x)) {
-            face = brick_face_beyond(face, leaves_x, beside < 0);
+        int crossed = leaves_x ? cell.x : cell.y;
+        if (!axes && (leaves_x || leaves_y) && (crossed < 0 || crossed >= traversal.cells.x)) {
+            face = brick_face_beyond(face, leaves_x, crossed < 0);
             turns = true;
             begins = true;
         }
@@ -189,7 +189,7 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     float slack = hit_slack(origin, ray.direction, reach);
     // Views along axes touch nowhere, so that no near region stands between them.
     vec2 near = BRICK_VIEWS == BRICK_VIEWS_AXES ? vec2(1.0, 0.0)
-        : near_box_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
+        : near_region_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
     vec2 clip = bounds_interval(BRICK_HEADER(s).lower, BRICK_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,
         ray.t_max + slack);
     if (!(clip.x < clip.y)) {
@@ -199,8 +199,8 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint work = 0u;
     bool resumed = bits_are_set(state.cursor[0], BRICK_CURSOR_STARTED);
     bool listed = bits_are_set(state.cursor[0], BRICK_CURSOR_LISTED);
-    bool meets_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
-    if ((!resumed || listed) && (distant || meets_near)) {
+    bool intersects_near = near.x <= near.y && near.x <= clip.y && near.y >= clip.x;
+    if ((!resumed || listed) && (distant || intersects_near)) {
         if (!resumed) {
             trace_log(STEP_VIEW, distant ? SEGMENT_ALL : SEGMENT_NEAR, 0u, 0u, clip.x, clip.y);
         }

@@ -49,7 +49,7 @@ struct BrickHeader {
     uint cell_demand;     // cells that list something, as far as records fit
     uint cell_capacity;   // lists the pool holds
     uint triangle_capacity; // triangles whose corners the pool holds
-    uint pairs;           // triangles with many columns of a view
+    uint large_demand;           // triangles with many columns of a view
     uint groups[3];       // workgroups for them, one each
     uint octaves[BRICK_OCTAVES]; // triangles that begin so many octaves before the farthest geometry
 };

@@ -5,7 +5,7 @@
 #define BRUTE_TRACE_GLSL
 
 #include "contract/trace_functions.glsl"
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 #include "brute/types.glsl"
 
 #define BRUTE_INFINITY uintBitsToFloat(0x7F800000u)

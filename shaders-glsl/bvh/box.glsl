@@ -30,7 +30,7 @@ BvhRay bvh_ray(vec3 origin, vec3 direction, float t_min) {
 
 // Whether the ray may hit a triangle within the box at a t up to `farthest`. `entry` is where it enters,
 // a function of ray and box alone: it also orders the children of a node, always in the same way.
-bool bvh_ray_meets(BvhRay ray, vec3 lower, vec3 upper, float farthest, out float entry) {
+bool bvh_ray_intersects(BvhRay ray, vec3 lower, vec3 upper, float farthest, out float entry) {
     precise vec3 below = lower - ray.origin;
     precise vec3 above = upper - ray.origin;
     vec3 reach = max(abs(below), abs(above));

@@ -10,7 +10,7 @@
 #define BVH_TRACE_GLSL
 
 #include "contract/trace_functions.glsl"
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 #include "bvh/accessors.glsl"
 #include "bvh/box.glsl"
 
@@ -58,18 +58,18 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
             nodes += 1u;
             float entry_0;
             float entry_1;
-            bool meets_0 = bvh_ray_meets(slabs, node.lower_0, node.upper_0, best.t, entry_0);
-            bool meets_1 = bvh_ray_meets(slabs, node.lower_1, node.upper_1, best.t, entry_1);
+            bool intersects_0 = bvh_ray_intersects(slabs, node.lower_0, node.upper_0, best.t, entry_0);
+            bool intersects_1 = bvh_ray_intersects(slabs, node.lower_1, node.upper_1, best.t, entry_1);
             trace_log(STEP_NODE, child, node.child_0, 0u, min(entry_0, entry_1), best.t);
-            uint chosen = meets_0 && !(meets_1 && entry_1 < entry_0) ? 0u : 1u;
-            if (meets_0 && meets_1) {
+            uint chosen = intersects_0 && !(intersects_1 && entry_1 < entry_0) ? 0u : 1u;
+            if (intersects_0 && intersects_1) {
                 stack_links[stack_end] = 2u * child + 1u - chosen;
                 stack_entries[stack_end] = max(entry_0, entry_1);
                 stack_end = (stack_end + 1u) % BVH_STACK;
                 forgotten = forgotten || stack_size == BVH_STACK;
                 stack_size = min(stack_size + 1u, BVH_STACK);
             }
-            entering = meets_0 || meets_1;
+            entering = intersects_0 || intersects_1;
             if (entering) {
                 link = 2u * child + chosen;
                 child = chosen == 0u ? node.child_0 : node.child_1;
@@ -109,12 +109,12 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
         nodes += 1u;
         float entry_0;
         float entry_1;
-        bool meets_0 = bvh_ray_meets(slabs, node.lower_0, node.upper_0, best.t, entry_0);
-        bool meets_1 = bvh_ray_meets(slabs, node.lower_1, node.upper_1, best.t, entry_1);
+        bool intersects_0 = bvh_ray_intersects(slabs, node.lower_0, node.upper_0, best.t, entry_0);
+        bool intersects_1 = bvh_ray_intersects(slabs, node.lower_1, node.upper_1, best.t, entry_1);
         trace_log(STEP_NODE, parent, node.child_0, 0u, min(entry_0, entry_1), best.t);
         bool left_1 = (link & 1u) == 1u;
         bool left_first = left_1 == (entry_1 < entry_0);
-        if (left_first && (left_1 ? meets_0 : meets_1)) {
+        if (left_first && (left_1 ? intersects_0 : intersects_1)) {
             child = left_1 ? node.child_0 : node.child_1;
             link ^= 1u;
             entering = true;

@@ -72,7 +72,7 @@
 // The ray excludes this primitive.
 #define TEST_EXCLUDED 1u
 // The ray passes outside of the triangle.
-#define TEST_BESIDE 2u
+#define TEST_OUTSIDE 2u
 // The ray runs along the triangle's plane, or the triangle has no area.
 #define TEST_PARALLEL 3u
 // At or before t_min, or within rounding of the origin.

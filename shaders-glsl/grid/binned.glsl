@@ -14,11 +14,11 @@ layout(push_constant, scalar) uniform GridBuildConstants {
     GridRef grid_built;
 };
 
-#define PairRef GridRef
-#define PAIR_WORD(s, place) GRID_SCRATCH(s)[grid_scan_words(s) + place]
-#define PAIR_HEADER(s) GRID_HEADER(s)
-#define PAIR_CAPACITY(s) GRID_HEADER(s).triangle_capacity
-#include "ads/bin_pairs.glsl"
+#define LargeRef GridRef
+#define LARGE_WORD(s, place) GRID_SCRATCH(s)[grid_scan_words(s) + place]
+#define LARGE_HEADER(s) GRID_HEADER(s)
+#define LARGE_CAPACITY(s) GRID_HEADER(s).triangle_capacity
+#include "ads/bin_large.glsl"
 
 #define bin_built grid_built
 
@@ -34,7 +34,7 @@ struct Bin {
     BoxClip clip;
     ivec2 lower;
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -51,7 +51,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     ivec3 size = upper - lower + 1;
     bin.lower = lower.xy;
     bin.upper = upper.xy;
-    bin.many = bin_is_many(bin.lower, bin.upper) || size.x * size.y * size.z > GRID_BIN_CELLS;
+    bin.large = bin_is_large(bin.lower, bin.upper) || size.x * size.y * size.z > GRID_BIN_CELLS;
     return true;
 }
 

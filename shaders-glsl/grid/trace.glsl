@@ -14,7 +14,7 @@
 #include "contract/bits.glsl"
 #include "contract/trace_functions.glsl"
 #include "ads/bounds_interval.glsl"
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 #include "ads/march_cube.glsl"
 #include "grid/accessors.glsl"
 

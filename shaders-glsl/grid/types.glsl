@@ -26,7 +26,7 @@ struct GridHeader {
     uvec2 entries_address; // device address of the entries
     uvec2 scratch_address; // device address of the scratch words
     uint triangle_capacity; // triangles that fit into the large-triangle queue
-    uint pairs;           // triangles in that queue
+    uint large_demand;           // triangles in that queue
     uint groups[3];       // workgroups for the triangles in that queue
 };
 

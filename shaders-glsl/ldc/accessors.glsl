@@ -1,6 +1,6 @@
 // What: the pools of a layered depth cube, and the only place that knows how they are reached: through the
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
-// Reads, writes: header, lists, depths, payload, blocks, heads, fringe, scratch. Every access checks the capacity.
+// Reads, writes: header, lists, depths, payload, blocks, heads, conservative lists, scratch. Every access checks the capacity.
 #ifndef LDC_ACCESSORS_GLSL
 #define LDC_ACCESSORS_GLSL
 
@@ -15,7 +15,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LdcWordAddre
 #define LDC_PAYLOAD_WORDS(s) LdcWordAddress(LDC_HEADER(s).payload_address).words
 #define LDC_BLOCKS(s) LdcWordAddress(LDC_HEADER(s).blocks_address).words
 #define LDC_HEADS(s) LdcWordAddress(LDC_HEADER(s).heads_address).words
-#define LDC_FRINGE(s) LdcWordAddress(LDC_HEADER(s).fringe_address).words
+#define LDC_CONSERVATIVE_NODES(s) LdcWordAddress(LDC_HEADER(s).conservative_address).words
 #define LDC_SCRATCH(s) LdcWordAddress(LDC_HEADER(s).scratch_address).words
 #else
 layout(set = STRUCTURE_SET, binding = 1, scalar) buffer LdcListsBuffer { uint ldc_list_words[]; };
@@ -23,14 +23,14 @@ layout(set = STRUCTURE_SET, binding = 2, scalar) buffer LdcDepthsBuffer { uint l
 layout(set = STRUCTURE_SET, binding = 3, scalar) buffer LdcPayloadBuffer { uint ldc_payload_words[]; };
 layout(set = STRUCTURE_SET, binding = 4, scalar) buffer LdcBlocksBuffer { uint ldc_block_words[]; };
 layout(set = STRUCTURE_SET, binding = 5, scalar) buffer LdcHeadsBuffer { uint ldc_head_words[]; };
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcFringeBuffer { uint ldc_fringe_words[]; };
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer LdcConservativeBuffer { uint ldc_conservative_nodes[]; };
 layout(set = STRUCTURE_SET, binding = 7, scalar) buffer LdcScratchBuffer { uint ldc_scratch_words[]; };
 #define LDC_LISTS(s) ldc_list_words
 #define LDC_DEPTHS(s) ldc_depth_words
 #define LDC_PAYLOAD_WORDS(s) ldc_payload_words
 #define LDC_BLOCKS(s) ldc_block_words
 #define LDC_HEADS(s) ldc_head_words
-#define LDC_FRINGE(s) ldc_fringe_words
+#define LDC_CONSERVATIVE_NODES(s) ldc_conservative_nodes
 #define LDC_SCRATCH(s) ldc_scratch_words
 #endif
 

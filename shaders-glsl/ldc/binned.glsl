@@ -8,16 +8,16 @@
 
 #include "ads/constants.glsl"
 #include "ldc/visit.glsl"
-#if BIN_VISIT == BIN_VISIT_FRINGE
-#include "ldc/visit_fringe.glsl"
+#if BIN_VISIT == BIN_VISIT_CONSERVATIVE
+#include "ldc/visit_conservative.glsl"
 #endif
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
-#define PairRef LdcRef
-#define PAIR_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + place]
-#define PAIR_HEADER(s) LDC_HEADER(s)
-#define PAIR_CAPACITY(s) LDC_HEADER(s).pair_capacity
-#include "ads/bin_pairs.glsl"
+#define LargeRef LdcRef
+#define LARGE_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + place]
+#define LARGE_HEADER(s) LDC_HEADER(s)
+#define LARGE_CAPACITY(s) LDC_HEADER(s).large_capacity
+#include "ads/bin_large.glsl"
 
 #define bin_built ldc_built
 
@@ -31,7 +31,7 @@ struct Bin {
     uint axis;
     ivec2 lower;
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -47,7 +47,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     float margin = LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool any_cell = axis_cells(seen, axis_from_world(seen, triangle.a), axis_from_world(seen, triangle.b),
         axis_from_world(seen, triangle.c), margin, bin.lower, bin.upper);
-    bin.many = bin_is_many(bin.lower, bin.upper);
+    bin.large = bin_is_large(bin.lower, bin.upper);
     return any_cell;
 }
 
@@ -56,8 +56,8 @@ void bin_visit(Bin bin, ivec2 place) {
     ldc_visit_count(bin.primitive, bin.axis, place);
 #elif BIN_VISIT == BIN_VISIT_STORE
     ldc_visit_store(bin.primitive, bin.axis, place);
-#elif BIN_VISIT == BIN_VISIT_FRINGE
-    ldc_visit_fringe(bin.primitive, bin.axis, place);
+#elif BIN_VISIT == BIN_VISIT_CONSERVATIVE
+    ldc_visit_conservative(bin.primitive, bin.axis, place);
 #endif
 }
 

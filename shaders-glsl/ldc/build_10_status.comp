@@ -12,10 +12,11 @@ layout(push_constant, scalar) uniform LdcBuildConstants {
 };
 
 void main() {
-    bool fits = ldc_fragments_fit(ldc_built) && LDC_HEADER(ldc_built).fringe_demand <= LDC_HEADER(ldc_built).fringe_capacity
+    bool fits = ldc_fragments_fit(ldc_built)
+        && LDC_HEADER(ldc_built).conservative_demand <= LDC_HEADER(ldc_built).conservative_capacity
         && LDC_HEADER(ldc_built).long_demand <= LDC_HEADER(ldc_built).long_capacity
         && LDC_HEADER(ldc_built).layer_demand <= LDC_HEADER(ldc_built).layer_capacity
-        && LDC_HEADER(ldc_built).pairs <= LDC_HEADER(ldc_built).pair_capacity;
+        && LDC_HEADER(ldc_built).large_demand <= LDC_HEADER(ldc_built).large_capacity;
     uint status = build_status(fits);
     LDC_HEADER(ldc_built).status = status | (LDC_HEADER(ldc_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

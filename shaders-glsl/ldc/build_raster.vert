@@ -1,4 +1,4 @@
-// What: proposes, for each triangle, the cells of its view whose centres it may cover, with FRINGE those that it may
+// What: proposes, for each triangle, the cells of its view whose centres it may cover, with CONSERVATIVE those that it may
 // reach into.
 // Reads: geometry, header. Writes: nothing.
 // Source: Bürger et al. section 1.2.1; the vertex stage chooses the view instead of a geometry shader.
@@ -23,7 +23,7 @@ void main() {
         return;
     }
     ldc_view_vertices(view, primitive, a, b, c);
-#ifdef FRINGE
+#ifdef CONSERVATIVE
     // Half a cell to its sides, and 1/32 for the hardware's grid.
     gl_Position = axis_proposal(view, a, b, c, corner, 0.5 + 1.0 / 32.0);
 #else

@@ -1,13 +1,13 @@
 // What: searches one cell for the nearest fragment that a ray hits within it.
-// Reads: lists, depths, payload, heads, fringe, geometry. Writes: header.corrupted.
+// Reads: lists, depths, payload, heads, conservative lists, geometry. Writes: header.corrupted.
 // Source: Bürger et al. section 1.4. The order of a list only skips fragments that the acceptance would
 // refuse, so hits do not depend on it. The nearest along the ray is taken, whichever layer it is.
 #ifndef LDC_SEARCH_GLSL
 #define LDC_SEARCH_GLSL
 
-#include "ads/judge.glsl"
-#include "ads/judge_plane.glsl"
-#include "ldc/fringe.glsl"
+#include "ads/evaluate.glsl"
+#include "ads/evaluate_plane.glsl"
+#include "ldc/conservative.glsl"
 
 // Lists at least this long are entered by bisection.
 #define LDC_BISECTION_LENGTH 8u
@@ -32,7 +32,7 @@ struct LdcSearch {
     float z_origin;       // metres from the view's near side
     float z_direction;
     bool begun;
-    bool in_fringe;
+    bool in_conservative;
     uint place;           // of the next fragment, or link of the next node of the conservative list
 };
 
@@ -73,7 +73,7 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     Hit rival = plane_rival(state.best);
     float cell = search.sizes.cell;
     float slack = search.sizes.slack;
-    uint verdict = judge_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
+    uint verdict = evaluate_plane(PlaneCell(vec3(0.0), 0.0, cell, LDC_PLANE_REACH, false), ray, rival, primitive,
         search.t_low - slack, search.t_high + slack, t, barycentrics, t_error);
     // A surface that the ray leaves is hit close to its origin, if at all.
     if (verdict == TEST_LEAVING && t * length(ray.direction) > LDC_LEAVING * cell) {
@@ -114,7 +114,7 @@ bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
 }
 
 // Tests a fragment by its depth: the hit is where the ray passes it, within the cell.
-void ldc_judge_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
+void ldc_evaluate_depth(LdcRef s, Ray ray, LdcSearch search, vec2 depths, uint place, float z, inout TraceState state) {
     bool known = LDC_PAYLOAD == LDC_PAYLOAD_INDEX;
     uint primitive = known ? ldc_primitive(s, place) : PRIMITIVE_UNKNOWN;
     float tolerance = LDC_ACCEPT == LDC_ACCEPT_TOLERANCE ? search.sizes.margin
@@ -160,7 +160,7 @@ uint ldc_first_from(LdcRef s, uvec2 list, float z, inout TraceState state, inout
 }
 
 // Searches the nodes of the conservative list; true if the work budget ended first.
-bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
+bool ldc_search_conservative(LdcRef s, Ray ray, inout LdcSearch search, inout TraceState state, inout uint work) {
     vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
     while (search.place != 0u) {
         if (work >= work_budget) {
@@ -169,14 +169,15 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
         work++;
         state.entries++;
         trace_log(STEP_ENTRY, search.place, 0u, 0u, 0.0, 0.0);
-        FringeNode node = fringe_node(s, search.place);
+        ConservativeNode node = conservative_node(s, search.place);
         search.place = node.next;
         if (node.primitive == PRIMITIVE_NONE) {
             continue;
         }
-        if (LDC_SKIP == 0u || fringe_meets(node, depths.x - search.sizes.margin, depths.y + search.sizes.margin)) {
+        if (LDC_SKIP == 0u || conservative_intersects(node, depths.x - search.sizes.margin, depths.y
+            + search.sizes.margin)) {
             state.tests++;
-            test_beside_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
+            test_with_planes(ray, node.primitive, search.t_low, search.t_high, state.best);
         } else {
             trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, node.depths.x, node.depths.y);
         }
@@ -187,7 +188,7 @@ bool ldc_search_fringe(LdcRef s, Ray ray, inout LdcSearch search, inout TraceSta
 // Searches a cell; true if the work budget ended first.
 bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout TraceState state, inout uint work) {
     uint cell = axis_cell_index(search.axis, search.cell, search.sizes.resolution);
-    if (!search.in_fringe) {
+    if (!search.in_conservative) {
         uvec2 list = ldc_list(s, cell, search.sizes.places);
         vec2 depths = ldc_depths_between(search.z_origin, search.z_direction, search.t_low, search.t_high);
         vec2 wanted = vec2(depths.x - search.sizes.margin, depths.y + search.sizes.margin);
@@ -219,13 +220,13 @@ bool ldc_search(LdcRef s, Ray ray, bool ordered, inout LdcSearch search, inout T
             if (LDC_ACCEPT == LDC_ACCEPT_PLANE) {
                 ldc_test_plane(s, ray, search, ldc_primitive(s, place), state);
             } else {
-                ldc_judge_depth(s, ray, search, depths, place, z, state);
+                ldc_evaluate_depth(s, ray, search, depths, place, z, state);
             }
         }
-        search.in_fringe = true;
-        search.place = ldc_fringe_head(s, cell);
+        search.in_conservative = true;
+        search.place = ldc_conservative_head(s, cell);
     }
-    return ldc_search_fringe(s, ray, search, state, work);
+    return ldc_search_conservative(s, ray, search, state, work);
 }
 
 #endif

@@ -20,7 +20,7 @@ layout(push_constant, scalar) uniform Constants {
     uint limit;           // visits per traversal
 };
 
-void walk(uint index, Ray ray, bool stopped) {
+void traverse(uint index, Ray ray, bool stopped) {
     LdcFlatRay flat_ray = ldc_flat_ray(ray.origin.xy, ray.direction.xy);
     LdcArea area = ldc_area(flat_ray, 1.0, ivec2(first), ivec2(last));
     vec2 t = vec2(ray.t_min, ray.t_max);
@@ -43,7 +43,7 @@ void walk(uint index, Ray ray, bool stopped) {
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index < ray_count) {
-        walk(2u * index, rays[index], false);
-        walk(2u * index + 1u, rays[index], true);
+        traverse(2u * index, rays[index], false);
+        traverse(2u * index + 1u, rays[index], true);
     }
 }

@@ -31,30 +31,30 @@ vec2 ldc_clip(LdcRef s, Ray ray) {
 }
 
 // Begins the traversal through a view; false where the ray does not cross it.
-bool ldc_begin_view(vec2 clip, inout LdcWalk walk) {
+bool ldc_begin_view(vec2 clip, inout LdcTraversal traversal) {
     if (LDC_SKIP == 0u) {
-        walk.in_upper = true;
-        walk.in_block = ldc_begin_level(walk, 2u, false, ivec2(0), clip, walk.cells);
-        return walk.in_block;
+        traversal.in_upper = true;
+        traversal.in_block = ldc_begin_level(traversal, 2u, false, ivec2(0), clip, traversal.cells);
+        return traversal.in_block;
     }
     if (LDC_LEVELS == 2u) {
-        return ldc_begin_level(walk, 1u, false, ivec2(0), clip, walk.upper);
+        return ldc_begin_level(traversal, 1u, false, ivec2(0), clip, traversal.upper);
     }
-    walk.in_upper = ldc_begin_level(walk, 0u, false, ivec2(0), clip, walk.blocks);
-    return walk.in_upper;
+    traversal.in_upper = ldc_begin_level(traversal, 0u, false, ivec2(0), clip, traversal.blocks);
+    return traversal.in_upper;
 }
 
 // Goes to the next block of the view; false where there is none.
-bool ldc_next_block(inout LdcWalk walk) {
-    walk.in_block = false;
+bool ldc_next_block(inout LdcTraversal traversal) {
+    traversal.in_block = false;
     if (LDC_SKIP == 0u) {
         return false;
     }
-    if (walk.in_upper && ldc_march_next(walk.flat_ray, walk.blocks)) {
+    if (traversal.in_upper && ldc_march_next(traversal.flat_ray, traversal.blocks)) {
         return true;
     }
-    walk.in_upper = LDC_LEVELS != 2u;
-    return LDC_LEVELS == 2u && ldc_march_next(walk.flat_ray, walk.upper);
+    traversal.in_upper = LDC_LEVELS != 2u;
+    return LDC_LEVELS == 2u && ldc_march_next(traversal.flat_ray, traversal.upper);
 }
 
 // What becomes of a square of blocks.
@@ -63,61 +63,65 @@ bool ldc_next_block(inout LdcWalk walk) {
 #define LDC_BEHIND 2u
 
 // Tests the block that the traversal of a level is at, and begins that of the level within it where it is hit.
-uint ldc_look(LdcRef s, LdcWalk walk, uint level, uint inner, LdcMarch march, inout LdcMarch within, inout TraceState state,
+uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch march, inout LdcMarch within,
+    inout TraceState state,
     inout uint work) {
     work++;
-    ivec2 block = ldc_march_square(walk.flat_ray, march);
-    vec2 stretch = ldc_block_stretch(walk, level, block);
-    if (march.rows <= 0 || !(stretch.x <= stretch.y)) {
+    ivec2 block = ldc_march_square(traversal.flat_ray, march);
+    vec2 interval = ldc_block_interval(traversal, level, block);
+    if (march.rows <= 0 || !(interval.x <= interval.y)) {
         return LDC_PASSED_OVER;
     }
-    if (ldc_is_behind(walk, stretch.x, state.best.t)) {
-        trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+    if (ldc_is_behind(traversal, interval.x, state.best.t)) {
+        trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
         return LDC_BEHIND;
     }
     state.entries++;
-    bool met = ldc_block_is_met(s, walk, level, block, stretch)
-        && ldc_begin_level(walk, inner, true, block, stretch, within);
+    bool met = ldc_block_is_met(s, traversal, level, block, interval)
+        && ldc_begin_level(traversal, inner, true, block, interval, within);
     return met ? LDC_MET : LDC_PASSED_OVER;
 }
 
 // Traverses one view, from its beginning or from where it stopped; true if the work budget ended first. Every
 // level has a loop of its own: invocations that run side by side pay for all that one of them does in a turn.
-bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcWalk walk, inout LdcSearch search,
+bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcTraversal traversal,
+    inout LdcSearch search,
     inout TraceState state, inout uint work) {
     while (more) {
-        while (more && !walk.in_upper) {
+        while (more && !traversal.in_upper) {
             if (work >= work_budget) {
                 return true;
             }
-            uint found = ldc_look(s, walk, 1u, 0u, walk.upper, walk.blocks, state, work);
-            walk.in_upper = found == LDC_MET;
-            more = walk.in_upper || (found == LDC_PASSED_OVER && ldc_march_next(walk.flat_ray, walk.upper));
+            uint found = ldc_look(s, traversal, 1u, 0u, traversal.upper, traversal.blocks, state, work);
+            traversal.in_upper = found == LDC_MET;
+            more = traversal.in_upper || (found == LDC_PASSED_OVER && ldc_march_next(traversal.flat_ray,
+                traversal.upper));
         }
-        while (more && walk.in_upper && !walk.in_block) {
+        while (more && traversal.in_upper && !traversal.in_block) {
             if (work >= work_budget) {
                 return true;
             }
-            uint found = ldc_look(s, walk, 0u, 2u, walk.blocks, walk.cells, state, work);
-            walk.in_block = found == LDC_MET;
-            more = walk.in_block || (found == LDC_PASSED_OVER && ldc_next_block(walk));
+            uint found = ldc_look(s, traversal, 0u, 2u, traversal.blocks, traversal.cells, state, work);
+            traversal.in_block = found == LDC_MET;
+            more = traversal.in_block || (found == LDC_PASSED_OVER && ldc_next_block(traversal));
         }
-        while (more && walk.in_block) {
+        while (more && traversal.in_block) {
             if (work >= work_budget) {
                 return true;
             }
             work++;
-            search.cell = ldc_march_square(walk.flat_ray, walk.cells);
-            vec2 stretch = ldc_stretch(walk, search.cell, search.cell + 1);
-            if (walk.cells.rows > 0 && stretch.x <= stretch.y) {
-                if (ldc_is_behind(walk, stretch.x, state.best.t)) {
-                    trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+            search.cell = ldc_march_square(traversal.flat_ray, traversal.cells);
+            vec2 interval = ldc_square_interval(traversal, search.cell, search.cell + 1);
+            if (traversal.cells.rows > 0 && interval.x <= interval.y) {
+                if (ldc_is_behind(traversal, interval.x, state.best.t)) {
+                    trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
                     return false;
                 }
-                search.t_low = stretch.x;
-                search.t_high = stretch.y;
+                search.t_low = interval.x;
+                search.t_high = interval.y;
                 state.cells++;
-                trace_log(STEP_CELL, 2u * walk.axis, uint(search.cell.x), uint(search.cell.y), stretch.x, stretch.y);
+                trace_log(STEP_CELL, 2u * traversal.axis, uint(search.cell.x), uint(search.cell.y), interval.x,
+                    interval.y);
                 if (ldc_search(s, ray, ordered, search, state, work)) {
                     return true;
                 }
@@ -126,8 +130,8 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
                 }
             }
             search.begun = false;
-            search.in_fringe = false;
-            more = ldc_march_next(walk.flat_ray, walk.cells) || ldc_next_block(walk);
+            search.in_conservative = false;
+            more = ldc_march_next(traversal.flat_ray, traversal.cells) || ldc_next_block(traversal);
         }
     }
     return false;
@@ -147,25 +151,25 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint first_axis = triangle_major_axis(ray.direction);
     for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;
-        LdcWalk walk = ldc_begin_walk(s, ray, sizes, axis, clip.x, clip.y);
+        LdcTraversal traversal = ldc_begin_traversal(s, ray, sizes, axis, clip.x, clip.y);
         LdcSearch search;
         search.sizes = sizes;
         search.axis = axis;
-        search.z_origin = walk.z_origin;
-        search.z_direction = walk.z_direction;
+        search.z_origin = traversal.z_origin;
+        search.z_direction = traversal.z_direction;
         search.begun = false;
-        search.in_fringe = false;
+        search.in_conservative = false;
         search.place = 0u;
         bool more = true;
         if (restored) {
-            ldc_restore(state, walk, search);
+            ldc_restore(state, traversal, search);
             restored = false;
         } else {
             trace_log(STEP_VIEW, 2u * axis, 0u, 0u, clip.x, clip.y);
-            more = ldc_begin_view(clip, walk);
+            more = ldc_begin_view(clip, traversal);
         }
-        if (ldc_trace_view(s, ray, any_hit, ordered, more, walk, search, state, work)) {
-            ldc_save(walk, turn, search, state);
+        if (ldc_trace_view(s, ray, any_hit, ordered, more, traversal, search, state, work)) {
+            ldc_save(traversal, turn, search, state);
             return TRACE_PAUSED;
         }
         if (any_hit && state.best.primitive != PRIMITIVE_NONE) {

@@ -26,8 +26,8 @@ struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
     uint capacity;        // places the pools hold
-    uint fringe_demand;   // triangles kept outside of centres; counted once all fragments fit
-    uint fringe_capacity; // triangles that the conservative lists hold
+    uint conservative_demand;   // triangles kept outside of centres; counted once all fragments fit
+    uint conservative_capacity; // triangles that the conservative lists hold
     uint unsorted;        // lists longer than the sort passes sort
     uint corrupted;       // list entries that name no fragment
     uint resolution;      // cells along a side of a view
@@ -47,13 +47,13 @@ struct LdcHeader {
     uvec2 payload_address; // device address of what fragments carry in addition to their depth
     uvec2 blocks_address; // device address of the blocks
     uvec2 heads_address;  // device address of the heads of the conservative lists
-    uvec2 fringe_address; // device address of the conservative lists' nodes
+    uvec2 conservative_address; // device address of the conservative lists' nodes
     uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
     uint layer_capacity;  // layers that are peeled
     uint layer_limit;     // layers that may be peeled
     uint beyond;          // fragments behind the layers that may be peeled
-    uint pairs;           // triangles with many cells of their view, also those beyond the capacity; binning only
-    uint pair_capacity;   // triangles that their queue holds
+    uint large_demand;           // triangles with many cells of their view, also those beyond the capacity; binning only
+    uint large_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
 };
 

@@ -1,5 +1,5 @@
 // What: what a binning pass does with a triangle in a face; BIN_VISIT says which pass it is.
-// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; pairs, header.pairs, header.groups.
+// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; pairs, header.large_demand, header.groups.
 // Source: DIRT section 4.1, by computing instead of drawing. The same functions decide as in the raster builder.
 #ifndef PRIMITIVE_BINNED_GLSL
 #define PRIMITIVE_BINNED_GLSL
@@ -14,16 +14,16 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 };
 
 #ifdef ADDRESSING_ADDRESS
-#define PAIR_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).pairs_address).words[place]
+#define LARGE_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).large_address).words[place]
 #else
-layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitivePairsBuffer { uint primitive_pair_words[]; };
-#define PAIR_WORD(s, place) primitive_pair_words[place]
+layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveLargeBuffer { uint primitive_large_words[]; };
+#define LARGE_WORD(s, place) primitive_large_words[place]
 #endif
 
-#define PairRef PrimitiveRef
-#define PAIR_HEADER(s) PRIMITIVE_HEADER(s)
-#define PAIR_CAPACITY(s) PRIMITIVE_HEADER(s).pair_capacity
-#include "ads/bin_pairs.glsl"
+#define LargeRef PrimitiveRef
+#define LARGE_HEADER(s) PRIMITIVE_HEADER(s)
+#define LARGE_CAPACITY(s) PRIMITIVE_HEADER(s).large_capacity
+#include "ads/bin_large.glsl"
 
 #define bin_built primitive_built
 // The bounds of cells are always needed, so no pass of its own comes before.
@@ -46,7 +46,7 @@ struct Bin {
     float margin;
     ivec2 lower;
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -67,7 +67,7 @@ bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
         return false;
     }
     bin.overlap = overlap_begin(bin.a, bin.b, bin.c);
-    bin.many = bin_is_many(bin.lower, bin.upper);
+    bin.large = bin_is_large(bin.lower, bin.upper);
     return true;
 }
 

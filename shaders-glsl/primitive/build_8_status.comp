@@ -14,6 +14,6 @@ layout(push_constant, scalar) uniform PrimitiveBuildConstants {
 void main() {
     bool lists_fit = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
         && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
-    bool pairs_fit = PRIMITIVE_HEADER(primitive_built).pairs <= PRIMITIVE_HEADER(primitive_built).pair_capacity;
-    PRIMITIVE_HEADER(primitive_built).status = build_status(lists_fit && pairs_fit);
+    bool large_fits = PRIMITIVE_HEADER(primitive_built).large_demand <= PRIMITIVE_HEADER(primitive_built).large_capacity;
+    PRIMITIVE_HEADER(primitive_built).status = build_status(lists_fit && large_fits);
 }

@@ -27,7 +27,7 @@
 #define PRIMITIVE_MARCH_JUMP 1u
 
 // Words per triangle for large triangles: one per face.
-#define PRIMITIVE_PAIR_LIMIT 6u
+#define PRIMITIVE_LARGE_LIMIT 6u
 
 // Where the faces touch: at the eye, or within the geometry.
 #define PRIMITIVE_CENTRE_EYE 0u

@@ -5,7 +5,7 @@
 #ifndef PRIMITIVE_JUMP_GLSL
 #define PRIMITIVE_JUMP_GLSL
 
-#include "ads/march_leap.glsl"
+#include "ads/march_skip.glsl"
 #include "primitive/header.glsl"
 
 // Half a pixel in x/z; a face is 2 wide.
@@ -15,23 +15,23 @@ float primitive_half_pixel(PrimitiveRef s) {
 
 // Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the
 // segment's end; false behind it. A face takes at most two jumps a pixel and a step a tile.
-bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchLeap leap) {
+bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     m.neighbours = 0u;
-    if (!leap.step_x && !leap.step_y) {
+    if (!skip.step_x && !skip.step_y) {
         return false;
     }
     precise vec2 ahead = m.direction.xy * m.origin.z;
     precise vec2 behind = m.origin.xy * m.direction.z;
     vec2 heading = abs(ahead - behind);
     int axis = heading.x >= heading.y ? 0 : 1;
-    vec3 leaves = m.origin + leap.t_out * m.direction;
+    vec3 leaves = m.origin + skip.t_out * m.direction;
     int way = m.step_direction[axis];
     float landing = leaves[axis] / leaves.z + float(way) * primitive_half_pixel(s);
     float error;
     float t = march_crossing(landing, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
     // Where rounding hides the half pixel the march is the exact one, so that every ray ends.
-    if (!(t > leap.t_out)) {
-        bool more = march_take_leap(m, leap);
+    if (!(t > skip.t_out)) {
+        bool more = march_take_skip(m, skip);
         m.neighbours = 0u;
         return more;
     }

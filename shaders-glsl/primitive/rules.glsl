@@ -5,7 +5,7 @@
 #ifndef PRIMITIVE_RULES_GLSL
 #define PRIMITIVE_RULES_GLSL
 
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 #include "primitive/lists.glsl"
 
 // A tile of a face, and the ray in the face's space.
@@ -29,7 +29,7 @@ bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, 
     vec2 barycentrics;
     float t_error;
     state.tests++;
-    uint verdict = judge_triangle(ray, state.best, primitive, -infinity, infinity, t, barycentrics, t_error);
+    uint verdict = evaluate_triangle(ray, state.best, primitive, -infinity, infinity, t, barycentrics, t_error);
     if (verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
         verdict = TEST_OUTSIDE_CELL;
     }

@@ -9,7 +9,7 @@
 #include "contract/trace_functions.glsl"
 #include "ads/bounds_interval.glsl"
 #include "ads/constants.glsl"
-#include "primitive/leap.glsl"
+#include "primitive/skip.glsl"
 
 #define ListedRef PrimitiveRef
 #define LISTED_HEADER(s) PRIMITIVE_HEADER(s)
@@ -17,15 +17,16 @@
 #include "ads/listed.glsl"
 
 // Searches the cells of one face. True if the budget ended first; `ended` where nothing behind can count.
-bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveWalk walk, inout TraceState state,
+bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveTraversal traversal,
+    inout TraceState state,
     inout uint work, out bool ended) {
     ended = false;
     bool more = true;
     while (more) {
-        primitive_begin_search(s, walk);
-        if (!walk.searching) {
-            if (walk.search.t_low > state.best.t + slack) {
-                trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, walk.search.t_low, walk.search.t_high);
+        primitive_begin_search(s, traversal);
+        if (!traversal.searching) {
+            if (traversal.search.t_low > state.best.t + slack) {
+                trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, traversal.search.t_low, traversal.search.t_high);
                 ended = true;
                 return false;
             }
@@ -34,24 +35,26 @@ bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, i
             }
             work++;
             state.cells++;
-            trace_log(STEP_CELL, walk.segment.face, uint(walk.searched.x), uint(walk.searched.y), walk.search.t_low, walk.search.t_high);
-            MarchLeap leap;
+            trace_log(STEP_CELL, traversal.segment.face, uint(traversal.searched.x), uint(traversal.searched.y),
+                traversal.search.t_low, traversal.search.t_high);
+            MarchSkip skip;
             // What is touched outside of a cell lies within the bounds of its block.
-            if (PRIMITIVE_PYRAMID != 0u && all(equal(walk.searched, walk.cells.cell)) && primitive_leap(s, walk, leap)) {
-                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, walk.search.t_low, leap.t_out);
-                more = primitive_take_leap(s, walk, leap);
+            if (PRIMITIVE_PYRAMID != 0u && all(equal(traversal.searched, traversal.cells.cell)) && primitive_skip(s,
+                traversal, skip)) {
+                trace_log(STEP_SKIP, SKIP_OUTSIDE, 0u, 0u, traversal.search.t_low, skip.t_out);
+                more = primitive_take_skip(s, traversal, skip);
                 continue;
             }
-            walk.searching = true;
+            traversal.searching = true;
         }
-        PrimitiveTile tile = PrimitiveTile(walk.origin, walk.direction, walk.searched);
-        if (primitive_search(s, ray, tile, slack, any_hit, walk.search, state, work)) {
+        PrimitiveTile tile = PrimitiveTile(traversal.origin, traversal.direction, traversal.searched);
+        if (primitive_search(s, ray, tile, slack, any_hit, traversal.search, state, work)) {
             return true;
         }
         if (any_hit && state.best.primitive != PRIMITIVE_NONE) {
             return false;
         }
-        more = primitive_next_cell(s, walk);
+        more = primitive_next_cell(s, traversal);
     }
     return false;
 }
@@ -61,16 +64,16 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
     vec3 direction = ray.direction;
     float reach = PRIMITIVE_HEADER(s).reach;
     float slack = hit_slack(origin, direction, reach);
-    vec2 near = near_box_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
+    vec2 near = near_region_interval(origin, direction, PRIMITIVE_HEADER(s).near_size);
     vec2 clip = bounds_interval(PRIMITIVE_HEADER(s).lower, PRIMITIVE_HEADER(s).upper, origin, direction, ray.t_min - slack,
         ray.t_max + slack);
     bool distant = largest_coordinate(origin) > ORIGIN_LIMIT * reach;
-    PrimitiveWalk walk;
+    PrimitiveTraversal traversal;
     uint work = 0u;
     float t = clip.x;
     bool restored = bits_are_set(state.cursor[0], PRIMITIVE_CURSOR_STARTED);
     if (restored) {
-        primitive_restore(s, origin, direction, near, state, walk);
+        primitive_restore(s, origin, direction, near, state, traversal);
     }
     for (uint segments = 0u; segments < SEGMENT_LIMIT; segments++) {
         if (!restored) {
@@ -79,19 +82,19 @@ uint primitive_trace(PrimitiveRef s, Ray ray, inout TraceState state, bool any_h
                 trace_log(STEP_SKIP, t < clip.y ? SKIP_BEHIND : SKIP_BOUNDS, 0u, 0u, t, clip.y);
                 break;
             }
-            walk.segment = segment_at(origin, direction, t, clip.y, near);
-            walk.segment.face = distant ? SEGMENT_ALL : walk.segment.face;
-            primitive_begin_walk(s, origin, direction, walk);
-            trace_log(STEP_VIEW, walk.segment.face, 0u, 0u, walk.segment.t_begin, walk.segment.t_end);
+            traversal.segment = segment_at(origin, direction, t, clip.y, near);
+            traversal.segment.face = distant ? SEGMENT_ALL : traversal.segment.face;
+            primitive_begin_traversal(s, origin, direction, traversal);
+            trace_log(STEP_VIEW, traversal.segment.face, 0u, 0u, traversal.segment.t_begin, traversal.segment.t_end);
         }
         restored = false;
-        t = walk.segment.t_end;
+        t = traversal.segment.t_end;
         bool ended = distant;
-        bool paused = primitive_walks_cells(walk)
-            ? primitive_trace_cells(s, ray, slack, any_hit, walk, state, work, ended)
-            : listed_test(s, ray, walk.segment.face == SEGMENT_ALL, any_hit, walk.place, state, work);
+        bool paused = primitive_traverses_cells(traversal)
+            ? primitive_trace_cells(s, ray, slack, any_hit, traversal, state, work, ended)
+            : listed_test(s, ray, traversal.segment.face == SEGMENT_ALL, any_hit, traversal.place, state, work);
         if (paused) {
-            primitive_save(walk, state);
+            primitive_save(traversal, state);
             return TRACE_PAUSED;
         }
         if (ended || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {

@@ -43,9 +43,9 @@ struct PrimitiveHeader {
     uvec2 entries_address; // device address of the entries
     uvec2 sums_address;   // device address of the sums of the scan
     uvec2 near_address;   // device address of the near-region list
-    uvec2 pairs_address;  // device address of the pairs
-    uint pair_capacity;   // words that the pool of pairs holds
-    uint pairs;           // pairs: a triangle and a face of which it may reach into many columns
+    uvec2 large_address;  // device address of the large-triangle queue
+    uint large_capacity;   // words that the pool of pairs holds
+    uint large_demand;           // pairs: a triangle and a face of which it may reach into many columns
     uint groups[3];       // workgroups for them
 };
 

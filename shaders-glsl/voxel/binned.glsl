@@ -11,11 +11,11 @@
 #include "voxel/visit_voxels.glsl"
 
 // Behind the sums of the scan, where long lists are enqueued once all triangles have been visited.
-#define PairRef VoxelRef
-#define PAIR_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + place]
-#define PAIR_HEADER(s) VOXEL_HEADER(s)
-#define PAIR_CAPACITY(s) VOXEL_HEADER(s).pair_capacity
-#include "ads/bin_pairs.glsl"
+#define LargeRef VoxelRef
+#define LARGE_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + place]
+#define LARGE_HEADER(s) VOXEL_HEADER(s)
+#define LARGE_CAPACITY(s) VOXEL_HEADER(s).large_capacity
+#include "ads/bin_large.glsl"
 
 #define bin_built voxel_built
 
@@ -31,7 +31,7 @@ struct Bin {
     uint axis;
     ivec2 lower;
     ivec2 upper;
-    bool many;
+    bool large;
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
@@ -50,19 +50,19 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     // Half a cell to its sides, and what the tests of overlap add for rounding.
     float beyond = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE ? 0.5 + 1.0 / 32.0 : 0.0;
     bool kept = axis_cells(seen, pa, pb, pc, beyond, bin.lower, bin.upper);
-    bin.many = kept && bin_is_many(bin.lower, bin.upper);
+    bin.large = kept && bin_is_large(bin.lower, bin.upper);
     bool marked = VOXEL_MARKED == VOXEL_MARKED_BY_TRIANGLES && bin.axis == faced
         && triangle_has_area(triangle.a, triangle.b, triangle.c);
     ivec2 lower;
     ivec2 upper;
     AxisView columns = voxel_column_view(voxel_built, bin.axis);
     marked = marked && axis_cells(columns, pa, pb, pc, 0.5 + VOXEL_SLACK + 1.0 / 32.0, lower, upper);
-    bin.many = bin.many || (marked && bin_is_many(lower, upper));
+    bin.large = bin.large || (marked && bin_is_large(lower, upper));
 #if BIN_VISIT == BIN_VISIT_VOXELS
     bin.lower = lower;
     bin.upper = upper;
     return marked;
-#elif BIN_VISIT == BIN_VISIT_PAIRS
+#elif BIN_VISIT == BIN_VISIT_LARGE
     return kept || marked;
 #else
     return kept;

@@ -14,7 +14,7 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
 void main() {
     bool fits = VOXEL_HEADER(voxel_built).demand <= VOXEL_HEADER(voxel_built).capacity
         && VOXEL_HEADER(voxel_built).long_demand <= VOXEL_HEADER(voxel_built).long_capacity
-        && VOXEL_HEADER(voxel_built).pairs <= VOXEL_HEADER(voxel_built).pair_capacity;
+        && VOXEL_HEADER(voxel_built).large_demand <= VOXEL_HEADER(voxel_built).large_capacity;
     bool unsorted = VOXEL_HEADER(voxel_built).unsorted > 0u;
     VOXEL_HEADER(voxel_built).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
     // Of pages the fragments have been counted, of others they are the demand.

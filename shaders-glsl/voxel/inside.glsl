@@ -17,9 +17,9 @@ struct VoxelPoint {
     float depth;
 };
 
-VoxelPoint voxel_point(VoxelRef s, VoxelWalk walk, float t, ivec2 cell) {
-    uint list = axis_cell_index(walk.axis, cell, VOXEL_HEADER(s).resolution);
-    return VoxelPoint(t, cell, list, walk.origin[walk.axis] + t * walk.direction[walk.axis]);
+VoxelPoint voxel_point(VoxelRef s, VoxelTraversal traversal, float t, ivec2 cell) {
+    uint list = axis_cell_index(traversal.axis, cell, VOXEL_HEADER(s).resolution);
+    return VoxelPoint(t, cell, list, traversal.origin[traversal.axis] + t * traversal.direction[traversal.axis]);
 }
 
 // The first fragment of a sorted list that lies at a depth or beyond.
@@ -78,34 +78,35 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
 
 // Counts the fragments of a point's cell that lie before it, or finds the nearest one: walk.odd,
 // walk.held. True if the work budget ended first.
-bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk walk, inout TraceState state,
+bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
-    if (!walk.in_list) {
-        walk.odd = false;
-        walk.held = VOXEL_NO_PLACE;
+    if (!traversal.in_list) {
+        traversal.odd = false;
+        traversal.held = VOXEL_NO_PLACE;
         if (!nearest) {
             state.cells++;
             work++;
-            trace_log(STEP_CELL, walk.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
+            trace_log(STEP_CELL, traversal.axis, uint(point.cell.x), uint(point.cell.y), point.t, point.t);
         }
     }
     bool sorted = voxel_lists_sorted(s);
     if (sorted && voxel_contiguous()) {
         uvec2 list = voxel_list(s, point.list);
         if (nearest) {
-            walk.held = voxel_nearest_sorted(s, list, point.depth, state, work);
+            traversal.held = voxel_nearest_sorted(s, list, point.depth, state, work);
         } else {
-            walk.odd = ((voxel_first_from(s, list, point.depth, state, work) - list.x) & 1u) != 0u;
+            traversal.odd = ((voxel_first_from(s, list, point.depth, state, work) - list.x) & 1u) != 0u;
         }
         return false;
     }
-    VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, point.list, walk.link) : voxel_list_begin(s, point.list);
-    float held_z = walk.held == VOXEL_NO_PLACE ? 0.0 : voxel_z(s, walk.held);
-    walk.in_list = false;
+    VoxelCursor cursor = traversal.in_list ? voxel_list_resume(s, point.list, traversal.link) : voxel_list_begin(s,
+        point.list);
+    float held_z = traversal.held == VOXEL_NO_PLACE ? 0.0 : voxel_z(s, traversal.held);
+    traversal.in_list = false;
     while (cursor.link != 0u) {
         if (work >= work_budget) {
-            walk.link = cursor.link;
-            walk.in_list = true;
+            traversal.link = cursor.link;
+            traversal.in_list = true;
             return true;
         }
         uint place = voxel_list_next(s, cursor);
@@ -114,9 +115,9 @@ bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelWalk
         }
         float z = voxel_read(s, place, state, work);
         if (nearest) {
-            voxel_hold_nearer(s, point.depth, place, z, walk.held, held_z);
+            voxel_hold_nearer(s, point.depth, place, z, traversal.held, held_z);
         } else if (z < point.depth) {
-            walk.odd = !walk.odd;
+            traversal.odd = !traversal.odd;
         }
         // In order, those that follow lie no nearer and not before the point.
         if (sorted && z >= point.depth) {

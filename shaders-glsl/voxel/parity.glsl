@@ -30,56 +30,59 @@ struct VoxelSpan {
     ivec2 cell_after;
 };
 
-ivec2 voxel_cell_at(VoxelRef s, VoxelWalk walk, float t) {
-    vec3 p = triangle_permute(walk.origin + t * walk.direction, walk.axis) * VOXEL_HEADER(s).cells_per_metre;
+ivec2 voxel_cell_at(VoxelRef s, VoxelTraversal traversal, float t) {
+    vec3 p = triangle_permute(traversal.origin + t * traversal.direction,
+        traversal.axis) * VOXEL_HEADER(s).cells_per_metre;
     return ivec2(clamp(floor(p.xy), vec2(0.0), vec2(float(VOXEL_HEADER(s).resolution) - 1.0)));
 }
 
 // The part of the ray that the traversal's step crosses, within a segment of it.
-VoxelSpan voxel_span(VoxelRef s, VoxelWalk walk, vec2 stretch) {
+VoxelSpan voxel_span(VoxelRef s, VoxelTraversal traversal, vec2 interval) {
     if (VOXEL_MARCH == VOXEL_MARCH_SAMPLES) {
-        float length = stretch.y - stretch.x;
+        float length = interval.y - interval.x;
         float steps = float(VOXEL_HEADER(s).samples);
-        float t_after = stretch.x + length * (float(walk.step + 1u) / steps);
-        return VoxelSpan(stretch.x + length * (float(walk.step) / steps), t_after, voxel_cell_at(s, walk, t_after));
+        float t_after = interval.x + length * (float(traversal.step + 1u) / steps);
+        return VoxelSpan(interval.x + length * (float(traversal.step) / steps), t_after, voxel_cell_at(s, traversal,
+            t_after));
     }
-    return VoxelSpan(max(walk.cells.t_in, stretch.x), min(walk.cells.t_out, stretch.y), walk.cells.cell.xy);
+    return VoxelSpan(max(traversal.cells.t_in, interval.x), min(traversal.cells.t_out, interval.y),
+        traversal.cells.cell.xy);
 }
 
 // Takes the middle of a span as its far or its near point.
-void voxel_halve(VoxelRef s, VoxelWalk walk, bool takes_far, inout VoxelSpan span) {
+void voxel_halve(VoxelRef s, VoxelTraversal traversal, bool takes_far, inout VoxelSpan span) {
     float t = 0.5 * (span.t_before + span.t_after);
     if (takes_far) {
         span.t_after = t;
-        span.cell_after = voxel_cell_at(s, walk, t);
+        span.cell_after = voxel_cell_at(s, traversal, t);
     } else {
         span.t_before = t;
     }
 }
 
 // The point whose cell the traversal's stage reads.
-VoxelPoint voxel_stage_point(VoxelRef s, VoxelWalk walk, vec2 stretch, VoxelSpan span) {
-    if (walk.stage == VOXEL_STAGE_ENTER) {
-        return voxel_point(s, walk, stretch.x, walk.cells.cell.xy);
+VoxelPoint voxel_stage_point(VoxelRef s, VoxelTraversal traversal, vec2 interval, VoxelSpan span) {
+    if (traversal.stage == VOXEL_STAGE_ENTER) {
+        return voxel_point(s, traversal, interval.x, traversal.cells.cell.xy);
     }
-    if (walk.stage == VOXEL_STAGE_NEAR) {
-        return voxel_point(s, walk, span.t_before, voxel_cell_at(s, walk, span.t_before));
+    if (traversal.stage == VOXEL_STAGE_NEAR) {
+        return voxel_point(s, traversal, span.t_before, voxel_cell_at(s, traversal, span.t_before));
     }
-    if (walk.stage == VOXEL_STAGE_HALVE && walk.halvings < VOXEL_HALVED) {
+    if (traversal.stage == VOXEL_STAGE_HALVE && traversal.halvings < VOXEL_HALVED) {
         float t = 0.5 * (span.t_before + span.t_after);
-        return voxel_point(s, walk, t, voxel_cell_at(s, walk, t));
+        return voxel_point(s, traversal, t, voxel_cell_at(s, traversal, t));
     }
-    return voxel_point(s, walk, span.t_after, span.cell_after);
+    return voxel_point(s, traversal, span.t_after, span.cell_after);
 }
 
 // Lets the triangle of the traversal's nearest fragment become the best hit, in the middle of a span; true if it does.
-bool voxel_take(VoxelRef s, Ray ray, VoxelWalk walk, VoxelSpan span, float depth, inout TraceState state) {
-    uint place = walk.held;
+bool voxel_take(VoxelRef s, Ray ray, VoxelTraversal traversal, VoxelSpan span, float depth, inout TraceState state) {
+    uint place = traversal.held;
     uint primitive = place == VOXEL_NO_PLACE ? PRIMITIVE_NONE : voxel_primitive(s, place);
     float t = 0.5 * (span.t_before + span.t_after);
     // A fragment without an id cannot be the triangle that is excluded.
     bool excluded = primitive != PRIMITIVE_UNKNOWN && primitive == ray.exclude_primitive;
-    uint verdict = primitive == PRIMITIVE_NONE ? TEST_BESIDE : (excluded ? TEST_EXCLUDED
+    uint verdict = primitive == PRIMITIVE_NONE ? TEST_OUTSIDE : (excluded ? TEST_EXCLUDED
         : (!(t > ray.t_min) ? TEST_BEFORE : (!(t < ray.t_max) ? TEST_BEYOND
         : (hit_is_better(state.best, t, primitive) ? TEST_ACCEPTED : TEST_NOT_BETTER))));
     trace_log(STEP_FRAGMENT, primitive, verdict, 0u, t, depth);
@@ -96,29 +99,30 @@ bool voxel_take(VoxelRef s, Ray ray, VoxelWalk walk, VoxelSpan span, float depth
 }
 
 // Goes to the next step; false at the end of the voxel.
-bool voxel_next_step(VoxelRef s, vec2 stretch, inout VoxelWalk walk, inout VoxelSpan span) {
-    walk.step++;
-    bool more = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? walk.step < VOXEL_HEADER(s).samples : grid_next(walk.cells);
+bool voxel_next_step(VoxelRef s, vec2 interval, inout VoxelTraversal traversal, inout VoxelSpan span) {
+    traversal.step++;
+    bool more = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step < VOXEL_HEADER(s).samples
+        : grid_next(traversal.cells);
     // Only samples are counted by steps, and no more than a paused ray can keep.
-    walk.step = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? walk.step : 0u;
-    walk.cell = walk.cells.cell;
-    walk.stage = VOXEL_STAGE_STEP;
-    span = voxel_span(s, walk, stretch);
+    traversal.step = VOXEL_MARCH == VOXEL_MARCH_SAMPLES ? traversal.step : 0u;
+    traversal.cell = traversal.cells.cell;
+    traversal.stage = VOXEL_STAGE_STEP;
+    span = voxel_span(s, traversal, interval);
     return more;
 }
 
 // Goes on from the list that the traversal's stage has read; false at the end of the voxel, or at the first
 // crossing that counts, which is the nearest.
-bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, bool any_hit, inout VoxelWalk walk,
+bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_hit, inout VoxelTraversal traversal,
     inout VoxelSpan span, inout TraceState state) {
-    if (walk.stage == VOXEL_STAGE_ENTER) {
-        walk.inside = walk.odd;
-        walk.stage = VOXEL_STAGE_STEP;
+    if (traversal.stage == VOXEL_STAGE_ENTER) {
+        traversal.inside = traversal.odd;
+        traversal.stage = VOXEL_STAGE_STEP;
         return true;
     }
-    if (walk.stage == VOXEL_STAGE_STEP) {
-        if (walk.odd == walk.inside) {
-            return voxel_next_step(s, stretch, walk, span);
+    if (traversal.stage == VOXEL_STAGE_STEP) {
+        if (traversal.odd == traversal.inside) {
+            return voxel_next_step(s, interval, traversal, span);
         }
         // A ray that asks for any hit has it: the crossing lies between the points, and these between the ray's ends.
         // Where fragments name a triangle it may be the one that the ray excludes.
@@ -126,46 +130,47 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 stretch, float depth, bool any_h
             state.best = Hit(0.5 * (span.t_before + span.t_after), PRIMITIVE_UNKNOWN, 0.0, 0.0);
             return false;
         }
-        walk.stage = VOXEL_STAGE_HALVE;
-        walk.halvings = 1u;
+        traversal.stage = VOXEL_STAGE_HALVE;
+        traversal.halvings = 1u;
         return true;
     }
-    if (walk.stage == VOXEL_STAGE_HALVE && walk.halvings < VOXEL_HALVED) {
-        bool takes_far = walk.odd != walk.inside;
-        walk.halvings = walk.halvings << 1 | (takes_far ? 1u : 0u);
-        voxel_halve(s, walk, takes_far, span);
+    if (traversal.stage == VOXEL_STAGE_HALVE && traversal.halvings < VOXEL_HALVED) {
+        bool takes_far = traversal.odd != traversal.inside;
+        traversal.halvings = traversal.halvings << 1 | (takes_far ? 1u : 0u);
+        voxel_halve(s, traversal, takes_far, span);
         return true;
     }
-    if (walk.stage == VOXEL_STAGE_HALVE && walk.held == VOXEL_NO_PLACE) {
-        walk.stage = VOXEL_STAGE_NEAR;
+    if (traversal.stage == VOXEL_STAGE_HALVE && traversal.held == VOXEL_NO_PLACE) {
+        traversal.stage = VOXEL_STAGE_NEAR;
         return true;
     }
-    if (voxel_take(s, ray, walk, span, depth, state)) {
+    if (voxel_take(s, ray, traversal, span, depth, state)) {
         return false;
     }
-    walk.inside = !walk.inside;
-    return voxel_next_step(s, stretch, walk, span);
+    traversal.inside = !traversal.inside;
+    return voxel_next_step(s, interval, traversal, span);
 }
 
 // Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
-bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelWalk walk, inout TraceState state, inout uint work) {
-    vec2 stretch = vec2(max(walk.voxels.t_in, ray.t_min), min(walk.voxels.t_out, ray.t_max));
-    bool restored = walk.searching;
-    if (!(stretch.x <= stretch.y) || !voxel_begin_cells(s, stretch, walk)) {
+bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelTraversal traversal, inout TraceState state,
+    inout uint work) {
+    vec2 interval = vec2(max(traversal.voxels.t_in, ray.t_min), min(traversal.voxels.t_out, ray.t_max));
+    bool restored = traversal.searching;
+    if (!(interval.x <= interval.y) || !voxel_begin_cells(s, interval, traversal)) {
         return false;
     }
     if (restored) {
-        voxel_restore_cells(state, walk);
+        voxel_restore_cells(state, traversal);
     } else {
-        walk.stage = VOXEL_STAGE_ENTER;
-        walk.step = 0u;
-        walk.in_list = false;
+        traversal.stage = VOXEL_STAGE_ENTER;
+        traversal.step = 0u;
+        traversal.in_list = false;
     }
-    walk.searching = true;
-    VoxelSpan span = voxel_span(s, walk, stretch);
-    if (walk.stage >= VOXEL_STAGE_HALVE) {
-        for (int k = findMSB(walk.halvings) - 1; k >= 0; k--) {
-            voxel_halve(s, walk, (walk.halvings >> k & 1u) != 0u, span);
+    traversal.searching = true;
+    VoxelSpan span = voxel_span(s, traversal, interval);
+    if (traversal.stage >= VOXEL_STAGE_HALVE) {
+        for (int k = findMSB(traversal.halvings) - 1; k >= 0; k--) {
+            voxel_halve(s, traversal, (traversal.halvings >> k & 1u) != 0u, span);
         }
     }
     bool more = true;
@@ -173,14 +178,15 @@ bool voxel_search_parity(VoxelRef s, Ray ray, bool any_hit, inout VoxelWalk walk
         if (work >= work_budget) {
             return true;
         }
-        VoxelPoint point = voxel_stage_point(s, walk, stretch, span);
-        bool nearest = walk.stage == VOXEL_STAGE_NEAR || (walk.stage == VOXEL_STAGE_HALVE && walk.halvings >= VOXEL_HALVED);
-        if (voxel_read_list(s, point, nearest, walk, state, work)) {
+        VoxelPoint point = voxel_stage_point(s, traversal, interval, span);
+        bool nearest = traversal.stage == VOXEL_STAGE_NEAR || (traversal.stage == VOXEL_STAGE_HALVE
+            && traversal.halvings >= VOXEL_HALVED);
+        if (voxel_read_list(s, point, nearest, traversal, state, work)) {
             return true;
         }
-        more = voxel_next_stage(s, ray, stretch, point.depth, any_hit, walk, span, state);
+        more = voxel_next_stage(s, ray, interval, point.depth, any_hit, traversal, span, state);
     }
-    walk.searching = false;
+    traversal.searching = false;
     return false;
 }
 

@@ -6,9 +6,9 @@
 #define VOXEL_SEARCH_GLSL
 
 #include "contract/trace_log.glsl"
-#include "ads/judge.glsl"
-#include "ads/judge_plane.glsl"
-#include "voxel/walk.glsl"
+#include "ads/evaluate.glsl"
+#include "ads/evaluate_plane.glsl"
+#include "voxel/traversal.glsl"
 
 bool voxel_lists_sorted(VoxelRef s) {
     return VOXEL_SORT != 0u && VOXEL_HEADER(s).unsorted == 0u;
@@ -35,39 +35,40 @@ uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, i
 }
 
 // Searches the list of the traversal's cell over the ray's segment in it. True if the work budget ended first.
-bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, inout TraceState state, inout uint work) {
+bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal traversal, inout TraceState state,
+    inout uint work) {
     uint resolution = VOXEL_HEADER(s).resolution;
     float width = VOXEL_HEADER(s).cell;
-    uint index = axis_cell_index(walk.axis, walk.cell.xy, resolution);
-    VoxelCursor cursor = walk.in_list ? voxel_list_resume(s, index, walk.link) : voxel_list_begin(s, index);
+    uint index = axis_cell_index(traversal.axis, traversal.cell.xy, resolution);
+    VoxelCursor cursor = traversal.in_list ? voxel_list_resume(s, index, traversal.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
     // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises
     // by a maximum of one cell from the centre to a corner. A cell more finds triangles that the ray hits in the
     // next cell, whose centre they may not cover. Where cells keep all that reaches into them nothing may be
     // lost, not the hits on slivers whose planes rounding has turned: then all of the list is searched.
-    float origin_z = walk.origin[walk.axis];
-    float direction_z = walk.direction[walk.axis];
-    float z_in = origin_z + stretch.x * direction_z;
-    float z_out = origin_z + stretch.y * direction_z;
+    float origin_z = traversal.origin[traversal.axis];
+    float direction_z = traversal.direction[traversal.axis];
+    float z_in = origin_z + interval.x * direction_z;
+    float z_out = origin_z + interval.y * direction_z;
     bool triangles = VOXEL_COVERAGE == VOXEL_COVERAGE_CONSERVATIVE;
     float slack = VOXEL_AXES == VOXEL_AXES_TRIANGLE && !triangles
-        ? 2.01 * width + 4.8e-7 * (abs(origin_z) + max(abs(stretch.x), abs(stretch.y)) * abs(direction_z))
+        ? 2.01 * width + 4.8e-7 * (abs(origin_z) + max(abs(interval.x), abs(interval.y)) * abs(direction_z))
         : uintBitsToFloat(0x7F800000u);
     float low = min(z_in, z_out) - slack;
     float high = max(z_in, z_out) + slack;
     PlaneCell plane_cell = PlaneCell(vec3(0.0), 0.0, width, VOXEL_PLANE_REACH, true);
-    if (!walk.in_list) {
+    if (!traversal.in_list) {
         trace_log(STEP_LIST, index, max(cursor.link, 1u) - 1u, cursor.last, low, high);
         if (sorted && voxel_contiguous() && cursor.link != 0u && cursor.last - cursor.link >= VOXEL_BISECT_FROM) {
             uint first = voxel_bisect(s, uvec2(cursor.link - 1u, cursor.last), low, state, work);
             cursor.link = first < cursor.last ? first + 1u : 0u;
         }
     }
-    walk.in_list = false;
+    traversal.in_list = false;
     while (cursor.link != 0u) {
         if (work >= work_budget) {
-            walk.link = cursor.link;
-            walk.in_list = true;
+            traversal.link = cursor.link;
+            traversal.in_list = true;
             return true;
         }
         work++;
@@ -93,46 +94,47 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 stretch, inout VoxelWalk walk, 
             test_triangle(ray, primitive, -infinity, infinity, state.best);
             continue;
         }
-        test_plane(plane_cell, ray, primitive, stretch.x, stretch.y, state.best);
+        test_plane(plane_cell, ray, primitive, interval.x, interval.y, state.best);
     }
     return false;
 }
 
 // Searches the traversal's voxel in the traversal's view. True if the work budget ended first.
-bool voxel_search(VoxelRef s, Ray ray, vec2 stretch, bool any_hit, inout VoxelWalk walk, inout TraceState state,
+bool voxel_search(VoxelRef s, Ray ray, vec2 interval, bool any_hit, inout VoxelTraversal traversal,
+    inout TraceState state,
     inout uint work) {
-    bool restored = walk.searching;
-    if (!voxel_begin_cells(s, stretch, walk)) {
+    bool restored = traversal.searching;
+    if (!voxel_begin_cells(s, interval, traversal)) {
         return false;
     }
     if (restored) {
-        voxel_restore_cells(state, walk);
+        voxel_restore_cells(state, traversal);
     } else {
-        walk.in_list = false;
+        traversal.in_list = false;
     }
-    walk.searching = true;
+    traversal.searching = true;
     bool more = true;
     while (more) {
-        vec2 within = vec2(max(stretch.x, walk.cells.t_in - walk.cells.error_in),
-            min(stretch.y, walk.cells.t_out + walk.cells.t_error));
+        vec2 within = vec2(max(interval.x, traversal.cells.t_in - traversal.cells.error_in),
+            min(interval.y, traversal.cells.t_out + traversal.cells.t_error));
         if (within.x > state.best.t) {
             trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, within.x, within.y);
             break;
         }
-        if (!walk.in_list) {
+        if (!traversal.in_list) {
             if (work >= work_budget) {
                 return true;
             }
             work++;
             state.cells++;
-            trace_log(STEP_CELL, walk.axis, uint(walk.cell.x), uint(walk.cell.y), within.x, within.y);
+            trace_log(STEP_CELL, traversal.axis, uint(traversal.cell.x), uint(traversal.cell.y), within.x, within.y);
         }
-        if (voxel_search_list(s, ray, within, walk, state, work)) {
+        if (voxel_search_list(s, ray, within, traversal, state, work)) {
             return true;
         }
-        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next_cell(walk);
+        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next_cell(traversal);
     }
-    walk.searching = false;
+    traversal.searching = false;
     return false;
 }
 

@@ -10,51 +10,52 @@
 #include "voxel/parity.glsl"
 
 uint voxel_trace(VoxelRef s, Ray ray, inout TraceState state, bool any_hit) {
-    VoxelWalk walk;
-    bool more = voxel_begin(s, ray, walk);
+    VoxelTraversal traversal;
+    bool more = voxel_begin(s, ray, traversal);
     if (!more) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
     } else if (bits_are_set(state.cursor[0], VOXEL_CURSOR_STARTED)) {
-        voxel_restore(state, walk);
+        voxel_restore(state, traversal);
     }
-    bool entered = walk.searching;
+    bool entered = traversal.searching;
     uint work = 0u;
     while (more) {
-        vec2 stretch = voxel_stretch(walk);
+        vec2 interval = voxel_interval(traversal);
         // Nothing behind the best hit can be nearer.
-        if (stretch.x > state.best.t) {
-            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, stretch.x, stretch.y);
+        if (interval.x > state.best.t) {
+            trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
             break;
         }
-        uint bits = voxel_bits(s, voxel_index(s, walk.voxel));
+        uint bits = voxel_bits(s, voxel_index(s, traversal.voxel));
         if (!entered) {
             if (work >= work_budget) {
-                voxel_save(walk, state);
+                voxel_save(traversal, state);
                 return TRACE_PAUSED;
             }
             work++;
             state.cells++;
             // A cell of a fourth view, whose rows are those of all layers.
-            uint row = uint(walk.voxel.y) + VOXEL_HEADER(s).grid * uint(walk.voxel.z);
-            trace_log(STEP_CELL, AXIS_VIEWS, uint(walk.voxel.x), row, stretch.x, stretch.y);
+            uint row = uint(traversal.voxel.y) + VOXEL_HEADER(s).grid * uint(traversal.voxel.z);
+            trace_log(STEP_CELL, AXIS_VIEWS, uint(traversal.voxel.x), row, interval.x, interval.y);
         }
         entered = false;
         if (bits == 0u) {
             trace_log(STEP_SKIP, SKIP_EMPTY, 0u, 0u, 0.0, 0.0);
         }
-        for (; walk.axis < AXIS_VIEWS; walk.axis++) {
-            if ((bits >> walk.axis & 1u) == 0u || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
+        for (; traversal.axis < AXIS_VIEWS; traversal.axis++) {
+            if ((bits >> traversal.axis & 1u) == 0u || (any_hit && state.best.primitive != PRIMITIVE_NONE)) {
                 continue;
             }
-            bool paused = VOXEL_ACCEPT == VOXEL_ACCEPT_PLANE ? voxel_search(s, ray, stretch, any_hit, walk, state, work)
-                : voxel_search_parity(s, ray, any_hit, walk, state, work);
+            bool paused = VOXEL_ACCEPT == VOXEL_ACCEPT_PLANE ? voxel_search(s, ray, interval, any_hit, traversal, state,
+                work)
+                : voxel_search_parity(s, ray, any_hit, traversal, state, work);
             if (paused) {
-                voxel_save(walk, state);
+                voxel_save(traversal, state);
                 return TRACE_PAUSED;
             }
         }
-        walk.axis = 0u;
-        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next(walk);
+        traversal.axis = 0u;
+        more = !(any_hit && state.best.primitive != PRIMITIVE_NONE) && voxel_next(traversal);
     }
     return state.best.primitive == PRIMITIVE_NONE ? TRACE_MISS : TRACE_HIT;
 }

@@ -45,8 +45,8 @@ struct VoxelHeader {
     uvec2 lists_address;  // device address of the lists
     uvec2 fragments_address; // device address of the fragments
     uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
-    uint pairs;           // triangles with many cells of a view, also those beyond the capacity; binning only
-    uint pair_capacity;   // triangles that their queue holds
+    uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
+    uint large_capacity;   // triangles that their queue holds
     uint groups[3];       // workgroups for them
 };
 

@@ -4,7 +4,7 @@ use rasray_ads::{Check, Hit, Ray, Sizes, Structure, Viewpoint};
 
 use crate::harness::Bench;
 
-/// What a build counts, and the pool that has room for so many.
+/// What a build counts, and the pool that has capacity for so many.
 #[derive(Clone, Copy, Debug)]
 pub struct Counted {
     /// Its name in the status of a build.
@@ -38,9 +38,9 @@ pub fn check_capacities_of(
     check_capacities(bench, structure, [0.0; 3].into(), counted, sizes, hits)
 }
 
-/// Builds a structure in room for none, one, half, all but one and all of what is counted, `sizes` being its
-/// pools with room for so many. What has no room is counted and grown, no build is said to be complete until it
-/// has, and what it asks for is enough; the answers of complete builds are those of one in ample room. Returns
+/// Builds a structure in capacity for none, one, half, all but one and all of what is counted, `sizes` being its
+/// pools with capacity for so many. What has no capacity is counted and grown, no build is said to be complete until it
+/// has, and what it asks for is enough; the answers of complete builds are those of one in ample capacity. Returns
 /// how many there are, which is more than ten.
 ///
 /// # Panics
@@ -63,18 +63,18 @@ pub fn check_capacities<T: PartialEq>(
     let (check, demand, expected) = built(structure, &sizes(1 << 16));
     assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} in ample room");
     let spread = if counted.pages { demand / SPREAD_OF_PAGES } else { 0 };
-    for room in [0, 1, demand / 2, demand - 1] {
-        let (check, found, answers) = built(structure, &sizes(room));
-        assert!(found.abs_diff(demand) <= spread, "room for {room}: {found} for {demand}");
+    for capacity in [0, 1, demand / 2, demand - 1] {
+        let (check, found, answers) = built(structure, &sizes(capacity));
+        assert!(found.abs_diff(demand) <= spread, "room for {capacity}: {found} for {demand}");
         let Check::Grow(mut grown) = check else {
-            assert!(found <= room && answers == expected, "room for {room}: complete with {found}");
+            assert!(found <= capacity && answers == expected, "room for {capacity}: complete with {found}");
             continue;
         };
-        assert!(found > room && answers.is_none(), "room for {room}: incomplete with {found}");
-        // Pages come with a little more room.
+        assert!(found > capacity && answers.is_none(), "room for {capacity}: incomplete with {found}");
+        // Pages come with a little more capacity.
         let more = if counted.pages { found / SPREAD_OF_PAGES } else { 0 };
         let enough = sizes(found + more).elements(counted.pool);
-        assert_eq!(grown.elements(counted.pool), enough, "room for {room}");
+        assert_eq!(grown.elements(counted.pool), enough, "room for {capacity}");
         // What is counted later, or in other pools, may have to grow then.
         let answers = (0..4).find_map(|_| {
             let (check, _, answers) = built(structure, &grown);
@@ -83,7 +83,10 @@ pub fn check_capacities<T: PartialEq>(
             }
             answers
         });
-        assert!(answers == expected, "room for {room}: what it asks for is not enough, or changes answers");
+        assert!(
+            answers == expected,
+            "room for {capacity}: what it asks for is not enough, or changes answers"
+        );
     }
     let (check, found, answers) = built(structure, &sizes(demand + spread));
     assert!(check == Check::Complete && answers == expected, "room for {demand}: {found}");

@@ -129,7 +129,7 @@ impl Bench {
         tracer.trace(structure, rays, TraceMode::Closest, Timing::None).expect("all rays finish")
     }
 
-    /// What rays meet, and what is shaded there.
+    /// What rays hit, and what is shaded there.
     ///
     /// # Panics
     /// If the device fails, or the structure was made without a scene.
@@ -158,7 +158,7 @@ impl Bench {
         hits.into_iter().zip(surfaces).collect()
     }
 
-    /// Whether each ray meets anything.
+    /// Whether each ray hits anything.
     ///
     /// # Panics
     /// If the device fails or rays do not finish.

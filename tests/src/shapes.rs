@@ -50,8 +50,8 @@ pub fn all_sizes() -> Vec<Triangle> {
     let mut random = Random::new(7);
     for _ in 0..100 {
         let (from, to) = (random.point(-9.0, 9.0), random.point(-9.0, 9.0));
-        let beside = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
-        triangles.push([from, to, beside]);
+        let nearby = std::array::from_fn(|axis| from[axis] + random.between(-1.0e-3, 1.0e-3));
+        triangles.push([from, to, nearby]);
     }
     triangles
 }

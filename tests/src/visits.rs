@@ -1,14 +1,14 @@
 //! Which cells a march visits, on the device and in double precision.
 //!
 //! The exact side knows what single precision cannot be asked for: parts of a ray that are shorter than
-//! [`unresolved`] in t, or that lie within as much of a seam between faces or of the near box.
+//! [`unresolved`] in t, or that lie within as much of a seam between faces or of the near region.
 
 use bytemuck::{Pod, Zeroable};
 use rasray_ads::Ray;
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Device, MemoryLocation};
 use rasray_shaders_glsl::Shader;
 
-/// The face of visits to the near box, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
+/// The face of visits to the near region, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
 pub const FACE_NEAR: u32 = 6;
 
 /// Roundings of single precision that a march may lose along a ray: 64 units of 2^-24.
@@ -112,7 +112,7 @@ pub fn cell_center(cell: i32, resolution: u32) -> f32 {
     (2 * cell + 1 - resolution as i32) as f32 * (1.0 / resolution as f32)
 }
 
-/// Half side of the near box that a scene of this radius (rays included) needs: the rule of structures.
+/// Half side of the near region that a scene of this radius (rays included) needs: the rule of structures.
 pub fn near_size(resolution: u32, radius: f32) -> f32 {
     4.8e-7 * resolution as f32 * radius
 }
@@ -126,8 +126,8 @@ fn clip([low, high]: [f64; 2], at_zero: f64, slope: f64) -> [f64; 2] {
     if slope > 0.0 { [low.max(t), high] } else { [low, high.min(t)] }
 }
 
-/// The parts of a ray outside of the near box and of what rounding adds to it.
-fn outside_of_near_box(ray: &Ray, size: f64) -> Vec<[f64; 2]> {
+/// The parts of a ray outside of the near region and of what rounding adds to it.
+fn outside_of_near_region(ray: &Ray, size: f64) -> Vec<[f64; 2]> {
     let all = [f64::from(ray.t_min), f64::from(ray.t_max)];
     let mut near = [f64::NEG_INFINITY, f64::INFINITY];
     for axis in 0..3 {
@@ -155,7 +155,7 @@ fn cells_at(position: f64, tolerance: f64, boundary: impl Fn(i32) -> f64, guess:
 pub fn exact_face_chords(ray: &Ray, resolution: u32, near_size: f32) -> Vec<Chord<FaceCell>> {
     let side = f64::from(resolution);
     let mut chords = Vec::new();
-    for part in outside_of_near_box(ray, f64::from(near_size)) {
+    for part in outside_of_near_region(ray, f64::from(near_size)) {
         for face in 0..6 {
             let o = face_from_world(ray.origin.map(f64::from), face);
             let d = face_from_world(ray.direction.map(f64::from), face);

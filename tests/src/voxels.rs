@@ -26,7 +26,7 @@ pub fn made(bench: &Bench, config: Config, triangles: &[Triangle]) -> Voxels {
     Voxels::new(bench.device(), config, &geometry, None).expect("the options are valid")
 }
 
-/// The same, built in as much room as it takes.
+/// The same, built in as much capacity as it takes.
 ///
 /// # Panics
 /// As [`made`], or if it cannot be built.

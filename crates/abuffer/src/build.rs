@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Pyramid, Scan, SceneBinding, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Pyramid, Scan, SceneBinding, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
@@ -15,12 +15,12 @@ use crate::{Config, Header, March, Pool, Storage};
 #[derive(Debug)]
 pub struct Build {
     near: ComputePipeline,
-    pairs: Option<PairsPass>,
+    large: Option<LargePass>,
     bounds: Option<Visit>,
     scale: Option<ComputePipeline>,
     lengths: Option<Lengths>,
     store: Visit,
-    fringe: Option<Visit>,
+    conservative: Option<Visit>,
     lost: ComputePipeline,
     pyramid: Option<Pyramid>,
     reorder: Option<ListSort>,
@@ -62,14 +62,14 @@ impl Build {
         let reorder = || ListSort::new(pipelines, "build_11_reorder", sorted, "build_12_reorder_long");
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
-            pairs: visits.pairs("build_2_pairs")?,
+            large: visits.large("build_2_large")?,
             bounds: config.has_bounds_pass().then(|| covered("build_3_bounds", masked)).transpose()?,
             scale: scaled.then(|| pipelines.compute("build_4_scale")).transpose()?,
             lengths: (config.storage == Storage::Sb).then(lengths).transpose()?,
             store: covered("build_7_store", stored)?,
-            fringe: config
-                .has_fringe()
-                .then(|| visits.visit("build_raster.fringe", "build_8_fringe", ""))
+            conservative: config
+                .has_conservative_lists()
+                .then(|| visits.visit("build_raster.conservative", "build_8_conservative", ""))
                 .transpose()?,
             lost: pipelines.compute("build_9_lost")?,
             pyramid: (config.march == March::Pyramid)
@@ -100,8 +100,8 @@ impl Build {
         target.record_header(recorder, "abuffer/build_0_header", cleared, readers);
         let near = groups(triangles);
         target.compute_pass(recorder, "abuffer/build_1_near", &self.near, near, 0, Access::COMPUTE);
-        if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target);
+        if let Some(large) = &self.large {
+            large.record(recorder, target);
         }
         if let Some(bounds) = &self.bounds {
             bounds.record(recorder, target, &draws);
@@ -114,8 +114,8 @@ impl Build {
             lengths.scan.record(recorder, target, "abuffer/build_6_scan", lists, 0, shaders);
         }
         self.store.record(recorder, target, &draws);
-        if let Some(fringe) = &self.fringe {
-            fringe.record(recorder, target, &draws);
+        if let Some(conservative) = &self.conservative {
+            conservative.record(recorder, target, &draws);
         }
         let marks = groups(triangles.div_ceil(32));
         target.compute_pass(recorder, "abuffer/build_9_lost", &self.lost, marks, 0, Access::COMPUTE);

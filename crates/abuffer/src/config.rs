@@ -170,7 +170,7 @@ impl Config {
                 expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
             });
         }
-        if self.has_fringe() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
+        if self.has_conservative_lists() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
             return Err(AdsError::Option {
                 option: "coverage",
                 value: self.coverage.name().to_owned(),
@@ -178,7 +178,7 @@ impl Config {
                            and `payload=index` only",
             });
         }
-        if self.has_fringe() && self.single_layer {
+        if self.has_conservative_lists() && self.single_layer {
             return Err(AdsError::Option {
                 option: "single-layer",
                 value: "on".to_owned(),
@@ -207,7 +207,7 @@ impl Config {
     }
 
     /// Whether cells keep triangles outside of their centres.
-    pub(crate) fn has_fringe(&self) -> bool {
+    pub(crate) fn has_conservative_lists(&self) -> bool {
         matches!(self.coverage, Coverage::Conservative | Coverage::EdgeOn)
     }
 
@@ -247,7 +247,7 @@ impl Config {
     pub(crate) fn trace_variant(&self) -> String {
         let steps = match self.march {
             March::Exact => "cells",
-            March::Pyramid => "leaps",
+            March::Pyramid => "skips",
             March::Samples | March::Dda => "samples",
         };
         let tests = match self.accept {

@@ -16,7 +16,7 @@ pub enum Fault {
     },
     /// A link of a conservative list points to no node, or leads in a circle.
     #[error("cell {cell}: link {link} of the conservative list points to no node, or leads in a circle")]
-    Fringe {
+    Conservative {
         /// Cell.
         cell: usize,
         /// The link.

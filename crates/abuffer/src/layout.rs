@@ -44,9 +44,9 @@ pub struct Demand {
     /// Triangles of the geometry.
     pub triangles: u64,
     /// Triangles kept outside of centres.
-    pub fringe: u64,
+    pub conservative: u64,
     /// Triangles with many cells of a view, for the binning builder.
-    pub pairs: u64,
+    pub large: u64,
 }
 
 /// Words of a fragment's payload, and of the triangle that is kept for diagnostics.
@@ -99,7 +99,7 @@ pub(crate) fn bounds_words(config: &Config) -> u64 {
         (true, false) => 1,
         (false, _) => 0,
     };
-    extent + if config.has_ends() { 2 } else { 0 } + u64::from(config.has_fringe())
+    extent + if config.has_ends() { 2 } else { 0 } + u64::from(config.has_conservative_lists())
 }
 
 /// Words of the bounds of all blocks of cells.
@@ -115,8 +115,8 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
 /// Words for the sums of the scan of contiguous lists, and behind them for the triangles with many cells, and
 /// once those have been visited two of each long list.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
-    scan_words(config) + pairs.max(2 * demand.long_lists)
+    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
+    scan_words(config) + large.max(2 * demand.long_lists)
 }
 
 /// Words for the sums of the scan.
@@ -131,7 +131,7 @@ pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
 }
 
 /// Capacity of such pools for triangles with many cells.
-pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
         Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
@@ -158,7 +158,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         ),
         (Pool::Near, demand.near_triangles, 4),
         (Pool::Scratch, scratch_words(config, demand), 4),
-        (Pool::Fringe, if config.has_fringe() { demand.fringe } else { 0 }, 12),
+        (Pool::Conservative, if config.has_conservative_lists() { demand.conservative } else { 0 }, 12),
     ];
     if config.storage == Storage::Paged && demand.nodes > u64::from(PAGE_LIMIT) {
         return Err(AdsError::PoolTooLarge { structure: "abuffer", pool: "nodes", elements: demand.nodes });
@@ -177,8 +177,8 @@ pub(crate) fn first_plan(config: &Config, triangles: u32) -> Result<Sizes, AdsEr
             near_triangles: 64,
             long_lists: 0,
             triangles: triangles.into(),
-            fringe: cells / 4,
-            pairs: 1024,
+            conservative: cells / 4,
+            large: 1024,
         },
     )
 }
@@ -197,7 +197,7 @@ pub struct FormulaBytes {
     pub fragments: u64,
     /// With conservative and edge-on coverage: per cell 4, per triangle outside of a centre 12; with the latter
     /// 4 per 32 triangles.
-    pub fringe: u64,
+    pub conservative: u64,
     /// With ids: 4 per fragment, or slot of a page.
     pub ids: u64,
     /// Header, 4 per triangle of the near-region list, 8 per long list, or where that is more 4 per triangle with
@@ -209,7 +209,7 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.plane + self.pyramid + self.fragments + self.fringe + self.ids + self.rest
+        self.cells + self.plane + self.pyramid + self.fragments + self.conservative + self.ids + self.rest
     }
 }
 
@@ -258,16 +258,16 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         pyramid: if config.march == March::Pyramid { 8 * (cube_blocks + camera_blocks + bounded) } else { 0 },
         plane: if matches!(config.accept, Accept::Slope | Accept::Plane) { cells * (4 + scale) } else { 0 },
         fragments: demand.nodes * per_node,
-        fringe: match config.coverage {
+        conservative: match config.coverage {
             Coverage::Hardware | Coverage::Exact => 0,
-            Coverage::Conservative => 4 * cells + 12 * demand.fringe,
-            Coverage::EdgeOn => 4 * cells + 12 * demand.fringe + 4 * demand.triangles.div_ceil(32),
+            Coverage::Conservative => 4 * cells + 12 * demand.conservative,
+            Coverage::EdgeOn => 4 * cells + 12 * demand.conservative + 4 * demand.triangles.div_ceil(32),
         },
         ids: if config.ids { 4 * demand.nodes * node_slots(config) } else { 0 },
         rest: 248
             + 4 * demand.near_triangles
             + (8 * demand.long_lists).max(if config.builder == Builder::Binning {
-                4 * demand.pairs
+                4 * demand.large
             } else {
                 0
             })
@@ -281,7 +281,7 @@ mod tests {
     use super::*;
 
     const DEMAND: Demand =
-        Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0, fringe: 77, pairs: 55 };
+        Demand { nodes: 12_345, near_triangles: 7, long_lists: 3, triangles: 0, conservative: 77, large: 55 };
 
     #[test]
     fn plan_equals_formula() {
@@ -327,8 +327,8 @@ mod tests {
                 assert_eq!(bytes, formula_bytes(&config, DEMAND).total(), "{config:?}");
                 let more = Demand { nodes: DEMAND.nodes + 1, ..DEMAND };
                 assert_ne!(bytes, formula_bytes(&config, more).total(), "{config:?}");
-                let beside = Demand { fringe: DEMAND.fringe + 1, ..DEMAND };
-                assert_eq!(kept, bytes != formula_bytes(&config, beside).total(), "{config:?}");
+                let more = Demand { conservative: DEMAND.conservative + 1, ..DEMAND };
+                assert_eq!(kept, bytes != formula_bytes(&config, more).total(), "{config:?}");
                 let marked = Demand { triangles: 33, ..DEMAND };
                 let bytes = plan(&config, marked).expect("options are in range").bytes();
                 assert_eq!(bytes, formula_bytes(&config, marked).total(), "{config:?}");

@@ -18,6 +18,6 @@ rasray_ads::pool_names! {
         /// Sums of the scan, and what a build remembers.
         Scratch = "scratch",
         /// Triangles that no fragment stands for.
-        Fringe = "fringe",
+        Conservative = "conservative",
     }
 }

@@ -8,11 +8,11 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
-use rasray_shaders_glsl::constants::ads::{NEAR_BOX, TRIANGLE_ROUNDING};
+use rasray_shaders_glsl::constants::ads::{NEAR_REGION, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
 use crate::layout::{
-    Demand, bounds_and_blocks, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words,
+    Demand, bounds_and_blocks, first_plan, formula_bytes, large_capacity, long_capacity, plan, scratch_words,
     widest_view,
 };
 use crate::{Config, Contents, Header, March, Pool, Storage, well_formed};
@@ -69,8 +69,8 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         samples: config.samples,
         thickness: config.thickness.unwrap_or(0.0),
         thickness_per_reach: if config.thickness.is_some() { 0.0 } else { 0.5 * step },
-        near_per_reach: cells * if config.has_fringe() { NEAR_BOX } else { ABUFFER_NEAR_BOX },
-        rounding_per_reach: if config.has_fringe() { stretch * TRIANGLE_ROUNDING } else { 0.0 },
+        near_per_reach: cells * if config.has_conservative_lists() { NEAR_REGION } else { ABUFFER_NEAR_BOX },
+        rounding_per_reach: if config.has_conservative_lists() { stretch * TRIANGLE_ROUNDING } else { 0.0 },
         widest,
         eye,
         camera_cells: if camera.is_some() { columns | rows << 16 } else { 0 },
@@ -84,9 +84,9 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         data_address: pools.address_of(Pool::Data),
         near_address: pools.address_of(Pool::Near),
         scratch_address: pools.address_of(Pool::Scratch),
-        fringe_capacity: parts.elements(Pool::Fringe) as u32,
-        fringe_address: pools.address_of(Pool::Fringe),
-        pair_capacity: pair_capacity(config, pools.sizes()) as u32,
+        conservative_capacity: parts.elements(Pool::Conservative) as u32,
+        conservative_address: pools.address_of(Pool::Conservative),
+        large_capacity: large_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
     })
@@ -103,8 +103,8 @@ impl rasray_ads::Demand for Demand {
             nodes: with("nodes", self.nodes, other.nodes),
             near_triangles: with("near", self.near_triangles, other.near_triangles),
             long_lists: with("long", self.long_lists, other.long_lists),
-            fringe: with("fringe", self.fringe, other.fringe),
-            pairs: with("pairs", self.pairs, other.pairs),
+            conservative: with("conservative", self.conservative, other.conservative),
+            large: with("large", self.large, other.large),
             triangles: self.triangles,
         }
     }
@@ -178,20 +178,20 @@ impl Design for Build {
             near_triangles: header.near_demand.into(),
             long_lists: header.long_demand.into(),
             triangles: parts.geometry.triangle_count().into(),
-            fringe: header.fringe_demand.into(),
-            pairs: header.pairs.into(),
+            conservative: header.conservative_demand.into(),
+            large: header.large_demand.into(),
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         let Parts { config, geometry, pools, .. } = parts;
         Demand {
             nodes: parts.elements(Pool::Nodes),
             near_triangles: parts.elements(Pool::Near),
             long_lists: long_capacity(config, pools.sizes()),
             triangles: u64::from(geometry.triangle_count()).max(32 * mark_words(parts)),
-            fringe: parts.elements(Pool::Fringe),
-            pairs: pair_capacity(config, pools.sizes()),
+            conservative: parts.elements(Pool::Conservative),
+            large: large_capacity(config, pools.sizes()),
         }
     }
 
@@ -202,7 +202,8 @@ impl Design for Build {
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell's conservative list may hold everything: a small object in a large world.
-        parts.usual_rounds() + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
+        parts.usual_rounds()
+            + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
@@ -211,7 +212,7 @@ impl Design for Build {
             Pool::Nodes | Pool::Data => Some(asked.nodes),
             Pool::Near => Some(asked.near_triangles),
             Pool::Scratch => Some(scratch_words(config, *asked)),
-            Pool::Fringe => Some(asked.fringe),
+            Pool::Conservative => Some(asked.conservative),
             Pool::Bounds => {
                 Some(bounds_and_blocks(config) + config.mark_sets() * asked.triangles.div_ceil(32))
             }
@@ -230,7 +231,7 @@ impl Design for Build {
             paths: parts.config.paths(),
             formula_bytes: formula.total(),
             diagnostic_bytes: formula.ids,
-            stored: Some(asked.fringe + fragments),
+            stored: Some(asked.conservative + fragments),
             lost: Some(header.lost.into()),
             ..StructureReport::default()
         }
@@ -248,6 +249,6 @@ impl Design for Build {
         Data => data,
         Near => near,
         Scratch => scratch,
-        Fringe => fringe,
+        Conservative => conservative,
     }
 }

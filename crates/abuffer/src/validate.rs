@@ -3,7 +3,7 @@
 use crate::layout::{bounds_words, data_words, fragment_words, node_slots, node_words};
 use crate::{Config, Fault, Header, Storage, cell_count};
 
-/// All pools but the pairs of the binning builder as downloaded, in words.
+/// All pools but the large-triangle queue of the binning builder as downloaded, in words.
 #[derive(Clone, Debug)]
 pub struct Contents {
     /// The configuration they were built with.
@@ -26,7 +26,7 @@ pub struct Contents {
     /// far each is.
     pub scratch: Vec<u32>,
     /// Triangle and next link of each node of the conservative lists.
-    pub fringe: Vec<u32>,
+    pub conservative: Vec<u32>,
 }
 
 /// A fragment as it is stored.
@@ -95,20 +95,20 @@ impl Contents {
     ///
     /// # Errors
     /// A link points to no node, or leads in a circle.
-    pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
+    pub fn conservative_list_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
         let mut found = Vec::new();
-        if !self.config.has_fringe() {
+        if !self.config.has_conservative_lists() {
             return Ok(found);
         }
-        let stored = self.header.fringe_demand.min(self.header.fringe_capacity) as usize;
+        let stored = self.header.conservative_demand.min(self.header.conservative_capacity) as usize;
         let mut link = self.bounds[(cell + 1) * bounds_words(&self.config) as usize - 1];
         while link != 0 {
             let node = 3 * (link as usize - 1);
             if link as usize > stored || found.len() >= stored {
-                return Err(Fault::Fringe { cell, link });
+                return Err(Fault::Conservative { cell, link });
             }
-            found.push(self.fringe[node]);
-            link = self.fringe[node + 1];
+            found.push(self.conservative[node]);
+            link = self.conservative[node + 1];
         }
         Ok(found)
     }
@@ -159,7 +159,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     let sorted = config.sort && contents.header.unsorted == 0 && contents.complete();
     let mut named = vec![false; stored];
     let mut pages = vec![false; stored / contents.slots()];
-    let (mut linked, mut beside) = (0, 0);
+    let (mut linked, mut in_conservative) = (0, 0);
     let mut place = 0;
     for cell in 0..cell_count(config) as usize {
         for bucket in 0..buckets {
@@ -185,7 +185,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
             }
             linked += links.len();
         }
-        beside += contents.fringe_of(cell)?.len();
+        in_conservative += contents.conservative_list_of(cell)?.len();
     }
     // What lies in pages beyond the capacity cannot be counted.
     let expected = match config.storage {
@@ -196,8 +196,12 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
     if linked != expected {
         return Err(Fault::Count { stored: expected, linked });
     }
-    let expected = contents.header.fringe_demand.min(contents.header.fringe_capacity) as usize;
-    if beside == expected { Ok(()) } else { Err(Fault::Count { stored: expected, linked: beside }) }
+    let expected = contents.header.conservative_demand.min(contents.header.conservative_capacity) as usize;
+    if in_conservative == expected {
+        Ok(())
+    } else {
+        Err(Fault::Count { stored: expected, linked: in_conservative })
+    }
 }
 
 /// The links of a list. `linked` nodes are in lists before it, a contiguous one begins at `place`, and

@@ -38,9 +38,9 @@ pub(crate) fn entry_words(storage: Storage) -> u64 {
 
 /// Words per triangle: the pairs of a triangle and a face that cover many columns, which binning needs while it
 /// builds. None for lists that are drawn.
-pub(crate) fn pair_words(config: &Config) -> u64 {
+pub(crate) fn large_words(config: &Config) -> u64 {
     match config.builder {
-        Builder::Binning => numbers::PRIMITIVE_PAIR_LIMIT.into(),
+        Builder::Binning => numbers::PRIMITIVE_LARGE_LIMIT.into(),
         Builder::Raster => 0,
     }
 }
@@ -81,7 +81,7 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
         pool(Pool::Entries, demand.entries, entry_words(config.storage)),
         pool(Pool::Sums, sums, 1),
         pool(Pool::Near, demand.near, 1),
-        pool(Pool::Pairs, pair_words(config) * demand.triangles, 1),
+        pool(Pool::Large, large_words(config) * demand.triangles, 1),
     ];
     Sizes::of("primitive", pools)
 }
@@ -124,12 +124,12 @@ pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
         side = side.div_ceil(2);
         blocks += 6 * side * side;
     }
-    let pairs = if config.builder == Builder::Binning { 24 * demand.triangles } else { 0 };
+    let large = if config.builder == Builder::Binning { 24 * demand.triangles } else { 0 };
     FormulaBytes {
         cells: cells * (8 + 4 * buckets + if buckets > 1 { 4 } else { 0 }) + 8 * blocks,
         entries: demand.entries * if contiguous { 4 } else { 8 },
         scan: if contiguous { (cells * buckets).div_ceil(1024) * 4 } else { 0 },
-        rest: 160 + 4 * demand.near + pairs,
+        rest: 160 + 4 * demand.near + large,
     }
 }
 

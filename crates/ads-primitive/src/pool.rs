@@ -16,6 +16,6 @@ rasray_ads::pool_names! {
         /// Triangles in the near region.
         Near = "near",
         /// Triangles with many tiles of a face.
-        Pairs = "pairs",
+        Large = "large",
     }
 }

@@ -33,8 +33,8 @@ fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
         entries_address: pools.address_of(Pool::Entries),
         sums_address: pools.address_of(Pool::Sums),
         near_address: pools.address_of(Pool::Near),
-        pairs_address: pools.address_of(Pool::Pairs),
-        pair_capacity: parts.elements(Pool::Pairs) as u32,
+        large_address: pools.address_of(Pool::Large),
+        large_capacity: parts.elements(Pool::Large) as u32,
         groups: [0, 0, bin_groups(config)],
         ..Header::default()
     }
@@ -89,7 +89,7 @@ impl Design for Passes {
 
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
         let triangles = u64::from(geometry.triangle_count());
-        let sizes = plan(&parts.config, &Demand { triangles, ..Self::room(parts) })?;
+        let sizes = plan(&parts.config, &Demand { triangles, ..Self::capacity(parts) })?;
         Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
     }
 
@@ -121,7 +121,7 @@ impl Design for Passes {
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         Demand {
             entries: parts.elements(Pool::Entries),
             near: parts.elements(Pool::Near),
@@ -138,7 +138,7 @@ impl Design for Passes {
         match pool {
             Pool::Entries => Some(asked.entries),
             Pool::Near => Some(asked.near),
-            Pool::Pairs => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
+            Pool::Large => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
             _ => None,
         }
     }

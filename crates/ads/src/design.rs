@@ -206,7 +206,7 @@ pub trait Design: fmt::Debug + Sized {
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
 
     /// The capacity of the pools, in the terms of the demand.
-    fn room(parts: &Parts<Self::Config>) -> Self::Demand;
+    fn capacity(parts: &Parts<Self::Config>) -> Self::Demand;
 
     /// Whether the demand of that name varies slightly with the order in which threads run.
     fn varies(_config: &Self::Config, _name: &str) -> bool {

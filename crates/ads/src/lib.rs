@@ -69,7 +69,7 @@ pub use structure::{
     StructureKind, StructureReport, TraceMode,
 };
 pub use viewpoint::{CameraView, Viewpoint};
-pub use visit::{Builder, PairsPass, Visit, Visits, bin_groups};
+pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 
 /// "No primitive": a miss.
 pub const PRIMITIVE_NONE: u32 = rasray_shaders_glsl::constants::contract::PRIMITIVE_NONE;

@@ -208,11 +208,13 @@ impl<D: Design> Structure for Pooled<D> {
         *self.known.lock().unwrap_or_else(PoisonError::into_inner) = header;
         let Outcome { status, unsorted, corrupted } = D::outcome(&header);
         let mut pools = Vec::new();
-        let _ =
-            self.design.asked(&self.parts, &header).zip(D::room(&self.parts), |name, demand, capacity| {
+        let _ = self.design.asked(&self.parts, &header).zip(
+            D::capacity(&self.parts),
+            |name, demand, capacity| {
                 pools.push(PoolStatus { name, demand, capacity });
                 demand
-            });
+            },
+        );
         Ok(BuildStatus {
             complete: status & STATUS_COMPLETE != 0,
             pools,
@@ -224,14 +226,14 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {
         let config = &self.parts.config;
-        let room = D::room(&self.parts);
+        let capacity = D::capacity(&self.parts);
         status.check(headroom, |growth| {
-            let wanted = room.zip(room, |name, room, _| {
+            let wanted = capacity.zip(capacity, |name, capacity, _| {
                 let mut demand = status.demand(name).unwrap_or(0);
-                if demand > room && D::varies(config, name) {
+                if demand > capacity && D::varies(config, name) {
                     demand += demand / 64;
                 }
-                growth.of(demand, room)
+                growth.of(demand, capacity)
             });
             D::plan(config, &wanted)
         })

@@ -55,7 +55,7 @@ pub enum TestVerdict {
     /// The ray excludes this primitive.
     Excluded,
     /// The ray passes outside of the triangle.
-    Beside,
+    Outside,
     /// The ray runs along the triangle's plane, or the triangle has no area.
     Parallel,
     /// At or before `t_min`, or within rounding of the origin.
@@ -135,7 +135,7 @@ impl TraceStep {
         Some(match self.b {
             numbers::TEST_ACCEPTED => TestVerdict::Accepted,
             numbers::TEST_EXCLUDED => TestVerdict::Excluded,
-            numbers::TEST_BESIDE => TestVerdict::Beside,
+            numbers::TEST_OUTSIDE => TestVerdict::Outside,
             numbers::TEST_PARALLEL => TestVerdict::Parallel,
             numbers::TEST_BEFORE => TestVerdict::Before,
             numbers::TEST_BEYOND => TestVerdict::Beyond,
@@ -234,7 +234,7 @@ impl fmt::Display for Words<'_> {
         match self.0.verdict().unwrap_or(TestVerdict::Unknown) {
             TestVerdict::Accepted => write!(f, "accepted, t {t}"),
             TestVerdict::Excluded => write!(f, "excluded by the ray"),
-            TestVerdict::Beside => write!(f, "passed outside"),
+            TestVerdict::Outside => write!(f, "passed outside"),
             TestVerdict::Parallel => write!(f, "parallel to the ray, or without area"),
             TestVerdict::Before => write!(f, "refused, t {t} is before the range"),
             TestVerdict::Beyond => write!(f, "refused, t {t} is beyond the range"),

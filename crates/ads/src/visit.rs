@@ -50,7 +50,7 @@ enum Passes {
         /// Triangles.
         bin: ComputePipeline,
         /// Those of the large-triangle queue.
-        many: ComputePipeline,
+        large: ComputePipeline,
         /// Byte of the header with the number of workgroups for those.
         groups: u64,
     },
@@ -61,11 +61,11 @@ impl Visit {
     pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, draws: &[ViewDraw]) {
         match &self.passes {
             Passes::Raster(draw) => target.raster_views(recorder, &self.label, draw, draws),
-            Passes::Binning { bin, many, groups } => {
+            Passes::Binning { bin, large, groups } => {
                 let readers = Access::COMPUTE | Access::INDIRECT_READ;
                 let label = format!("{}_bin", self.label);
                 target.compute_pass(recorder, &label, bin, triangle_groups(target), 0, readers);
-                target.indirect_pass(recorder, &format!("{label}_many"), many, *groups, Access::COMPUTE);
+                target.indirect_pass(recorder, &format!("{label}_large"), large, *groups, Access::COMPUTE);
             }
         }
     }
@@ -78,12 +78,12 @@ fn triangle_groups(target: BuildTarget<'_>) -> u64 {
 
 /// The pass before all visits by computing: fills the large-triangle queue.
 #[derive(Debug)]
-pub struct PairsPass {
+pub struct LargePass {
     label: String,
     pipeline: ComputePipeline,
 }
 
-impl PairsPass {
+impl LargePass {
     /// Records it.
     pub fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let readers = Access::COMPUTE | Access::INDIRECT_READ;
@@ -92,7 +92,7 @@ impl PairsPass {
 }
 
 /// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
-/// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_many.alpha`
+/// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_large.alpha`
 /// beside it, and labels end as they do.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
@@ -115,7 +115,7 @@ impl Visits<'_> {
             Builder::Raster => Passes::Raster(self.pipelines.raster(vertex, &format!("{name}{variant}"))?),
             Builder::Binning => Passes::Binning {
                 bin: self.pipelines.compute(&format!("{name}_bin{variant}"))?,
-                many: self.pipelines.compute(&format!("{name}_bin_many{variant}"))?,
+                large: self.pipelines.compute(&format!("{name}_bin_large{variant}"))?,
                 groups: self.groups as u64,
             },
         };
@@ -126,9 +126,9 @@ impl Visits<'_> {
     ///
     /// # Errors
     /// The module is not compiled in, or the device refuses it.
-    pub fn pairs(&self, name: &str) -> Result<Option<PairsPass>, AdsError> {
-        let made = || -> Result<PairsPass, AdsError> {
-            Ok(PairsPass { label: self.pipelines.label(name), pipeline: self.pipelines.compute(name)? })
+    pub fn large(&self, name: &str) -> Result<Option<LargePass>, AdsError> {
+        let made = || -> Result<LargePass, AdsError> {
+            Ok(LargePass { label: self.pipelines.label(name), pipeline: self.pipelines.compute(name)? })
         };
         (self.builder == Builder::Binning).then(made).transpose()
     }

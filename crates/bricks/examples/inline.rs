@@ -26,7 +26,7 @@ struct Slot {
     /// What the shader of the host finds.
     found: HostBuffer,
     pipeline: (vk::Pipeline, vk::PipelineLayout, vk::DescriptorSet),
-    judge: BruteForce,
+    reference: BruteForce,
     rays: RayQueue,
     /// What brute force finds.
     expected: HostBuffer,
@@ -95,13 +95,13 @@ impl Slot {
         let found = host.buffer(&unanswered)?;
         let sets = [geometry.layout().raw(), inline.layout.raw()];
         let pipeline = host.pipeline(spirv, &sets, &inline.constants, found)?;
-        let judge = BruteForce::new(device, &geometry, None, false)?;
+        let reference = BruteForce::new(device, &geometry, None, false)?;
         let rays = RayQueue::new(device, "rays", SIDE * SIDE, false)?;
         let origin = |k: u32| [(k % SIDE) as f32 / SIDE as f32, (k / SIDE) as f32 / SIDE as f32, -1.0];
         let ray = |k| Ray { t_max: 4.0, ..Ray::new(origin(k), [0.0625, 0.03125, 1.0]) };
         device.upload_slice(rays.rays(), 0, &(0..SIDE * SIDE).map(ray).collect::<Vec<_>>())?;
         let expected = host.buffer(&unanswered)?;
-        Ok(Self { positions, geometry, found, pipeline, judge, rays, expected, recorded: None })
+        Ok(Self { positions, geometry, found, pipeline, reference, rays, expected, recorded: None })
     }
 
     /// Records a build, the shader of the host, and brute force.
@@ -129,9 +129,15 @@ impl Slot {
             host.device.cmd_dispatch(commands, SIDE / 8, SIDE / 8, 1);
         }
         self.rays.record_reset(&mut recorder);
-        self.judge.record_build(&mut recorder, 0, [0.5; 3].into())?;
-        let (count, rounds) = (self.rays.capacity(), self.judge.rounds());
-        self.judge.record_trace(&mut recorder, &self.rays, Domain::First(count), TraceMode::Closest, rounds);
+        self.reference.record_build(&mut recorder, 0, [0.5; 3].into())?;
+        let (count, rounds) = (self.rays.capacity(), self.reference.rounds());
+        self.reference.record_trace(
+            &mut recorder,
+            &self.rays,
+            Domain::First(count),
+            TraceMode::Closest,
+            rounds,
+        );
         let expected = host.adopted(device, "expected", self.expected);
         recorder.copy(self.rays.hits(), 0, &expected, 0, expected.size());
         recorder.barrier(Access::COMPUTE | Access::TRANSFER, Access::HOST_READ);

@@ -38,7 +38,7 @@ pub(crate) fn bricks_of(views: Views, cells: [u32; 3]) -> ([u64; 3], u64) {
 /// Words per triangle: its corners, or the pairs of a triangle and a view that cover many columns, which binning needs
 /// while it builds.
 fn triangle_words(config: &Config) -> u64 {
-    if config.corners { 9 } else { numbers::BRICK_PAIR_LIMIT.into() }
+    if config.corners { 9 } else { numbers::BRICK_LARGE_LIMIT.into() }
 }
 
 /// What bricks of this configuration allocate to hold `demand`.

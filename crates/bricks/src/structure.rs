@@ -106,7 +106,7 @@ impl Design for Passes {
     }
 
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
-        let now = Self::room(parts);
+        let now = Self::capacity(parts);
         let triangles = u64::from(geometry.triangle_count()).max(parts.elements(Pool::Triangles));
         let grid = parts.config.cells(geometry);
         let sizes = plan(&parts.config, &Demand { triangles, grid, ..now })?;
@@ -146,7 +146,7 @@ impl Design for Passes {
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         Demand {
             entries: parts.elements(Pool::Entries),
             near: parts.elements(Pool::Near),

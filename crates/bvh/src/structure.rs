@@ -60,7 +60,7 @@ fn on_device(triangles: u32) -> Prepared {
 }
 
 /// Whether the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
-fn has_room(parts: &Parts<Config>) -> bool {
+fn has_capacity(parts: &Parts<Config>) -> bool {
     let Parts { config, geometry, pools, .. } = parts;
     let sizes = pools.sizes();
     plan(config, geometry.triangle_count().into())
@@ -70,8 +70,8 @@ fn has_room(parts: &Parts<Config>) -> bool {
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepared) -> Header {
     let Parts { config, pools, .. } = parts;
-    let has_room = has_room(parts);
-    let capacity = |pool| if has_room { parts.elements(pool) as u32 } else { 0 };
+    let has_capacity = has_capacity(parts);
+    let capacity = |pool| if has_capacity { parts.elements(pool) as u32 } else { 0 };
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
@@ -172,7 +172,7 @@ impl Design for Tree {
         }
         self.prepared = None;
         let unknown = on_device(parts.geometry.triangle_count());
-        if !has_room(parts) {
+        if !has_capacity(parts) {
             // The build will say so.
             self.prepared = Some(unknown);
             return Ok(());
@@ -223,7 +223,7 @@ impl Design for Tree {
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         Demand {
             nodes: parts.elements(Pool::Nodes),
             records: parts.elements(Pool::Records),

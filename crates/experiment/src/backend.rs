@@ -75,7 +75,7 @@ pub struct DeviceDescription {
 
 /// How many texels a device holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TexelRoom {
+pub struct TexelCapacity {
     /// At most, of all levels of all textures.
     pub texels: u64,
     /// Name of the device.
@@ -89,7 +89,7 @@ pub trait Backend {
     fn device(&self) -> Device;
 
     /// How many texels the device in use holds.
-    fn texel_room(&self) -> TexelRoom;
+    fn texel_capacity(&self) -> TexelCapacity;
 
     /// Renders an image. When `progress` breaks, the samples done so far are the result.
     fn render(

@@ -20,12 +20,12 @@ mod compare;
 mod contestant;
 mod describe;
 mod error;
+mod evaluate;
 mod hard;
 mod hard_file;
 mod hard_verdict;
 mod images;
 mod jobs;
-mod judge;
 mod kept_files;
 mod measured;
 mod pass_list;
@@ -47,18 +47,18 @@ mod work_maps;
 
 pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
-    TexelRoom,
+    TexelCapacity,
 };
 pub use camera::{Chosen, default_view, named_view, placed_view};
 pub use contestant::Contestant;
 pub use describe::requirements;
 pub use error::ExperimentError;
+pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, AovSelection, CompareJob, Comparison, FILE_SET, Frame, HardJob, Integrator, Kept, KeptSet,
     RaySet, RenderJob, RenderOutput, Sampler,
 };
-pub use judge::device_hits;
 pub use kept_files::NamedBytes;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};

@@ -45,7 +45,7 @@ pub struct Measured {
     pub inadmissible: Rate,
     /// The first ambiguous ray with such an answer, by index.
     pub first_inadmissible: Option<usize>,
-    /// The rays that count in [`Measured::judged`], by index.
+    /// The rays that count in [`Measured::evaluated`], by index.
     pub wrong: Vec<usize>,
     /// Rays whose answer a structure that finds triangles may not give, by index.
     pub rejected: Vec<usize>,
@@ -138,7 +138,7 @@ impl Measured {
 
     /// The rate that laws bound: that of errors, or of inadmissible answers where every ray of a case is ambiguous
     /// (surfaces that coincide).
-    pub fn judged(&self) -> Rate {
+    pub fn evaluated(&self) -> Rate {
         if self.errors.total > 0 { self.errors } else { self.inadmissible }
     }
 }

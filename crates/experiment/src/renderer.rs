@@ -3,7 +3,7 @@
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
 use rasray_gpu_scene::TexelRuns;
 
-use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelRoom};
+use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelCapacity};
 use crate::describe::requirements;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
@@ -52,9 +52,9 @@ impl Backend for Renderer {
         }
     }
 
-    fn texel_room(&self) -> TexelRoom {
+    fn texel_capacity(&self) -> TexelCapacity {
         let texels = TexelRuns::of(self.device.limits()).most_texels();
-        TexelRoom { texels, device: self.device.name().to_owned() }
+        TexelCapacity { texels, device: self.device.name().to_owned() }
     }
 
     fn render(

@@ -1,6 +1,6 @@
 //! What a scene holds, how it is seen and lit where nothing is said of it, and what of it an image can show.
 
-use crate::backend::TexelRoom;
+use crate::backend::TexelCapacity;
 use crate::camera::Chosen;
 use crate::error::ExperimentError;
 use crate::jobs::Frame;
@@ -45,7 +45,7 @@ pub struct SceneInfo {
 }
 
 impl SceneInfo {
-    /// Looks a scene over. It is lit as a render would light it: what it needs then is what counts. `room` opens the
+    /// Looks a scene over. It is lit as a render would light it: what it needs then is what counts. `capacity` opens the
     /// device, if there is one; it is called only where something depends on it.
     ///
     /// # Errors
@@ -54,7 +54,7 @@ impl SceneInfo {
         loaded: &mut LoadedScene,
         view: &Chosen,
         frame: &Frame,
-        room: impl FnOnce() -> Option<TexelRoom>,
+        capacity: impl FnOnce() -> Option<TexelCapacity>,
     ) -> Result<Self, ExperimentError> {
         let environment = environment(&loaded.scene.environment);
         let unlit = default_view::ensure_lit(&mut loaded.scene);
@@ -64,7 +64,7 @@ impl SceneInfo {
         let camera = |(index, camera): (usize, &rasray_scene::Camera)| {
             Chosen { camera: camera.clone(), index: Some(index) }.record()
         };
-        let texels = TexelInfo::of(scene, &needs, room)?;
+        let texels = TexelInfo::of(scene, &needs, capacity)?;
         Ok(Self {
             name: scene.name.clone(),
             counts: counts(scene, loaded.triangles),

@@ -1,6 +1,6 @@
 //! The texels of a scene's textures, and images that are made smaller because a device does not hold the texels of all.
 
-use crate::backend::TexelRoom;
+use crate::backend::TexelCapacity;
 use crate::error::ExperimentError;
 use crate::scene_source::LoadedScene;
 use rasray_gpu_scene::{GpuSceneError, Parts, SmallerImage, TEXEL_BYTES, TexelDemand};
@@ -24,8 +24,11 @@ fn demand(scene: &Scene, needs: &Needs) -> Result<TexelDemand, ExperimentError> 
 ///
 /// # Errors
 /// Even images of one texel each are too many.
-fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerImage>, ExperimentError> {
-    demand.smaller_images(room.texels).map_err(refused)
+fn smaller_images(
+    demand: &TexelDemand,
+    capacity: &TexelCapacity,
+) -> Result<Vec<SmallerImage>, ExperimentError> {
+    demand.smaller_images(capacity.texels).map_err(refused)
 }
 
 /// Makes the largest images smaller until the device holds the texels of all, and says in words what it did, if anything.
@@ -36,18 +39,18 @@ fn smaller_images(demand: &TexelDemand, room: &TexelRoom) -> Result<Vec<SmallerI
 pub fn fit(
     loaded: &mut LoadedScene,
     needs: &Needs,
-    room: &TexelRoom,
+    capacity: &TexelCapacity,
 ) -> Result<Option<String>, ExperimentError> {
     let demand = demand(&loaded.scene, needs)?;
-    let smaller = smaller_images(&demand, room)?;
-    let text = described(&smaller, demand.bytes(), room);
+    let smaller = smaller_images(&demand, capacity)?;
+    let text = described(&smaller, demand.bytes(), capacity);
     smaller.iter().for_each(|image| image.apply(&mut loaded.scene));
     loaded.smaller_images = records(&smaller);
     Ok(text)
 }
 
 /// What is made smaller, and why; nothing where nothing is. The largest come first: they were so before, too.
-fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<String> {
+fn described(smaller: &[SmallerImage], demand: u64, capacity: &TexelCapacity) -> Option<String> {
     let first = smaller.iter().max_by_key(|image| image.from.map(u64::from).iter().product::<u64>())?;
     let ([width, height], [to_width, to_height]) = (first.from, first.to);
     let what = match smaller {
@@ -58,8 +61,8 @@ fn described(smaller: &[SmallerImage], demand: u64, room: &TexelRoom) -> Option<
         "{what} read as {to_width}x{to_height} instead of {width}x{height}: the texels of all textures with their \
          smaller levels are {}, and {} holds {}",
         bytes(demand),
-        room.device,
-        bytes(room.texels * TEXEL_BYTES),
+        capacity.device,
+        bytes(capacity.texels * TEXEL_BYTES),
     ))
 }
 
@@ -82,11 +85,11 @@ fn refused(error: GpuSceneError) -> ExperimentError {
 pub struct TexelInfo {
     bytes: u64,
     /// How many it holds, and the images that are made smaller for it.
-    device: Option<(TexelRoom, Vec<SmallerImage>)>,
+    device: Option<(TexelCapacity, Vec<SmallerImage>)>,
 }
 
 impl TexelInfo {
-    /// Counts the texels that `needs` asks for. `room` opens the device, if there is one: it is called only where the
+    /// Counts the texels that `needs` asks for. `capacity` opens the device, if there is one: it is called only where the
     /// answer depends on it.
     ///
     /// # Errors
@@ -94,7 +97,7 @@ impl TexelInfo {
     pub fn of(
         scene: &Scene,
         needs: &Needs,
-        room: impl FnOnce() -> Option<TexelRoom>,
+        capacity: impl FnOnce() -> Option<TexelCapacity>,
     ) -> Result<Self, ExperimentError> {
         let demand = demand(scene, needs)?;
         let bytes = demand.bytes();
@@ -102,9 +105,9 @@ impl TexelInfo {
             return Ok(Self { bytes, device: None });
         }
         // Without a device the scene is shown all the same.
-        let Some(room) = room() else { return Ok(Self { bytes, device: None }) };
-        let smaller = smaller_images(&demand, &room)?;
-        Ok(Self { bytes, device: Some((room, smaller)) })
+        let Some(capacity) = capacity() else { return Ok(Self { bytes, device: None }) };
+        let smaller = smaller_images(&demand, &capacity)?;
+        Ok(Self { bytes, device: Some((capacity, smaller)) })
     }
 
     /// In words; nothing where there are no texels.
@@ -117,9 +120,11 @@ impl TexelInfo {
             None => format!(
                 "{total}; every device holds {held}, and no device is here to say whether it holds more"
             ),
-            Some((room, smaller)) => match described(smaller, self.bytes, room) {
+            Some((capacity, smaller)) => match described(smaller, self.bytes, capacity) {
                 Some(text) => format!("{total}; a render makes them fit: {text}"),
-                None => format!("{total}; {} holds {}", room.device, bytes(room.texels * TEXEL_BYTES)),
+                None => {
+                    format!("{total}; {} holds {}", capacity.device, bytes(capacity.texels * TEXEL_BYTES))
+                }
             },
         };
         Some(text)
@@ -128,9 +133,9 @@ impl TexelInfo {
     /// Fields of `rasray info --json`.
     pub fn json(&self) -> Value {
         let mut fields = json!({ "bytes": self.bytes, "held_by_every_device_bytes": HELD_BY_EVERY_DEVICE });
-        if let Some((room, smaller)) = &self.device {
-            fields["device"] = room.device.as_str().into();
-            fields["held_bytes"] = (room.texels * TEXEL_BYTES).into();
+        if let Some((capacity, smaller)) = &self.device {
+            fields["device"] = capacity.device.as_str().into();
+            fields["held_bytes"] = (capacity.texels * TEXEL_BYTES).into();
             fields["smaller_images"] = json!(records(smaller));
         }
         fields
@@ -162,16 +167,16 @@ mod tests {
         let mut whole = loaded();
         let asked = demand(&whole.scene, &needs(&whole)).expect("whole");
         assert!(asked.texels() > 100);
-        let room = |texels| TexelRoom { texels, device: "a small device".to_owned() };
+        let capacity = |texels| TexelCapacity { texels, device: "a small device".to_owned() };
         let sizes = |loaded: &LoadedScene| -> Vec<_> {
             loaded.scene.images.iter().map(|image| (image.width, image.height)).collect()
         };
         let before = sizes(&whole);
         let needed = needs(&whole);
-        assert_eq!(fit(&mut whole, &needed, &room(asked.texels())).expect("room"), None);
+        assert_eq!(fit(&mut whole, &needed, &capacity(asked.texels())).expect("room"), None);
         assert_eq!((sizes(&whole), whole.record().smaller_images), (before.clone(), Vec::new()));
 
-        let said = fit(&mut whole, &needed, &room(asked.texels() / 8)).expect("room").expect("words");
+        let said = fit(&mut whole, &needed, &capacity(asked.texels() / 8)).expect("room").expect("words");
         let records = whole.record().smaller_images;
         assert!(!records.is_empty() && sizes(&whole) != before);
         for record in &records {
@@ -179,7 +184,7 @@ mod tests {
         }
         assert!(demand(&whole.scene, &needed).expect("whole").texels() <= asked.texels() / 8);
         let smaller = asked.smaller_images(asked.texels() / 8).expect("room");
-        let text = described(&smaller, asked.bytes(), &room(asked.texels() / 8)).expect("something");
+        let text = described(&smaller, asked.bytes(), &capacity(asked.texels() / 8)).expect("something");
         assert_eq!(said, text);
         let largest = records.iter().map(|record| record.from[0]).max().expect("some");
         assert!(
@@ -187,13 +192,13 @@ mod tests {
             "{text}"
         );
         // None where even one texel an image is too much.
-        let error = fit(&mut loaded(), &needed, &room(0)).expect_err("no room");
+        let error = fit(&mut loaded(), &needed, &capacity(0)).expect_err("no room");
         assert!(error.to_string().contains("more than the 0"), "{error}");
     }
 
     fn info(bytes: u64, device: Option<(u64, Vec<SmallerImage>)>) -> TexelInfo {
-        let device =
-            device.map(|(texels, smaller)| (TexelRoom { texels, device: "a device".to_owned() }, smaller));
+        let device = device
+            .map(|(texels, smaller)| (TexelCapacity { texels, device: "a device".to_owned() }, smaller));
         TexelInfo { bytes, device }
     }
 

@@ -8,8 +8,8 @@ use rasray_tracer::BatchTracer;
 
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
+use crate::evaluate::{accuracy, depth_errors, device_hits};
 use crate::jobs::{Answers, Comparison, KeptSet};
-use crate::judge::{accuracy, depth_errors, device_hits};
 use crate::passes::{Passes, median, spread};
 use crate::stage::tracer_error;
 use rasray_ray_files::{HitsFile, TrueHit};
@@ -86,7 +86,7 @@ pub(super) fn compare_set(
         traced.hits = name_hits(traced.hits);
         let mut run = run_of(device, contestant, set, &traced, wanted.seed)?;
         let kind = contestant.built.structure.kind();
-        judge(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
+        evaluate(&mut run, kind, &set.verdicts, &traced.hits, wanted.figures, comparison)?;
         answers.push(Answers { name: format!("{}-{}", run.system, run.preset), kind, hits: traced.hits });
         comparison.runs.push(run);
     }
@@ -98,7 +98,7 @@ pub(super) fn compare_set(
             ray_set: Some(set.name.clone()),
             ..Run::default()
         };
-        judge(&mut run, StructureKind::Primitive, &set.verdicts, &given.hits, wanted.figures, comparison)?;
+        evaluate(&mut run, StructureKind::Primitive, &set.verdicts, &given.hits, wanted.figures, comparison)?;
         comparison.runs.push(run);
     }
     let others = wanted.given_hits.iter().map(|given| Answers {
@@ -106,7 +106,7 @@ pub(super) fn compare_set(
         kind: StructureKind::Primitive,
         hits: given.hits.clone(),
     });
-    let judged = answers.iter().cloned().chain(others).collect();
+    let evaluated = answers.iter().cloned().chain(others).collect();
     if wanted.keep {
         comparison.kept.sets.push(KeptSet {
             name: set.name.clone(),
@@ -115,11 +115,11 @@ pub(super) fn compare_set(
             answers,
         });
     }
-    Ok(judged)
+    Ok(evaluated)
 }
 
 /// Adds what is right and wrong of the hits.
-fn judge(
+fn evaluate(
     run: &mut Run,
     kind: StructureKind,
     verdicts: &[Verdict],

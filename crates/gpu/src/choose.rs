@@ -370,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn graphics_beside_compute_is_preferred() {
+    fn graphics_with_compute_is_preferred() {
         let family =
             |flags| vk::QueueFamilyProperties { queue_flags: flags, queue_count: 1, ..Default::default() };
         let families = [

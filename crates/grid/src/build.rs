@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, PairsPass, Scan, Visit, Visits};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, LargePass, Scan, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 
 use crate::{Header, Pool};
@@ -10,7 +10,7 @@ use crate::{Header, Pool};
 /// Pipelines of the build.
 #[derive(Debug)]
 pub(crate) struct Build {
-    pairs: Option<PairsPass>,
+    large: Option<LargePass>,
     count: Visit,
     scan: Scan,
     store: Visit,
@@ -22,7 +22,7 @@ impl Build {
         let visits = Visits { pipelines, builder: Builder::Binning, groups: offset_of!(Header, groups) };
         let visit = |name| visits.visit("", name, "");
         Ok(Self {
-            pairs: visits.pairs("build_1_pairs")?,
+            large: visits.large("build_1_large")?,
             count: visit("build_2_count")?,
             scan: Scan::new(pipelines, "build_3_scan")?,
             store: visit("build_4_store")?,
@@ -33,8 +33,8 @@ impl Build {
     /// Records all passes.
     pub(crate) fn record(&self, recorder: &mut Recorder<'_>, cells: u64, target: BuildTarget<'_>) {
         target.record_header(recorder, "grid/build_0_header", &[Pool::Lists], Access::COMPUTE);
-        if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target);
+        if let Some(large) = &self.large {
+            large.record(recorder, target);
         }
         self.count.record(recorder, target, &[]);
         self.scan.record(recorder, target, "grid/build_3_scan", cells, 0, Access::COMPUTE);

@@ -102,7 +102,7 @@ impl Design for Passes {
 
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
         let (triangles, cells) = (geometry.triangle_count().into(), parts.config.cells_over(geometry));
-        let sizes = plan(&parts.config, &Demand { triangles, cells, ..Self::room(parts) })?;
+        let sizes = plan(&parts.config, &Demand { triangles, cells, ..Self::capacity(parts) })?;
         Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
     }
 
@@ -127,10 +127,10 @@ impl Design for Passes {
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
-        Demand { entries: header.demand.into(), ..Self::room(parts) }
+        Demand { entries: header.demand.into(), ..Self::capacity(parts) }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         Demand {
             entries: parts.elements(Pool::Entries),
             triangles: parts.geometry.triangle_count().into(),

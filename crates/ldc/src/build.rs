@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Scan, SceneBinding, ViewDraw, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
@@ -17,11 +17,11 @@ const DRAWS: u32 = 1;
 /// Pipelines of the build: the design of [`LayeredDepthCube`](crate::LayeredDepthCube).
 #[derive(Debug)]
 pub struct Build {
-    pairs: Option<PairsPass>,
+    large: Option<LargePass>,
     count: Visit,
     scan: Scan,
     layers: Layers,
-    fringe: Option<Visit>,
+    conservative: Option<Visit>,
     attributes: Option<ComputePipeline>,
     status: ComputePipeline,
 }
@@ -66,11 +66,13 @@ impl Build {
         };
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
-            pairs: visits.pairs("build_1_pairs")?,
+            large: visits.large("build_1_large")?,
             count: covered("build_2_count")?,
             scan: Scan::new(pipelines, "build_3_scan")?,
             layers,
-            fringe: kept.then(|| visits.visit("build_raster.fringe", "build_6_fringe", "")).transpose()?,
+            conservative: kept
+                .then(|| visits.visit("build_raster.conservative", "build_6_conservative", ""))
+                .transpose()?,
             attributes: stored.then(|| pipelines.compute("build_9_attributes")).transpose()?,
             status: pipelines.compute("build_10_status")?,
         })
@@ -89,8 +91,8 @@ impl Build {
             (Making::Peel, _) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Scratch],
         };
         target.record_header(recorder, "ldc/build_0_header", cleared, shaders | Access::VERTEX_READ);
-        if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target);
+        if let Some(large) = &self.large {
+            large.record(recorder, target);
         }
         let views = [ViewDraw { side, views: DRAWS, first: 0 }];
         self.count.record(recorder, target, &views);
@@ -102,8 +104,8 @@ impl Build {
                 record_peeling(recorder, peel, grow, layers, side, target);
             }
         }
-        if let Some(fringe) = &self.fringe {
-            fringe.record(recorder, target, &views);
+        if let Some(conservative) = &self.conservative {
+            conservative.record(recorder, target, &views);
         }
         // Long lists are named where triangles with many cells were, so all triangles are visited before.
         if let Layers::Single { sort, .. } = &self.layers {

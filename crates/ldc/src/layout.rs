@@ -24,13 +24,13 @@ pub struct Demand {
     /// place more than it has fragments.
     pub fragments: u64,
     /// Triangles outside of centres.
-    pub fringe: u64,
+    pub conservative: u64,
     /// Lists that one dispatch does not sort.
     pub long_lists: u64,
     /// Fragments of the deepest cell, which is how many layers are peeled.
     pub layers: u64,
     /// Triangles with many cells of their view, for the binning builder.
-    pub pairs: u64,
+    pub large: u64,
 }
 
 /// What a layered depth cube of this configuration allocates to hold what a build may ask for.
@@ -48,8 +48,8 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         Occupancy::Bounds => 8,
         Occupancy::Slices => 16,
     };
-    let (heads, fringe) = match config.coverage {
-        Coverage::Conservative => (cells, demand.fringe),
+    let (heads, conservative) = match config.coverage {
+        Coverage::Conservative => (cells, demand.conservative),
         Coverage::Exact | Coverage::Hardware => (0, 0),
     };
     let sizes = [
@@ -59,7 +59,7 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (Pool::Payload, demand.fragments, config.payload_bytes()),
         (Pool::Blocks, block_count(config), block_bytes),
         (Pool::Heads, heads, 4),
-        (Pool::Fringe, fringe, 12),
+        (Pool::Conservative, conservative, 12),
         (Pool::Scratch, scratch_words(config, demand), 4),
     ];
     Sizes::of("ldc", sizes)
@@ -68,9 +68,9 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
 /// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have
 /// been visited two of each long list; or one of each layer that is peeled.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
+    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
     let sorted_or_peeled = match config.making {
-        Making::Single => pairs.max(2 * demand.long_lists),
+        Making::Single => large.max(2 * demand.long_lists),
         Making::Peel => demand.layers,
     };
     Scan::sums(cell_count(config.resolution)) + sorted_or_peeled
@@ -87,7 +87,7 @@ pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
 }
 
 /// Capacity of such pools for triangles with many cells.
-pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
     if config.builder == Builder::Binning { words_behind_sums(config, sizes) } else { 0 }
 }
 
@@ -102,7 +102,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let cells = cell_count(config.resolution);
     let fragments = config.fragments.unwrap_or(2 * cells);
     let layers = config.layers.min(8).into();
-    plan(config, Demand { fragments, fringe: cells / 4, long_lists: 0, layers, pairs: 1024 })
+    plan(config, Demand { fragments, conservative: cells / 4, long_lists: 0, layers, large: 1024 })
 }
 
 /// Bytes for counted cells, offsets of fragments, triangles outside of centres and long lists.
@@ -115,7 +115,7 @@ pub struct FormulaBytes {
     /// Per place: triangle 4, or colour and normal 8; and depth 2 or 4.
     pub fragments: u64,
     /// Per triangle outside of a centre: triangle, link and depths 12.
-    pub fringe: u64,
+    pub conservative: u64,
     /// With ids: 4 per fragment.
     pub ids: u64,
     /// Header, a sum of 4 per 1024 cells for the scan, and 4 per layer peeled, or 8 per long list, or where
@@ -126,13 +126,13 @@ pub struct FormulaBytes {
 impl FormulaBytes {
     /// Sum of all parts.
     pub fn total(&self) -> u64 {
-        self.cells + self.blocks + self.fragments + self.fringe + self.ids + self.rest
+        self.cells + self.blocks + self.fragments + self.conservative + self.ids + self.rest
     }
 }
 
 /// The page's formula. It does not look at [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
-    let Demand { fragments, fringe, long_lists, layers, pairs } = demand;
+    let Demand { fragments, conservative, long_lists, layers, large } = demand;
     let side = u64::from(config.resolution);
     let blocks = side.div_ceil(u64::from(config.block));
     let upper = if config.levels == 2 { blocks.div_ceil(8) } else { 0 };
@@ -147,13 +147,13 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         blocks: 3 * (blocks * blocks + upper * upper) * block_bytes,
         fragments: payload * fragments + depths,
         ids: if config.ids { 4 * fragments } else { 0 },
-        fringe: if kept { 12 * fringe } else { 0 },
+        conservative: if kept { 12 * conservative } else { 0 },
         rest: 188
             + 4 * cells.div_ceil(1024)
             + match (config.making, config.builder) {
                 (Making::Peel, _) => 4 * layers,
                 (Making::Single, Builder::Raster) => 8 * long_lists,
-                (Making::Single, Builder::Binning) => (8 * long_lists).max(4 * pairs),
+                (Making::Single, Builder::Binning) => (8 * long_lists).max(4 * large),
             },
     }
 }
@@ -184,7 +184,7 @@ mod tests {
                     .into_iter()
                     .flat_map(|config| [0, 12_344, 12_345].map(|fragments| (config, fragments)))
                 {
-                    let demand = Demand { fragments, fringe: 77, long_lists: 3, layers: 5, pairs: 9 };
+                    let demand = Demand { fragments, conservative: 77, long_lists: 3, layers: 5, large: 9 };
                     let sizes = plan(&config, demand).expect("options are in range");
                     assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total(), "{config:?}");
                 }
@@ -206,6 +206,6 @@ mod tests {
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let asked = |demand| plan(&Config::robust(64), demand).expect_err("refused").to_string();
         assert!(asked(Demand { fragments: 1 << 32, ..Demand::default() }).contains("depths"));
-        assert!(asked(Demand { fringe: 1 << 31, ..Demand::default() }).contains("fringe"));
+        assert!(asked(Demand { conservative: 1 << 31, ..Demand::default() }).contains("conservative"));
     }
 }

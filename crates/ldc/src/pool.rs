@@ -16,7 +16,7 @@ rasray_ads::pool_names! {
         /// Heads of the lists of triangles that no fragment stands for.
         Heads = "heads",
         /// Those triangles.
-        Fringe = "fringe",
+        Conservative = "conservative",
         /// Sums of the scan, and what a build remembers.
         Scratch = "scratch",
     }

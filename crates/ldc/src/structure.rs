@@ -10,7 +10,7 @@ use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
 use crate::layout::{
-    Demand, first_plan, formula_bytes, layer_capacity, long_capacity, pair_capacity, plan, scratch_words,
+    Demand, first_plan, formula_bytes, large_capacity, layer_capacity, long_capacity, plan, scratch_words,
 };
 use crate::{Config, Contents, Header, Pool, well_formed};
 
@@ -22,7 +22,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     let Parts { config, pools, .. } = parts;
     Header {
         capacity: parts.elements(Pool::Payload) as u32,
-        fringe_capacity: parts.elements(Pool::Fringe) as u32,
+        conservative_capacity: parts.elements(Pool::Conservative) as u32,
         long_capacity: long_capacity(config, pools.sizes()) as u32,
         layer_capacity: layer_capacity(config, pools.sizes()) as u32,
         layer_limit: config.layers,
@@ -33,9 +33,9 @@ fn first_header(parts: &Parts<Config>) -> Header {
         payload_address: pools.address_of(Pool::Payload),
         blocks_address: pools.address_of(Pool::Blocks),
         heads_address: pools.address_of(Pool::Heads),
-        fringe_address: pools.address_of(Pool::Fringe),
+        conservative_address: pools.address_of(Pool::Conservative),
         scratch_address: pools.address_of(Pool::Scratch),
-        pair_capacity: pair_capacity(config, pools.sizes()) as u32,
+        large_capacity: large_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(u64::from(config.resolution + 2).pow(2))],
         ..Header::default()
     }
@@ -45,10 +45,10 @@ impl rasray_ads::Demand for Demand {
     fn zip(self, other: Self, mut with: impl FnMut(&'static str, u64, u64) -> u64) -> Self {
         Self {
             fragments: with("fragments", self.fragments, other.fragments),
-            fringe: with("fringe", self.fringe, other.fringe),
+            conservative: with("conservative", self.conservative, other.conservative),
             long_lists: with("long", self.long_lists, other.long_lists),
             layers: with("layers", self.layers, other.layers),
-            pairs: with("pairs", self.pairs, other.pairs),
+            large: with("large", self.large, other.large),
         }
     }
 }
@@ -126,27 +126,28 @@ impl Design for Build {
     fn asked(&self, _parts: &Parts<Config>, header: &Header) -> Demand {
         Demand {
             fragments: header.demand.into(),
-            fringe: header.fringe_demand.into(),
+            conservative: header.conservative_demand.into(),
             long_lists: header.long_demand.into(),
             layers: header.layer_demand.into(),
-            pairs: header.pairs.into(),
+            large: header.large_demand.into(),
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         let Parts { config, pools, .. } = parts;
         Demand {
             fragments: parts.elements(Pool::Payload),
-            fringe: parts.elements(Pool::Fringe),
+            conservative: parts.elements(Pool::Conservative),
             long_lists: long_capacity(config, pools.sizes()),
             layers: layer_capacity(config, pools.sizes()),
-            pairs: pair_capacity(config, pools.sizes()),
+            large: large_capacity(config, pools.sizes()),
         }
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         // One cell's conservative list may hold everything: a small object in a large world.
-        parts.usual_rounds() + parts.rounds(header.fringe_demand.min(parts.elements(Pool::Fringe) as u32))
+        parts.usual_rounds()
+            + parts.rounds(header.conservative_demand.min(parts.elements(Pool::Conservative) as u32))
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
@@ -154,7 +155,7 @@ impl Design for Build {
         match pool {
             Pool::Depths => Some(asked.fragments.div_ceil(u64::from(32 / config.depth.bits()))),
             Pool::Payload => Some(asked.fragments),
-            Pool::Fringe => Some(asked.fringe),
+            Pool::Conservative => Some(asked.conservative),
             Pool::Scratch => Some(scratch_words(config, *asked)),
             _ => None,
         }
@@ -167,7 +168,7 @@ impl Design for Build {
             paths: parts.config.paths(),
             formula_bytes: formula.total(),
             diagnostic_bytes: formula.ids,
-            stored: Some(asked.fragments + asked.fringe),
+            stored: Some(asked.fragments + asked.conservative),
             ..StructureReport::default()
         }
     }
@@ -183,6 +184,6 @@ impl Design for Build {
         Payload => payload,
         Blocks => blocks,
         Heads => heads,
-        Fringe => fringe,
+        Conservative => conservative,
     }
 }

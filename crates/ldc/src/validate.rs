@@ -23,7 +23,7 @@ pub struct Contents {
     /// First link of each cell's conservative list.
     pub heads: Vec<u32>,
     /// Triangle and next link of each node of the conservative lists.
-    pub fringe: Vec<u32>,
+    pub conservative: Vec<u32>,
 }
 
 /// What is wrong with a list.
@@ -120,8 +120,8 @@ impl Contents {
     ///
     /// # Errors
     /// A link names no node, or the list is a ring.
-    pub fn fringe_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
-        let stored = self.header.fringe_demand.min(self.header.fringe_capacity) as usize;
+    pub fn conservative_list_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
+        let stored = self.header.conservative_demand.min(self.header.conservative_capacity) as usize;
         let mut found = Vec::new();
         let mut link = self.heads.get(cell).copied().unwrap_or(0);
         while link != 0 {
@@ -129,8 +129,8 @@ impl Contents {
                 return Err(Fault::Dangling { cell, link });
             }
             let node = 3 * (link as usize - 1);
-            found.push(self.fringe[node]);
-            link = self.fringe[node + 1];
+            found.push(self.conservative[node]);
+            link = self.conservative[node + 1];
         }
         Ok(found)
     }
@@ -203,11 +203,11 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
             previous = Some(key);
         }
         listed = list.end as usize;
-        let fringe = contents.fringe_of(cell)?;
-        if let Some(&primitive) = fringe.iter().find(|&&primitive| primitive >= triangles) {
+        let conservative = contents.conservative_list_of(cell)?;
+        if let Some(&primitive) = conservative.iter().find(|&&primitive| primitive >= triangles) {
             return Err(Fault::Primitive { cell, primitive });
         }
-        nodes += fringe.len();
+        nodes += conservative.len();
     }
     let listed = if contents.config.depth == Depth::Bits16 { listed.next_multiple_of(2) } else { listed };
     let stored = contents.header.demand as usize;
@@ -215,6 +215,6 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
         return Err(Fault::Count { stored, listed });
     }
     let kept = contents.config.coverage == Coverage::Conservative;
-    let stored = if kept { contents.header.fringe_demand as usize } else { 0 };
+    let stored = if kept { contents.header.conservative_demand as usize } else { 0 };
     if nodes == stored { Ok(()) } else { Err(Fault::Count { stored, listed: nodes }) }
 }

@@ -81,16 +81,16 @@ impl HitConfusion {
             if hit.is_some_and(|hit| !hit.t.is_finite()) {
                 confusion.non_finite.count += 1;
             } else if truth.is_ambiguous() {
-                confusion.judge_ambiguous(truth, hit);
+                confusion.evaluate_ambiguous(truth, hit);
             } else {
-                dt_rel.extend(confusion.judge(truth, hit, wrong_primitive_tolerance));
+                dt_rel.extend(confusion.evaluate(truth, hit, wrong_primitive_tolerance));
             }
         }
         confusion.dt_rel = Percentiles::of(&dt_rel);
         Ok(confusion)
     }
 
-    fn judge_ambiguous(&mut self, truth: &impl Truth, hit: &Option<DeviceHit>) {
+    fn evaluate_ambiguous(&mut self, truth: &impl Truth, hit: &Option<DeviceHit>) {
         if !truth.admits_miss() {
             count(&mut self.ambiguous_lost, hit.is_none());
         }
@@ -100,7 +100,7 @@ impl HitConfusion {
     }
 
     /// Returns |dt| / t if there is one.
-    fn judge(
+    fn evaluate(
         &mut self,
         truth: &impl Truth,
         hit: &Option<DeviceHit>,

@@ -38,13 +38,13 @@ pub fn cells_along(
     for view in 0..6 {
         let (o, d) = (in_view(origin, view), in_view(direction, view));
         // The pyramid |x| <= z, |y| <= z.
-        let mut stretch = range;
+        let mut interval = range;
         for axis in 0..2 {
             for sign in [1.0, -1.0] {
-                stretch = clip(stretch, o[2] + sign * o[axis], d[2] + sign * d[axis]);
+                interval = clip(interval, o[2] + sign * o[axis], d[2] + sign * d[axis]);
             }
         }
-        let [begin, end] = stretch;
+        let [begin, end] = interval;
         if begin.partial_cmp(&end) != Some(Ordering::Less) {
             continue;
         }
@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ray_across_one_view_meets_every_column_once() {
+    fn a_ray_across_one_view_crosses_every_column_once() {
         let chords = cells_along([-2.0, 0.1, 2.0], [1.0, 0.0, 0.0], [0.0, 4.0], 8);
         let cells: Vec<_> = chords.iter().map(|chord| (chord.view, chord.cell)).collect();
         let expected: Vec<_> = (0..8).map(|x| (4, [x, 4])).collect();
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn stretches_join_without_gap_from_view_to_view() {
+    fn intervals_join_without_gap_from_view_to_view() {
         let (origin, direction) = ([0.3, -2.0, 1.7], [0.4, 1.0, -0.9]);
         let chords = cells_along(origin, direction, [0.0, 1.0e4], 16);
         assert_eq!((chords[0].t[0], chords[chords.len() - 1].t[1]), (0.0, 1.0e4));

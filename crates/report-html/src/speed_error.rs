@@ -39,7 +39,7 @@ struct Measure {
 }
 
 /// Unambiguous rays.
-pub(super) fn judged(run: &Run) -> Option<u64> {
+pub(super) fn evaluated(run: &Run) -> Option<u64> {
     let accuracy = run.accuracy.as_ref()?;
     accuracy.rays.checked_sub(accuracy.ambiguous).filter(|rays| *rays > 0)
 }
@@ -58,7 +58,7 @@ fn rate(run: &Run) -> Option<f64> {
 }
 
 fn hits(run: &Run) -> Option<Entry<'_>> {
-    let (speed, rays, errors) = (rate(run)?, judged(run)?, errors(run)?);
+    let (speed, rays, errors) = (rate(run)?, evaluated(run)?, errors(run)?);
     let note = format!("{} errors of {} rays", grouped(errors), grouped(rays));
     let interval = Rate { count: errors, total: rays }.interval();
     Some(Entry { run, x: speed, speed, error: errors as f64 / rays as f64, interval, note })
@@ -83,7 +83,7 @@ pub(super) fn section(report: &Report) -> Option<Section> {
     for (position, (workload, indices)) in by_workload(&report.runs).into_iter().enumerate() {
         let runs = || indices.iter().map(|index| &report.runs[*index]);
         // The rays of one set are the same for every run; the fewest compared is the honest floor.
-        let rays = runs().filter_map(judged).min().unwrap_or(1);
+        let rays = runs().filter_map(evaluated).min().unwrap_or(1);
         let kinds: [(Measure, Vec<Entry<'_>>); 3] = [
             (
                 Measure {

@@ -45,8 +45,8 @@ fn title(report: &Report) -> String {
     let scene = &report.scene;
     let device = &report.device;
     let software = if device.software { ", a software driver: times are for ratios" } else { "" };
-    let judged = report.runs.iter().filter_map(|run| run.accuracy.as_ref()).map(judged);
-    let rays = match (judged.clone().min(), judged.max()) {
+    let evaluated = report.runs.iter().filter_map(|run| run.accuracy.as_ref()).map(evaluated);
+    let rays = match (evaluated.clone().min(), evaluated.max()) {
         (Some(least), Some(most)) if least == most => format!("{} unambiguous rays per set. ", grouped(most)),
         (Some(least), Some(most)) => {
             format!("{} to {} unambiguous rays per set. ", grouped(least), grouped(most))
@@ -60,7 +60,7 @@ fn title(report: &Report) -> String {
     format!("**{scene}**, {triangles} triangles. {rays}Device: {device}{software}.\n{command}\n")
 }
 
-fn judged(accuracy: &Accuracy) -> u64 {
+fn evaluated(accuracy: &Accuracy) -> u64 {
     accuracy.rays - accuracy.ambiguous
 }
 

@@ -126,12 +126,12 @@ pub(super) fn run_text(run: &Run) -> String {
         section(&mut text, " memory", parts.chain(totals).collect());
     }
     if let Some(accuracy) = &run.accuracy {
-        let judged = accuracy.rays.saturating_sub(accuracy.ambiguous);
+        let evaluated = accuracy.rays.saturating_sub(accuracy.ambiguous);
         let counted = |name: &str, label: &str, count: Option<u64>| {
             let count = count?;
             let (of, bounds) = match accuracy.rates.get(name) {
                 Some(rate) => (rate.of, Some(interval(rate))),
-                None => (judged, None),
+                None => (evaluated, None),
             };
             let percent = if of == 0 { 0.0 } else { 100.0 * count as f64 / of as f64 };
             let mut row = vec![label.to_owned(), format!("{} ({percent:.4} %)", grouped(count))];

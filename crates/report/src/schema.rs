@@ -360,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn times_stand_beside_the_other_fields_of_a_run() {
+    fn times_stand_next_to_the_other_fields_of_a_run() {
         let times =
             Times { timer: Some(Timer::Host), build_ms: Some(2.5), rays: Some(7), ..Default::default() };
         let value = serde_json::to_value(Run { times, ..Default::default() }).expect("plain data");

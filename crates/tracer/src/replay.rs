@@ -49,7 +49,7 @@ impl Replay {
         }
         let mut capacity = FIRST_STEPS;
         loop {
-            let replay = Self::with_room(device, structure, ray, mode, capacity)?;
+            let replay = Self::with_capacity(device, structure, ray, mode, capacity)?;
             if replay.hit.is_none() && structure.allow_more_rounds() {
                 continue;
             }
@@ -60,7 +60,7 @@ impl Replay {
         }
     }
 
-    fn with_room(
+    fn with_capacity(
         device: &Device,
         structure: &dyn Structure,
         ray: &Ray,

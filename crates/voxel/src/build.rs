@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, ListSort, PairsPass, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Scan, SceneBinding, ViewDraw, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
@@ -21,7 +21,7 @@ struct Lengths {
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
 pub struct Build {
-    pairs: Option<PairsPass>,
+    large: Option<LargePass>,
     voxels: Option<Visit>,
     axes: Option<ComputePipeline>,
     lengths: Option<Lengths>,
@@ -54,7 +54,7 @@ impl Build {
         };
         let sort = || ListSort::new(pipelines, "build_7_sort", "", "build_8_sort_long");
         Ok(Self {
-            pairs: visits.pairs("build_1_pairs")?,
+            large: visits.large("build_1_large")?,
             voxels: (config.marking() == Marking::Triangles).then(voxels).transpose()?,
             axes: (config.axes != Axes::Triangle).then(|| pipelines.compute("build_3_axes")).transpose()?,
             lengths: (config.storage == Storage::Contiguous).then(lengths).transpose()?,
@@ -81,8 +81,8 @@ impl Build {
         };
 
         target.record_header(recorder, "voxel/build_0_header", cleared, shaders | Access::VERTEX_READ);
-        if let Some(pairs) = &self.pairs {
-            pairs.record(recorder, target);
+        if let Some(large) = &self.large {
+            large.record(recorder, target);
         }
         if let Some(voxels) = &self.voxels {
             voxels.record(recorder, target, &columns);

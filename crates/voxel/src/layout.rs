@@ -18,7 +18,7 @@ pub struct Demand {
     /// Lists that one dispatch does not sort; only where lists are sorted.
     pub long_lists: u64,
     /// Triangles with many cells or columns of voxels, for the binning builder.
-    pub pairs: u64,
+    pub large: u64,
 }
 
 /// What a configuration allocates to hold what a build may ask for.
@@ -61,9 +61,9 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
 /// Words for the sums of the scan where lists are counted, and behind them for the triangles with many cells,
 /// and once those have been visited for two of each long list.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let pairs = if config.builder == Builder::Binning { demand.pairs } else { 0 };
+    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
     let long = if config.sorts() { 2 * demand.long_lists } else { 0 };
-    scan_words(config) + pairs.max(long)
+    scan_words(config) + large.max(long)
 }
 
 /// Words for the sums of the scan.
@@ -81,7 +81,7 @@ pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
 }
 
 /// Capacity of such pools for triangles with many cells.
-pub(crate) fn pair_capacity(config: &Config, sizes: &Sizes) -> u64 {
+pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
     match config.builder {
         Builder::Raster => 0,
         Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
@@ -98,7 +98,7 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
 /// The first guess where nothing has been counted: one per cell of one view.
 pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
     let entries = config.fragments.unwrap_or_else(|| list_count(config.resolution) / 3);
-    plan(config, Demand { entries, long_lists: 0, pairs: 1024 })
+    plan(config, Demand { entries, long_lists: 0, large: 1024 })
 }
 
 /// Bytes for counted voxels, cells, entries and long lists.
@@ -136,7 +136,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
         Storage::Paged => (4 + u64::from(config.page) * per_fragment, 0),
     };
     let long = if config.sort && config.storage != Storage::Paged { 8 * demand.long_lists } else { 0 };
-    let pairs = if config.builder == Builder::Binning { 4 * demand.pairs } else { 0 };
+    let large = if config.builder == Builder::Binning { 4 * demand.large } else { 0 };
     FormulaBytes {
         voxels: (grid * grid * grid).div_ceil(8) * 4 + if averaged { grid * grid * grid * 12 } else { 0 },
         lists: cells * 4,
@@ -146,7 +146,7 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
             (true, Storage::Paged) => 4 * demand.entries * u64::from(config.page),
             (true, _) => 4 * demand.entries,
         },
-        rest: 136 + sums + long.max(pairs),
+        rest: 136 + sums + long.max(large),
     }
 }
 
@@ -176,7 +176,7 @@ mod tests {
                 Config { grid, storage: Storage::Linked, ..Config::robust(resolution) },
                 Config { grid, storage: Storage::Paged, page: 5, ..Config::robust(resolution) },
             ] {
-                let demand = Demand { entries: 12_345, long_lists: 3, pairs: 7 };
+                let demand = Demand { entries: 12_345, long_lists: 3, large: 7 };
                 let sizes = plan(&config, demand).expect("options are in range");
                 assert_eq!(sizes.bytes(), formula_bytes(&config, demand).total());
                 let more = formula_bytes(&config, Demand { entries: 12_346, ..demand }).total();

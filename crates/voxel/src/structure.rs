@@ -11,7 +11,7 @@ use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
 use crate::layout::{
-    Demand, first_plan, formula_bytes, long_capacity, pair_capacity, plan, scratch_words, widest_view,
+    Demand, first_plan, formula_bytes, large_capacity, long_capacity, plan, scratch_words, widest_view,
 };
 use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
 
@@ -35,7 +35,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
         lists_address: pools.address_of(Pool::Lists),
         fragments_address: pools.address_of(Pool::Fragments),
         scratch_address: pools.address_of(Pool::Scratch),
-        pair_capacity: pair_capacity(config, pools.sizes()) as u32,
+        large_capacity: large_capacity(config, pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
     }
@@ -46,7 +46,7 @@ impl rasray_ads::Demand for Demand {
         Self {
             entries: with("fragments", self.entries, other.entries),
             long_lists: with("long", self.long_lists, other.long_lists),
-            pairs: with("pairs", self.pairs, other.pairs),
+            large: with("large", self.large, other.large),
         }
     }
 }
@@ -116,16 +116,16 @@ impl Design for Build {
         Demand {
             entries: header.demand.into(),
             long_lists: header.long_demand.into(),
-            pairs: header.pairs.into(),
+            large: header.large_demand.into(),
         }
     }
 
-    fn room(parts: &Parts<Config>) -> Demand {
+    fn capacity(parts: &Parts<Config>) -> Demand {
         let Parts { config, pools, .. } = parts;
         Demand {
             entries: parts.elements(Pool::Fragments),
             long_lists: long_capacity(config, pools.sizes()),
-            pairs: pair_capacity(config, pools.sizes()),
+            large: large_capacity(config, pools.sizes()),
         }
     }
 

@@ -352,9 +352,10 @@ mod tests {
 
     #[test]
     fn includes_are_read_from_the_folder_that_a_macro_names() {
-        let defines = [("STRUCTURE".to_owned(), "bvh".to_owned()), ("FRINGE".to_owned(), String::new())];
+        let defines =
+            [("STRUCTURE".to_owned(), "bvh".to_owned()), ("CONSERVATIVE".to_owned(), String::new())];
         assert_eq!(resolved("structure/trace.glsl", &defines), "bvh/trace.glsl");
-        assert_eq!(resolved("fringe/trace.glsl", &defines), "fringe/trace.glsl");
+        assert_eq!(resolved("conservative/trace.glsl", &defines), "conservative/trace.glsl");
         assert_eq!(resolved("trace.glsl", &defines), "trace.glsl");
     }
 }

@@ -62,11 +62,11 @@ fn check_message(injected: Injected, error: &GpuError) {
 /// can: of each stretch of the run, the first call of the function that was chosen least so far.
 fn chosen(calls: &[&'static str], count: usize) -> Vec<usize> {
     let mut times: BTreeMap<&str, usize> = BTreeMap::new();
-    let stretch = calls.len().div_ceil(count);
+    let length = calls.len().div_ceil(count);
     (0..calls.len())
-        .step_by(stretch)
+        .step_by(length)
         .map(|begin| {
-            let end = (begin + stretch).min(calls.len());
+            let end = (begin + length).min(calls.len());
             let rarest = |index: &usize| times.get(calls[*index]).copied().unwrap_or(0);
             let index = (begin..end).min_by_key(rarest).unwrap_or(begin);
             *times.entry(calls[index]).or_default() += 1;

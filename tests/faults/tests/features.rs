@@ -182,14 +182,14 @@ fn texels_beyond_one_binding_lie_in_several_or_are_fewer() {
     assert_eq!(finish(halves), Vec::<String>::new());
 
     let too_small = small(19);
-    let room = TexelRuns::of(too_small.limits()).most_texels();
+    let capacity = TexelRuns::of(too_small.limits()).most_texels();
     match picture(&too_small, &scene) {
         Err(Failure::Scene(GpuSceneError::TooManyTexels { count, limit })) => {
-            assert_eq!((count, limit), (demand.texels(), room));
+            assert_eq!((count, limit), (demand.texels(), capacity));
         }
         other => panic!("{} texels do not fit, got {:?}", demand.texels(), other.map(|_| ())),
     }
-    let smaller = demand.smaller_images(room).expect("half as many rows fit");
+    let smaller = demand.smaller_images(capacity).expect("half as many rows fit");
     assert_eq!(smaller.iter().map(|image| image.to).collect::<Vec<_>>(), [[350, 350]]);
     smaller[0].apply(&mut scene);
     let (is_split, found) = picture(&too_small, &scene).expect("a picture");

@@ -63,8 +63,8 @@ impl Stream {
         if u + v > 1.0 {
             (u, v) = (1.0 - u, 1.0 - v);
         }
-        let room = 1.0 - 3.0 * margin;
-        [margin + room * (1.0 - u - v), margin + room * u, margin + room * v]
+        let span = 1.0 - 3.0 * margin;
+        [margin + span * (1.0 - u - v), margin + span * u, margin + span * v]
     }
 }
 

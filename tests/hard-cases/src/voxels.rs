@@ -27,7 +27,7 @@ pub(super) const CASES: &[Entry] = &[
         id: "X7",
         title: "published ray whose traversal did not end",
         parameter: 0.0,
-        build: endless_walk,
+        build: endless_traversal,
     },
     Entry { id: "X8", title: "rays without end through an empty grid", parameter: 0.0, build: empty_grid },
 ];
@@ -171,11 +171,11 @@ fn ends_of_grid(context: &Context) -> Content {
     Content::new(triangles, rays, expect).seen_from([20.3, 11.2, 8.1]).on(Grid::UNIT_64)
 }
 
-fn endless_walk(context: &Context) -> Content {
+fn endless_traversal(context: &Context) -> Content {
     const FROM: [f32; 3] = [-668.0, -340.0, 77.0];
     const TO: [f32; 3] = [404.0, -64.0, -784.0];
     let grid = Grid { low: [-1024.0; 3], cell: 16.0, resolution: 128 };
-    // Across the ray, well inside the cell that the walk must end in.
+    // Across the ray, well inside the cell that the traversal must end in.
     let (u, v) = ([276.0 / 1107.0, -1072.0 / 1107.0, 0.0], [0.0, 861.0 / 904.0, 276.0 / 904.0]);
     let corner = |s: f32, t: f32| along(along(TO, u, s), v, t);
     let end = [corner(6.0, -3.0), corner(-6.0, -3.0), corner(0.0, 6.0)];

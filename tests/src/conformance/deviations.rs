@@ -255,7 +255,7 @@ pub(super) const fn deviation(
     Deviation { case, reason, at_least_rate, at_most_rate }
 }
 
-/// Errors at a border, which a ray may meet or not.
+/// Errors at a border, which a ray may hit or not.
 pub(super) const fn line(case: &'static str, reason: &'static str, per_cell: f64) -> Law {
     Law { case, reason, per_cell, curve: Curve::Line }
 }

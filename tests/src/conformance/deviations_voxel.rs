@@ -238,7 +238,7 @@ pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("P7", LEAVING, 0.296, 0.464),
 ];
 
-/// The published rules in 128 x 128 cells a view, walked exactly.
+/// The published rules in 128 x 128 cells a view, traversed exactly.
 pub(super) const PARITY_128: &[Deviation] = &[
     deviation("G1", THIN, 0.7, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

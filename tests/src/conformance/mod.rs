@@ -11,7 +11,7 @@
 //! registry that no row stands for. A list of deviations starts empty: the first run reports every case whose
 //! rate is beyond the law, with the rate. `RASRAY_RATES=1` with `--nocapture` prints all rates.
 //!
-//! Rates are judged by their interval, so that all judgements together are wrong with a probability of at
+//! Rates are evaluated by their interval, so that all evaluations together are wrong with a probability of at
 //! most [`FALSE_ALARM`] where every law holds, whatever the seed.
 
 mod deviations;
@@ -19,7 +19,7 @@ mod deviations_ambiguous;
 mod deviations_dirt;
 mod deviations_ldc;
 mod deviations_voxel;
-mod judge;
+mod evaluate;
 mod measure;
 mod prepare;
 mod rounds;
@@ -32,7 +32,7 @@ mod rows_ldc;
 mod rows_mmrt;
 mod rows_voxel;
 
-pub use judge::{FALSE_ALARM, confidence, judge};
+pub use evaluate::{FALSE_ALARM, confidence, evaluate};
 pub use measure::{answers, compare, first_other, measure};
 pub use prepare::Prepared;
 pub use rasray_experiment::Measured;

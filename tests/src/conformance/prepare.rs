@@ -24,7 +24,7 @@ pub struct Prepared {
     pub rays: Vec<Ray>,
     /// The case's eye, and a camera there.
     pub viewpoint: Viewpoint,
-    /// Only what the camera sees is judged.
+    /// Only what the camera sees is evaluated.
     pub only_camera: bool,
     /// Which triangles these are.
     pub placed: Placed,
@@ -64,7 +64,7 @@ impl Prepared {
         }
     }
 
-    /// Whether a ray is not judged: only what the camera sees is, and of all that it may meet something lies outside.
+    /// Whether a ray is not evaluated: only what the camera sees is, and of all that it may meet something lies outside.
     pub fn is_unseen(&self, index: usize) -> bool {
         let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
         let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);

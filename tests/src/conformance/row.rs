@@ -62,7 +62,7 @@ pub struct Law {
 /// How the largest rate of a law falls with the resolution N.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Curve {
-    /// `per_cell / N`: each ray meets one border, whose share of the rays is as wide as a cell.
+    /// `per_cell / N`: each ray hits one border, whose share of the rays is as wide as a cell.
     Line,
     /// `1 - exp(-per_cell / N)`: a ray is right only if none of many borders spoils it, each with a chance that is
     /// as wide as a cell and does not depend on the others.
@@ -191,7 +191,7 @@ impl Row {
         }
     }
 
-    /// Whether it has no views but the camera's, so that only what that sees is judged.
+    /// Whether it has no views but the camera's, so that only what that sees is evaluated.
     pub fn only_camera(&self) -> bool {
         self.options.contains(&("views", "camera"))
     }

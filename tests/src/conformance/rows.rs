@@ -9,7 +9,7 @@ pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
         .concat()
 });
 
-/// How often a row is judged in all runs together: each law and each end of a deviation is one comparison,
+/// How often a row is evaluated in all runs together: each law and each end of a deviation is one comparison,
 /// for rays that the oracle decides and for those that it does not.
 pub fn comparisons() -> usize {
     let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();

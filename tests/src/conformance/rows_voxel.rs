@@ -46,7 +46,7 @@ pub(super) const ROWS: &[Row] = &[
         voxel_law(128),
         deviations_voxel::ROBUST_128,
     ),
-    // As published, but every cell is walked, with crossings counted where the ray enters and leaves it.
+    // As published, but every cell is visited, with crossings counted where the ray enters and leaves it.
     voxel(
         "hu-published-exact-128",
         ("hu", Preset::Published),

@@ -73,7 +73,7 @@ pub fn convex_occlusion(point: DVec3, normal: DVec3, triangles: &[[DVec3; 3]]) -
 
 /// The same for a sphere of `radius` whose centre is `height` above the plane and `distance` aside; it must
 /// lie above the plane. Metres.
-pub fn beside_sphere(radius: f64, height: f64, distance: f64) -> f64 {
+pub fn next_to_sphere(radius: f64, height: f64, distance: f64) -> f64 {
     let squared = height * height + distance * distance;
     height * radius * radius / (squared * squared.sqrt())
 }
@@ -103,7 +103,7 @@ mod tests {
         near(perpendicular_rectangles(1.0, 1.0, 1.0), 0.200_043_776);
         // The faces of a cube see nothing but each other.
         near(parallel_rectangles(1.0, 1.0, 1.0) + 4.0 * perpendicular_rectangles(1.0, 1.0, 1.0), 1.0);
-        near(1.0 - beside_sphere(1.0, 1.0, 0.5), 0.284_458);
+        near(1.0 - next_to_sphere(1.0, 1.0, 0.5), 0.284_458);
         near(enclosure(1.0, 0.5, 3), 1.875);
         near(enclosure(1.0, 0.8, 400), 5.0);
         for (sheets, through) in [(1, 0.923_077), (2, 0.857_143), (4, 0.75), (8, 0.6)] {
@@ -150,7 +150,7 @@ mod tests {
             let point = DVec3::X * distance;
             let hidden = convex_occlusion(point, DVec3::Y, &triangles);
             // Facets lie inside the sphere by less than a thousandth of its radius.
-            let sphere = beside_sphere(1.0, 1.1, distance);
+            let sphere = next_to_sphere(1.0, 1.1, distance);
             assert!(hidden < sphere && hidden > sphere * 0.997, "{distance}: {hidden} {sphere}");
         }
     }

@@ -9,7 +9,7 @@ mod studio;
 
 pub use albedo::{Plastic, metal_albedo, plastic_albedo};
 pub use closed_forms::{
-    beside_sphere, convex_occlusion, enclosure, interface_transmission, normal_reflectance,
+    convex_occlusion, enclosure, interface_transmission, next_to_sphere, normal_reflectance,
     parallel_rectangles, perpendicular_rectangles, polygon_irradiance,
 };
 pub use estimate::{CHECK_LIMIT, Estimate, SIGMAS, assert_refused, assert_truth};

@@ -10,8 +10,8 @@ pub fn takes(
 ) -> bool {
     subject.with(&[chosen]).is_some()
         || others.any(|other| {
-            let beside = |choice: &&str| subject.with(&[(other.name, *choice), chosen]).is_some();
-            other.name != chosen.0 && other.tried().iter().any(beside)
+            let nearby = |choice: &&str| subject.with(&[(other.name, *choice), chosen]).is_some();
+            other.name != chosen.0 && other.tried().iter().any(nearby)
         })
 }
 

@@ -80,8 +80,8 @@ fn both_builders_store_the_same_fragments() {
                 .map(|builder| built(&bench, &triangles, Config { builder, ..config }, eye, &rays));
             let name = format!("{storage:?}, {coverage:?}, {views:?}, {resolution} cells a side");
             // A view of few cells is gone through at once.
-            assert_eq!(computed.contents.header.pairs > 0, resolution > 1, "{name}");
-            assert_eq!(drawn.contents.header.pairs, 0, "{name}");
+            assert_eq!(computed.contents.header.large_demand > 0, resolution > 1, "{name}");
+            assert_eq!(drawn.contents.header.large_demand, 0, "{name}");
             assert_eq!(drawn.stored, computed.stored, "{name}");
             assert_eq!(drawn.contents.header.lost, computed.contents.header.lost, "{name}");
             assert!(drawn.hits == computed.hits, "{name}: other hits");
@@ -96,9 +96,9 @@ fn both_builders_store_the_same_fragments() {
     assert_eq!(compared, if is_full() { 6 } else { 1 });
 }
 
-/// What has no room among the triangles with many cells is counted and grown, and nothing is answered until it has.
+/// What has no capacity among the triangles with many cells is counted and grown, and nothing is answered until it has.
 #[test]
-fn every_edge_capacity_of_pairs() {
+fn every_edge_capacity_of_large_triangles() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays(500));
     let geometry = bench.geometry(&triangles);
@@ -110,7 +110,7 @@ fn every_edge_capacity_of_pairs() {
         triangles: triangles.len() as u64,
         ..Demand::default()
     };
-    let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    let pairs = check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays);
-    assert_eq!(sizes(pairs).elements("scratch"), pairs);
+    let sizes = |large| plan(&config, Demand { large, ..demand }).expect("in range");
+    let large = check_capacities_of(&bench, &mut structure, "large", sizes, &rays);
+    assert_eq!(sizes(large).elements("scratch"), large);
 }

@@ -227,10 +227,10 @@ fn a_dda_is_a_march_of_enough_samples() {
     assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
 }
 
-/// Leaps pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are
+/// Skips pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are
 /// the same, with the same stays of the ray, whatever fragments stand for.
 #[test]
-fn leaps_change_no_hit() {
+fn skips_change_no_hit() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(true), rays(if is_full() { 40_000 } else { 600 }));
     let storage = |storage, resolution| Config { storage, resolution, ..robust() };
@@ -246,7 +246,7 @@ fn leaps_change_no_hit() {
         let found = answers(&bench, Config { march: March::Pyramid, ..config }, &triangles, &rays);
         if let Some(ray) = first_difference(&expected.closest, &found.closest) {
             let (found, expected) = (found.closest[ray], expected.closest[ray]);
-            panic!("{config:?}: {:?} hits {found:x?} with leaps, {expected:x?} without", rays[ray]);
+            panic!("{config:?}: {:?} hits {found:x?} with skips, {expected:x?} without", rays[ray]);
         }
         assert_eq!(first_difference(&expected.occluded, &found.occluded), None, "{config:?}");
     }
@@ -254,7 +254,7 @@ fn leaps_change_no_hit() {
 
 /// Fewer cells are visited by the blocks' depths, and where those are spoilt hits are lost.
 #[test]
-fn leaps_follow_the_depths_of_blocks() {
+fn skips_follow_the_depths_of_blocks() {
     let bench = Bench::new();
     let (triangles, rays) = (scene(false), rays(600));
     let base = Config { resolution: 64, counters: Counters::Sums, ..robust() };
@@ -268,10 +268,10 @@ fn leaps_follow_the_depths_of_blocks() {
     };
     let (hits, exact) = traced(&built(March::Exact));
     let structure = built(March::Pyramid);
-    let (same, leaping) = traced(&structure);
+    let (same, skipping) = traced(&structure);
     assert_eq!(hits, same);
-    assert_eq!((exact.entries, exact.tests), (leaping.entries, leaping.tests));
-    assert!(5 * leaping.cells < 3 * exact.cells, "{} of {} cells", leaping.cells, exact.cells);
+    assert_eq!((exact.entries, exact.tests), (skipping.entries, skipping.tests));
+    assert!(5 * skipping.cells < 3 * exact.cells, "{} of {} cells", skipping.cells, exact.cells);
     let mut contents = structure.download(bench.device()).expect("the device works");
     let cells = 4 * cell_count(structure.config()) as usize;
     contents.bounds[cells..].fill(0);

@@ -1,4 +1,4 @@
-//! Long lists, the near box, unusual resolutions and eyes, and rays with limits.
+//! Long lists, the near region, unusual resolutions and eyes, and rays with limits.
 
 use rasray_abuffer::{ABuffer, Config, Storage, well_formed};
 use rasray_ads::{BruteForce, Hit, PRIMITIVE_NONE, Ray, Structure};

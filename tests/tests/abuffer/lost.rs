@@ -141,7 +141,7 @@ fn conservative_coverage_finds_what_brute_force_finds() {
 }
 
 /// What is lost, and what is seen edge-on, is sent to where rays can hit it: nothing is lost then, what no
-/// fragment names is found like other triangles, and fringes hold far less than with conservative coverage.
+/// fragment names is found like other triangles, and conservative lists hold far less than with conservative coverage.
 #[test]
 fn edge_on_triangles_are_found() {
     let bench = Bench::new();
@@ -163,33 +163,38 @@ fn edge_on_triangles_are_found() {
         let contents = with.download(bench.device()).expect("the device works");
         well_formed(&contents).expect("lists are well formed");
         let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
-        let beside: HashSet<u32> = (0..cell_count(&contents.config) as usize)
-            .flat_map(|cell| contents.fringe_of(cell).expect("links are sound"))
+        let nearby: HashSet<u32> = (0..cell_count(&contents.config) as usize)
+            .flat_map(|cell| contents.conservative_list_of(cell).expect("links are sound"))
             .collect();
         let unnamed: HashSet<u32> = (0..WITH_AREA).filter(|primitive| !named.contains(primitive)).collect();
         assert!(
-            unnamed.is_subset(&beside),
+            unnamed.is_subset(&nearby),
             "{resolution} cells: {:?}",
-            unnamed.difference(&beside).take(5).map(|p| triangles[*p as usize]).collect::<Vec<_>>()
+            unnamed.difference(&nearby).take(5).map(|p| triangles[*p as usize]).collect::<Vec<_>>()
         );
-        let fringes =
-            [&with, &all].map(|structure| structure.header().expect("it is readable").fringe_demand);
+        let conservative_lists =
+            [&with, &all].map(|structure| structure.header().expect("it is readable").conservative_demand);
         let shares = [&without, &with]
             .map(|structure| right_shares(&named, &bench.trace(structure, &rays).hits, &expected));
-        println!("{resolution} cells: {fringes:?} in fringes, right of lost and of named {shares:?}");
+        println!(
+            "{resolution} cells: {conservative_lists:?} in conservative lists, right of lost and of named {shares:?}"
+        );
         if resolution == 1 {
             // Every plane stands for a whole face.
             continue;
         }
-        assert!(10 * fringes[0] < 9 * fringes[1], "{resolution} cells: {fringes:?}");
+        assert!(
+            10 * conservative_lists[0] < 9 * conservative_lists[1],
+            "{resolution} cells: {conservative_lists:?}"
+        );
         assert!(shares[0][0] < 0.3 && shares[1][0] > 0.8, "{resolution} cells: {shares:?}");
         assert!(shares[1][1] >= shares[0][1], "{resolution} cells: {shares:?}");
     }
 }
 
-/// Nor do they change one where the fringe holds what is lost alone, whoever builds.
+/// Nor do they change one where the conservative list holds what is lost alone, whoever builds.
 #[test]
-fn fringes_of_what_is_lost_are_searched_to_their_end() {
+fn conservative_lists_of_what_is_lost_are_searched_to_their_end() {
     let bench = Bench::new();
     let mut triangles = scene();
     triangles.extend(closed_box([-90.0; 3], [90.0; 3]));
@@ -217,10 +222,10 @@ fn fringes_of_what_is_lost_are_searched_to_their_end() {
     }
 }
 
-/// Neither storage nor views nor leaps nor pauses change a hit from that of brute force, and small budgets
-/// end within long fringes.
+/// Neither storage nor views nor skips nor pauses change a hit from that of brute force, and small budgets
+/// end within long conservative lists.
 #[test]
-fn fringes_are_searched_to_their_end() {
+fn conservative_lists_are_searched_to_their_end() {
     let bench = Bench::new();
     let mut triangles = scene();
     // All of it within a cell or two beside a large room.

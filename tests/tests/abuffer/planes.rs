@@ -1,4 +1,4 @@
-//! The payload of planes: what is stored is the plane of the fragment's triangle, rays meet it as they would meet the
+//! The payload of planes: what is stored is the plane of the fragment's triangle, rays hit it as they would meet the
 //! triangle's, and no ray asks for the triangle.
 
 use rasray_abuffer::{

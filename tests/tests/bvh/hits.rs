@@ -77,10 +77,11 @@ fn traced(bench: &Bench, structure: &mut dyn Structure, rays: &[Ray], rounds: u3
     }
 }
 
-fn judged(bench: &Bench, geometry: &Geometry, rays: &[Ray]) -> Answers {
-    let mut judge = BruteForce::new(bench.device(), geometry, None, false).expect("pipelines can be made");
-    let rounds = judge.rounds();
-    traced(bench, &mut judge, rays, rounds)
+fn reference_answers(bench: &Bench, geometry: &Geometry, rays: &[Ray]) -> Answers {
+    let mut reference =
+        BruteForce::new(bench.device(), geometry, None, false).expect("pipelines can be made");
+    let rounds = reference.rounds();
+    traced(bench, &mut reference, rays, rounds)
 }
 
 fn of_bvh(bench: &Bench, config: Config, geometry: &Geometry, rays: &[Ray], rounds: Option<u32>) -> Answers {
@@ -124,7 +125,7 @@ fn options_change_no_hit(builder: Builder) {
     let bench = Bench::new();
     let triangles = scene();
     let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
-    let expected = judged(&bench, &geometry, &rays);
+    let expected = reference_answers(&bench, &geometry, &rays);
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
     assert!(hit > RAYS / 4 && hit < RAYS, "{hit} of {RAYS} rays hit: too few or too many to tell anything");
     for (name, config, rounds) in configurations(builder) {
@@ -150,7 +151,7 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let triangles = vec![[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.5, 0.0]]; 2000];
     let rays: Vec<_> = rays(&triangles).into_iter().take(200).collect();
     let geometry = bench.geometry(&triangles);
-    let expected = judged(&bench, &geometry, &rays);
+    let expected = reference_answers(&bench, &geometry, &rays);
     let tracer = BatchTracer::new(bench.device(), rays.len() as u32).expect("a queue fits");
     for builder in [Builder::Sah, Builder::Lbvh] {
         let config = Config { work_budget: Some(16), ..Config::new(builder) };
@@ -178,7 +179,7 @@ fn another_scene_has_other_hits() {
     let bench = Bench::new();
     let triangles = scene();
     let rays = rays(&triangles);
-    let expected = judged(&bench, &bench.geometry(&triangles), &rays);
+    let expected = reference_answers(&bench, &bench.geometry(&triangles), &rays);
     let mut moved = triangles;
     for triangle in moved.iter_mut().take(12) {
         triangle[0][1] += 1.0e-3;

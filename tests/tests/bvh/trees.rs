@@ -201,7 +201,7 @@ fn a_tree_of_the_host_is_asked_for_and_serves_one_build() {
 }
 
 /// Pools of every edge capacity, one smaller than the tree or all of them: nothing is answered, and what is
-/// grown to its demand answers as if it had had room.
+/// grown to its demand answers as if it had had capacity.
 #[test]
 fn every_edge_capacity() {
     let bench = Bench::new();
@@ -219,13 +219,13 @@ fn every_edge_capacity() {
         assert!(expected.iter().filter(|hit| hit.is_hit()).count() > 50);
         for (index, pool) in full.pools.iter().enumerate().skip(1) {
             let n = pool.elements;
-            for room in [0, 1, n / 2, n - 1, n] {
-                let what = format!("{builder:?}, room for {room} of {n} {}", pool.name);
+            for capacity in [0, 1, n / 2, n - 1, n] {
+                let what = format!("{builder:?}, capacity {capacity} of {n} {}", pool.name);
                 let mut sizes = full.clone();
-                sizes.pools[index].elements = room;
+                sizes.pools[index].elements = capacity;
                 bvh.resize(device, &sizes).expect("it fits");
                 let status = bench.build_once(&mut bvh, [0.0; 3]);
-                assert_eq!(status.complete, room == n, "{what}");
+                assert_eq!(status.complete, capacity == n, "{what}");
                 if let Check::Grow(sizes) = bvh.check(&status, 0).expect("sizes that do") {
                     let (hits, counters) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
                     assert_eq!(counters.not_ready as usize, rays.len(), "{what}");
@@ -233,7 +233,7 @@ fn every_edge_capacity() {
                     bvh.resize(device, &sizes).expect("it fits");
                     assert!(bench.build_once(&mut bvh, [0.0; 3]).complete, "{what}, grown");
                 } else {
-                    assert_eq!(room, n, "{what}");
+                    assert_eq!(capacity, n, "{what}");
                 }
                 let (hits, _) = trace_in_rounds(&bench, &bvh, &rays, TraceMode::Closest, 4);
                 assert_eq!(hits, expected, "{what}");

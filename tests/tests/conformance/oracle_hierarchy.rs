@@ -87,7 +87,7 @@ fn the_hierarchy_changes_no_verdict_of_random_scenes() {
     }
 }
 
-/// Every cell that marches are held to is among the exact cells, over the same stretch.
+/// Every cell that marches are held to is among the exact cells, over the same interval.
 fn missing(ray: &Ray, exact: &[CellChord], resolution: u32) -> usize {
     let required = exact_face_chords(ray, resolution, 0.0);
     let found = |face: u32, x: i32, y: i32, t: f64| {
@@ -98,7 +98,7 @@ fn missing(ray: &Ray, exact: &[CellChord], resolution: u32) -> usize {
                 && t <= chord.t[1]
         })
     };
-    // Where a ray runs along a boundary both cells are required of a march; the exact walk names one.
+    // Where a ray runs along a boundary both cells are required of a march; the exact traversal names one.
     let mut places: Vec<f64> = required.iter().map(|chord| chord.middle()).collect();
     places.dedup();
     places
@@ -123,7 +123,7 @@ fn exact_cells_are_those_that_marches_are_held_to() {
             let exact = cells_along(origin, direction, [0.0, 50.0], resolution);
             assert_eq!(missing(&ray, &exact, resolution), 0, "{ray:?}");
             checked += exact.len();
-            // A walk that leaves out its longest chord is noticed.
+            // A traversal that leaves out its longest chord is noticed.
             let length = |chord: &CellChord| chord.t[1] - chord.t[0];
             let mut short = exact.clone();
             let longest = (0..short.len())

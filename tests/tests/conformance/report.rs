@@ -22,16 +22,16 @@ pub fn run(
         StructureKind::Fragment => case.target.fragments,
     };
     let limit = row.limit(case.id);
-    let judged = measured.judged();
+    let evaluated = measured.evaluated();
     let mut accuracy = Accuracy::from(&measured.confusion);
-    let errors = RateRecord::of(judged).filter(|_| !row.is_exact());
-    // Of a thousand runs, the rate that was judged; counts are beside it.
+    let errors = RateRecord::of(evaluated).filter(|_| !row.is_exact());
+    // Of a thousand runs, the rate that was evaluated; counts are beside it.
     accuracy.rates = errors.map(|errors| ("errors".to_owned(), errors)).into_iter().collect();
     let inadmissible = RateRecord::of(measured.inadmissible).filter(|_| !row.is_exact());
     accuracy.rates.extend(inadmissible.map(|rate| ("inadmissible".to_owned(), rate)));
     let reason = match faults {
         [] if row.is_exact() => format!("all {} answers are allowed; {limit}", case.rays.len()),
-        [] => format!("{} of {} answers are wrong; {limit}", judged.count, judged.total),
+        [] => format!("{} of {} answers are wrong; {limit}", evaluated.count, evaluated.total),
         faults => faults.join("\n"),
     };
     let report = structure.report().expect("the header is readable");

@@ -8,7 +8,7 @@ use std::time::Instant;
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
 use rasray_tests::conformance::{
-    Demand, Law, Prepared, ROWS, Row, Tier, answers, compare, first_other, judge, measure,
+    Demand, Law, Prepared, ROWS, Row, Tier, answers, compare, evaluate, first_other, measure,
 };
 use rasray_tests::hard_cases::{self, Scale, Target};
 use rasray_tests::harness::Bench;
@@ -35,7 +35,7 @@ const REPEATED: &[&str] = &["Z4", "Z14", "C10"];
 /// How often, in the quick tier and in the full one.
 const REPEATS: [usize; 2] = [1, 19];
 
-/// Rays of a case for rows that are judged by rates in the full tier, with the meshes of the quick one: bounds of rates
+/// Rays of a case for rows that are evaluated by rates in the full tier, with the meshes of the quick one: bounds of rates
 /// hold for those.
 const RATES_FULL: Scale = Scale { rays: 20_000, ..Scale::QUICK };
 
@@ -128,14 +128,14 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             let hits = answers(bench, structure.as_mut(), &prepared);
             let measured = compare(&prepared, &hits, depth_tolerance, rounding);
             if std::env::var_os("RASRAY_RATES").is_some() {
-                let rate = measured.judged();
+                let rate = measured.evaluated();
                 let ambiguous = measured.inadmissible;
                 println!(
                     "{} {id} {} of {}, and of ambiguous rays {} of {}",
                     row.name, rate.count, rate.total, ambiguous.count, ambiguous.total
                 );
             }
-            let mut faults = judge(row, &prepared, &measured);
+            let mut faults = evaluate(row, &prepared, &measured);
             let repeats = if REPEATED.contains(&id) { REPEATS[usize::from(is_full())] } else { 0 };
             for repeat in 1..=repeats {
                 let again = answers(bench, structure.as_mut(), &prepared);
@@ -169,12 +169,13 @@ fn every_row_keeps_its_demand_at_large_counts() {
         eprintln!("skipped: set RASRAY_FULL to 1 for the large counts");
         return;
     }
-    let (exact, judged_by_rate): (Vec<_>, Vec<_>) = wanted_rows().into_iter().partition(|row| row.is_exact());
+    let (exact, evaluated_by_rate): (Vec<_>, Vec<_>) =
+        wanted_rows().into_iter().partition(|row| row.is_exact());
     let (bench, mut held) = (Bench::new(), Held::default());
     let rays = RAYS.on(bench.device(), "rays of a case for rows that find triangles");
     let tests = TESTS.on(bench.device(), "rays times triangles, at most");
     hold(&bench, &exact, Scale { rays, ..Scale::FULL }, tests, &mut held);
-    hold(&bench, &judged_by_rate, RATES_FULL, 0, &mut held);
+    hold(&bench, &evaluated_by_rate, RATES_FULL, 0, &mut held);
     report::write(&bench, std::mem::take(&mut held.runs));
     held.check();
 }
@@ -228,7 +229,7 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
 /// Triangles a hundred million times smaller than their distance from the ray, whose edges rounding cannot tell
 /// apart: only a structure that tests every triangle meets them.
 #[test]
-fn tiny_triangles_far_beside_a_ray_are_not_hit() {
+fn tiny_triangles_far_from_a_ray_are_not_hit() {
     let bench = Bench::new();
     let scale = Scale { rays: 20_000, ..Scale::QUICK };
     let prepared = Prepared::new(&bench, hard_cases::case("Z1", scale).expect("it exists"));
@@ -236,7 +237,7 @@ fn tiny_triangles_far_beside_a_ray_are_not_hit() {
     let (depth_tolerance, rounding) = row.tolerances();
     let mut structure = row.make(&bench, &prepared.geometry);
     let measured = measure(&bench, structure.as_mut(), &prepared, depth_tolerance, rounding);
-    assert_eq!(judge(row, &prepared, &measured), Vec::<String>::new());
+    assert_eq!(evaluate(row, &prepared, &measured), Vec::<String>::new());
 }
 
 /// What loaders drop is not on the device, and ids are still those of the file.

@@ -200,9 +200,9 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
         let triangles = outermost(size);
         let geometry = bench.geometry(&triangles);
         let rays = aimed(&mut Random::new(0x7631_3600 + u64::from(size)), &triangles);
-        let judge = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
-        let mut judge = judge.create(bench.device(), &geometry, None).expect("pipelines are made");
-        let expected = bench.build_and_trace(judge.as_mut(), [0.0; 3], &rays);
+        let reference = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
+        let mut reference = reference.create(bench.device(), &geometry, None).expect("pipelines are made");
+        let expected = bench.build_and_trace(reference.as_mut(), [0.0; 3], &rays);
         assert!(expected.iter().all(|hit| hit.is_hit()));
         for (system, cells) in SYSTEMS.iter().filter_map(|system| Some((system, system.size_option()?))) {
             for &preset in system.presets {

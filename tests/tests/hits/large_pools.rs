@@ -117,7 +117,7 @@ fn many_spheres(count: usize) -> Vec<Triangle> {
 }
 
 /// Trees grow with triangles alone, and so do bricks where their cells follow from these: with more of
-/// them than a binding has room for, both builders and the bricks are refused by name or reached by address,
+/// them than a binding has capacity for, both builders and the bricks are refused by name or reached by address,
 /// and find the same.
 #[test]
 fn trees_and_bricks_of_many_triangles_are_reached_by_address() {

@@ -1,4 +1,4 @@
-//! Room for the lists that one dispatch does not sort, at every edge capacity, in every structure that sorts lists; and
+//! Capacity for the lists that one dispatch does not sort, at every edge capacity, in every structure that sorts lists; and
 //! rounds for rays that read long ones.
 
 use rasray_ads::{Ray, Structure, TraceMode};
@@ -103,7 +103,7 @@ fn every_edge_capacity_of_long_lists_of_layered_depth_cubes() {
     let config = Config::robust(5);
     let mut structure = LayeredDepthCube::new(bench.device(), config, &bench.geometry(&triangles), None)
         .expect("the options are valid");
-    let demand = Demand { fragments: 1 << 18, fringe: 1 << 18, ..Demand::default() };
+    let demand = Demand { fragments: 1 << 18, conservative: 1 << 18, ..Demand::default() };
     let sizes = |long_lists| plan(&config, Demand { long_lists, ..demand }).expect("in range");
     check_capacities_of(&bench, &mut structure, "long", sizes, &rays());
 }

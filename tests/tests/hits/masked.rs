@@ -1,5 +1,5 @@
 //! Structures that lose no hit against brute force where masks cut holes into triangles, bit for bit: a
-//! candidate counts by the mask where the ray meets it, wherever and however a structure keeps its triangle.
+//! candidate counts by the mask where the ray hits it, wherever and however a structure keeps its triangle.
 
 use rasray_ads::{BruteForce, Hit, Ray, Structure, StructureKind, TraceMode};
 use rasray_gpu::Timing;

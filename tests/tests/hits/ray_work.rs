@@ -98,9 +98,9 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     }
 }
 
-/// A structure that counts per ray may meet a queue without room for it: nothing is written past its end.
+/// A structure that counts per ray may meet a queue without capacity for it: nothing is written past its end.
 #[test]
-fn a_queue_without_room_for_work_is_left_alone() {
+fn a_queue_without_a_buffer_for_work_is_left_alone() {
     let bench = Bench::new();
     let rays = rays(200);
     let geometry = bench.geometry(&scene());

@@ -40,7 +40,7 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
     Box::new(structure)
 }
 
-/// Storages and coverages beside those of presets, which make other walks of them.
+/// Storages and coverages beside those of presets, which make other traversals of them.
 const MORE: [Row; 6] = [
     ("bvh", "robust", &[("builder", "lbvh")]),
     ("dirt", "robust", &[("storage", "llb")]),
@@ -236,7 +236,7 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
     }
 }
 
-/// More steps than there is room for at first are traced again, so that none is lost silently.
+/// More steps than there is capacity for at first are traced again, so that none is lost silently.
 #[test]
 fn a_long_traversal_is_logged_in_full() {
     let bench = Bench::new();
@@ -268,7 +268,7 @@ fn a_structure_that_logs_nothing_says_so() {
         assert!(matches!(refused, TracerError::NoSteps { .. }), "{refused}");
         assert!(refused.to_string().contains("Counters::Steps"));
     }
-    // One whose build ran out of room gives no answer and says why.
+    // One whose build exceeded its capacity gives no answer and says why.
     let config = Config { counters: Counters::Steps, fragments: Some(0), ..Config::robust(RESOLUTION) };
     let mut cramped = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
     let recorded = bench.device().submit(|recorder| cramped.record_build(recorder, 0, EYE.into()));

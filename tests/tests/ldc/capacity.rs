@@ -34,9 +34,9 @@ fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> 
     hits
 }
 
-/// Room for so many fragments and triangles beside centres.
-fn room(fragments: u64, fringe: u64) -> Demand {
-    Demand { fragments, fringe, layers: 64, ..Demand::default() }
+/// Capacity for so many fragments and triangles beside centres.
+fn capacity(fragments: u64, conservative: u64) -> Demand {
+    Demand { fragments, conservative, layers: 64, ..Demand::default() }
 }
 
 fn demand(status: &BuildStatus, name: &str) -> u64 {
@@ -58,59 +58,69 @@ fn every_edge_capacity(config: Config) {
     let (triangles, rays) = (scene(), rays());
     let mut structure = made(&bench, config, &triangles);
 
-    // Ample room: what the demand and the hits are.
+    // Ample capacity: what the demand and the hits are.
     structure
-        .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
+        .resize(bench.device(), &plan(&config, capacity(1 << 16, 1 << 14)).expect("in range"))
         .expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
-    let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
+    let (fragments, conservative) = (demand(&status, "fragments"), demand(&status, "conservative"));
     let kept = config.coverage == Coverage::Conservative;
-    assert!(fragments > 1000 && (fringe > 100) == kept, "{status:?}");
+    assert!(fragments > 1000 && (conservative > 100) == kept, "{status:?}");
     check_well_formed(&bench, &structure, &triangles);
     let expected = trace(&bench, &structure, &rays);
 
-    let rooms = [0, 1, fragments / 2, fragments - 1, fragments].map(|room| (room, fringe));
-    let fringe_rooms = [0, 1, fringe / 2, fringe.saturating_sub(1)].map(|room| (fragments, room));
-    for (fragment_room, fringe_room) in rooms.into_iter().chain(fringe_rooms).chain([(0, 0)]) {
-        let sizes = plan(&config, room(fragment_room, fringe_room)).expect("in range");
+    let capacities = [0, 1, fragments / 2, fragments - 1, fragments].map(|capacity| (capacity, conservative));
+    let conservative_capacities =
+        [0, 1, conservative / 2, conservative.saturating_sub(1)].map(|capacity| (fragments, capacity));
+    for (fragment_capacity, conservative_capacity) in
+        capacities.into_iter().chain(conservative_capacities).chain([(0, 0)])
+    {
+        let sizes = plan(&config, capacity(fragment_capacity, conservative_capacity)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let mut status = bench.build_once(&mut structure, EYE);
-        let fits = fragment_room >= fragments && fringe_room >= fringe;
-        assert_eq!(status.complete, fits, "room for {fragment_room} and {fringe_room}");
-        assert_eq!(demand(&status, "fragments"), fragments, "room for {fragment_room}");
+        let fits = fragment_capacity >= fragments && conservative_capacity >= conservative;
+        assert_eq!(status.complete, fits, "room for {fragment_capacity} and {conservative_capacity}");
+        assert_eq!(demand(&status, "fragments"), fragments, "room for {fragment_capacity}");
         // What stands for what is known only where all fragments fit.
-        let counted = if fragment_room >= fragments { fringe } else { 0 };
-        assert_eq!(demand(&status, "fringe"), counted, "room for {fragment_room} and {fringe_room}");
+        let counted = if fragment_capacity >= fragments { conservative } else { 0 };
+        assert_eq!(
+            demand(&status, "conservative"),
+            counted,
+            "room for {fragment_capacity} and {conservative_capacity}"
+        );
         if !fits {
             for mode in [TraceMode::Closest, TraceMode::Occluded] {
                 let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
                 assert_eq!(
                     counters.not_ready as usize,
                     rays.len(),
-                    "room for {fragment_room} and {fringe_room}"
+                    "room for {fragment_capacity} and {conservative_capacity}"
                 );
                 assert!(
                     hits.iter().all(|hit| !hit.is_hit()),
-                    "a partial answer with room for {fragment_room}"
+                    "a partial answer with room for {fragment_capacity}"
                 );
             }
         }
         let mut regrows = 0;
         while let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") {
             regrows += 1;
-            assert!(regrows <= 2, "fragments grow first, then the fringe");
+            assert!(regrows <= 2, "fragments grow first, then the conservative list");
             structure.resize(bench.device(), &sizes).expect("it fits");
             status = bench.build_once(&mut structure, EYE);
         }
         assert_eq!(regrows > 0, !fits);
-        assert!(status.complete, "grown from {fragment_room} and {fringe_room}");
-        assert_eq!((demand(&status, "fragments"), demand(&status, "fringe")), (fragments, fringe));
+        assert!(status.complete, "grown from {fragment_capacity} and {conservative_capacity}");
+        assert_eq!(
+            (demand(&status, "fragments"), demand(&status, "conservative")),
+            (fragments, conservative)
+        );
         check_well_formed(&bench, &structure, &triangles);
         assert_eq!(
             trace(&bench, &structure, &rays),
             expected,
-            "grown from {fragment_room} and {fringe_room}"
+            "grown from {fragment_capacity} and {conservative_capacity}"
         );
     }
 }
@@ -155,17 +165,17 @@ fn bytes_are_those_of_the_formula() {
         let robust = Config::robust(resolution);
         let config = Config { block, levels, occupancy, depth, coverage, fragments: Some(0), ..robust };
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, room(0, 0)).expect("in range")).expect("it fits");
+        structure.resize(bench.device(), &plan(&config, capacity(0, 0)).expect("in range")).expect("it fits");
         build_until_complete(bench.device(), &mut structure, EYE, Timing::None).expect("the build completes");
         let status = structure.status(0).expect("the header is readable");
         let report = structure.report().expect("the header is readable");
-        let (fragments, fringe) = (demand(&status, "fragments"), demand(&status, "fringe"));
-        let formula = formula_bytes(&config, room(fragments, fringe));
+        let (fragments, conservative) = (demand(&status, "fragments"), demand(&status, "conservative"));
+        let formula = formula_bytes(&config, capacity(fragments, conservative));
         assert_eq!(report.bytes(), formula.total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());
         assert_eq!(structure.sizes().bytes(), formula.total());
-        assert_eq!(report.stored, Some(fragments + fringe));
-        assert_ne!(formula.total(), formula_bytes(&config, room(fragments + 1, fringe)).total());
+        assert_eq!(report.stored, Some(fragments + conservative));
+        assert_ne!(formula.total(), formula_bytes(&config, capacity(fragments + 1, conservative)).total());
     }
 }
 
@@ -178,7 +188,7 @@ fn every_fault_of_a_list_is_noticed() {
         let config = Config { depth, ..Config::robust(16) };
         let mut structure = made(&bench, config, &triangles);
         structure
-            .resize(bench.device(), &plan(&config, room(1 << 16, 1 << 14)).expect("in range"))
+            .resize(bench.device(), &plan(&config, capacity(1 << 16, 1 << 14)).expect("in range"))
             .expect("it fits");
         assert!(bench.build_once(&mut structure, EYE).complete);
         let good = structure.download(bench.device()).expect("the device works");
@@ -194,16 +204,16 @@ fn every_fault_of_a_list_is_noticed() {
             .find(|list| list.len() > 1 && good.depth_bits(list.start) != good.depth_bits(list.start + 1))
             .expect("there are layers");
         let place = long.start as usize;
-        let head = good.heads.iter().position(|&head| head != 0).expect("there is a fringe");
+        let head = good.heads.iter().position(|&head| head != 0).expect("there is a conservative list");
         assert!(matches!(broken(&|c| c.lists[20] = u32::MAX), Fault::Range { .. }));
         assert!(matches!(broken(&|c| c.payload[place] = u32::MAX), Fault::Primitive { .. }));
         assert!(matches!(broken(&|c| c.header.demand += 2), Fault::Count { .. }));
-        assert!(matches!(broken(&|c| c.header.fringe_demand += 1), Fault::Count { .. }));
+        assert!(matches!(broken(&|c| c.header.conservative_demand += 1), Fault::Count { .. }));
         assert!(matches!(broken(&|c| c.heads[head] = 0), Fault::Count { .. }));
         assert!(matches!(broken(&|c| c.heads[head] = u32::MAX), Fault::Dangling { .. }));
         let ring = broken(&|c| {
             let node = c.heads[head] as usize - 1;
-            c.fringe[3 * node + 1] = c.heads[head];
+            c.conservative[3 * node + 1] = c.heads[head];
         });
         assert!(matches!(ring, Fault::Dangling { .. }), "{ring:?}");
         let exchanged = broken(&|c| match depth {

@@ -1,4 +1,4 @@
-//! What the layered depth cube answers: rooms, layers, edges between views, long walks, pauses, limits, bad rays.
+//! What the layered depth cube answers: rooms, layers, edges between views, long traversals, pauses, limits, bad rays.
 
 use rasray_ads::{BruteForce, Counters, Hit, Ray, Structure, Surface, TraceMode};
 use rasray_gpu::Timing;
@@ -72,7 +72,7 @@ fn no_ray_leaves_a_closed_room_through_its_edges() {
     assert!(coarse > 2 * fine && fine > 0, "{coarse} of 2000 rays leave at 16 cells a side, {fine} at 128");
 }
 
-/// A lamp let into a ceiling lies in one plane with it: within a cell of its border 99 of 100 rays meet what
+/// A lamp let into a ceiling lies in one plane with it: within a cell of its border 99 of 100 rays hit what
 /// is there.
 #[test]
 fn a_lamp_is_not_taken_for_its_ceiling() {
@@ -89,18 +89,18 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     let mut random = Random::new(17);
     let rays: Vec<Ray> = (0..2000)
         .map(|index| {
-            let beside = random.between(-0.017, 0.017);
+            let nearby = random.between(-0.017, 0.017);
             let [x, z] = match index % 4 {
-                0 => [half + beside, random.between(far, near)],
-                1 => [-half + beside, random.between(far, near)],
-                2 => [random.between(-half, half), near + beside],
-                _ => [random.between(-half, half), far + beside],
+                0 => [half + nearby, random.between(far, near)],
+                1 => [-half + nearby, random.between(far, near)],
+                2 => [random.between(-half, half), near + nearby],
+                _ => [random.between(-half, half), far + nearby],
             };
             let origin = [random.between(-0.2, 0.2), random.between(0.35, 0.4), random.between(-0.4, -0.1)];
             Ray::new(origin, [x - origin[0], height - origin[1], z - origin[2]])
         })
         .collect();
-    // Whether each ray meets the lamp, and at which t.
+    // Whether each ray hits the lamp, and at which t.
     let lit = |structure: &dyn Structure| -> Vec<(bool, f32)> {
         let surfaces = bench.surfaces(structure, &rays);
         let lit = |surface: &Surface| surface.valid != 0 && surface.emission[0] > 0.0;
@@ -219,7 +219,7 @@ fn a_deep_cell_finds_every_layer() {
 
 /// A ray across a fine view steps more cells than a dispatch may: no software driver ends its loops early.
 #[test]
-fn walks_longer_than_a_dispatch_arrive() {
+fn traversals_longer_than_a_dispatch_arrive() {
     const RESOLUTION: u32 = 1200;
     let bench = Bench::new();
     let triangles = [quad([0.0, 1.0], [0.0, 1.0], 0.0), quad([0.0, 1.0], [0.0, 1.0], 1.0)].concat();

@@ -36,7 +36,7 @@ struct Layers {
     lists: Vec<Vec<(u32, u32)>>,
     blocks: Vec<u32>,
     /// Triangles beside the centre of each cell, whatever the order of links.
-    fringe: Vec<Vec<u32>>,
+    conservative: Vec<Vec<u32>>,
 }
 
 fn layers(contents: &Contents) -> Layers {
@@ -45,15 +45,15 @@ fn layers(contents: &Contents) -> Layers {
         let places = contents.list(cell).expect("well formed");
         places.map(|place| (contents.depth_bits(place), contents.payload[place as usize])).collect()
     };
-    let fringe = |cell| {
-        let mut found = contents.fringe_of(cell).expect("well formed");
+    let conservative = |cell| {
+        let mut found = contents.conservative_list_of(cell).expect("well formed");
         found.sort_unstable();
         found
     };
     Layers {
         lists: cells.clone().map(list).collect(),
         blocks: contents.blocks.clone(),
-        fringe: cells.map(fringe).collect(),
+        conservative: cells.map(conservative).collect(),
     }
 }
 
@@ -89,7 +89,7 @@ fn peeled_layers_are_those_of_a_single_pass() {
         assert_eq!(peel.0.header.layer_demand as usize, deepest);
         assert_eq!(expected.lists, peeled.lists, "{depth:?}, {coverage:?}");
         assert_eq!(expected.blocks, peeled.blocks, "{depth:?}, {coverage:?}");
-        assert_eq!(expected.fringe, peeled.fringe, "{depth:?}, {coverage:?}");
+        assert_eq!(expected.conservative, peeled.conservative, "{depth:?}, {coverage:?}");
         let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
         assert!(single.1.iter().map(key).eq(peel.1.iter().map(key)), "{depth:?}, {coverage:?}");
     }

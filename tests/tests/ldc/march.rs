@@ -1,4 +1,4 @@
-//! The walk over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if it
+//! The traversal over a flat grid of layered depth cubes: stopped and resumed at any square, it goes on as if it
 //! had not been, columns without rows included.
 
 use rasray_ads::Ray;
@@ -33,7 +33,7 @@ fn rays(random: &mut Random, first: i32, last: i32) -> Vec<Ray> {
 }
 
 #[test]
-fn a_walk_goes_on_wherever_it_was_stopped() {
+fn a_traversal_resumes_wherever_it_was_stopped() {
     let bench = Bench::new();
     let mut random = Random::new(0x70_6175_7365);
     // The first block, one within, and the last one of the largest view.
@@ -50,11 +50,11 @@ fn a_walk_goes_on_wherever_it_was_stopped() {
             rays.len(),
             bytemuck::cast_slice(&constants),
         );
-        let walks = runs(&found, &counts, limit);
+        let traversals = runs(&found, &counts, limit);
         // Squares; columns without rows, and of those such as stand before the first row or past the last, by side.
         let (mut squares, mut without_rows, mut outside) = (0, 0, [0; 2]);
-        for (ray, walk) in rays.iter().zip(walks.chunks(2)) {
-            let [Some(whole), Some(stopped)] = walk else {
+        for (ray, traversal) in rays.iter().zip(traversals.chunks(2)) {
+            let [Some(whole), Some(stopped)] = traversal else {
                 panic!("{ray:?} comes to more than {limit} squares")
             };
             assert_eq!(whole, stopped, "{ray:?}, squares {first} to {last}");

@@ -1,5 +1,5 @@
-//! Room for fragments that carry what a scene has at them, at every edge capacity: attributes, normals, and the
-//! triangles that are kept for diagnostics. What is shaded afterwards is what ample room had.
+//! Capacity for fragments that carry what a scene has at them, at every edge capacity: attributes, normals, and the
+//! triangles that are kept for diagnostics. What is shaded afterwards is what ample capacity had.
 
 use rasray_ads::{Ray, Sizes, Structure};
 use rasray_gpu_scene::GpuScene;
@@ -18,7 +18,7 @@ fn room(bench: &Bench) -> (GpuScene, Vec<Ray>) {
     (scene, rays)
 }
 
-/// Where rays meet something, and what is shaded there, to the bit. Fragments without ids are told apart by
+/// Where rays hit something, and what is shaded there, to the bit. Fragments without ids are told apart by
 /// what they carry: their place in a pool follows the order of threads.
 fn shaded(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Option<[u32; 10]>> {
     let shaded: Vec<_> = bench

@@ -58,8 +58,8 @@ fn bits(image: &[[f32; 3]]) -> Vec<[u32; 3]> {
 fn every_system_renders_what_brute_force_renders() {
     let bench = Bench::new();
     let scene = stage(&bench, "cornell", SIZE);
-    let judge = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
-    let (_, expected) = images(&bench, &scene, &judge);
+    let reference = Spec::new("brute-force", "robust", []).expect("the registry has brute force");
+    let (_, expected) = images(&bench, &scene, &reference);
     let [occlusion, light] = [mean(&expected[0]), mean(&expected[1])];
     assert!(0.1 < occlusion && occlusion < 0.9 && light > 0.05, "{occlusion}, {light}");
     let (mut exact, mut faults) = (0, Vec::new());

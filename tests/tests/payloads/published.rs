@@ -1,4 +1,4 @@
-//! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays meet
+//! Published payloads: surfaces come from what fragments store, hits stay where they are, and secondary rays hit
 //! fragments that do not say which triangle they are of.
 
 use rasray_ads::{Hit, PRIMITIVE_NONE, PRIMITIVE_UNKNOWN, Structure, Surface};
@@ -221,7 +221,7 @@ fn both_builders_store_the_same_attributes() {
     }
 }
 
-/// Rays meet fragments where they would if those named their triangles, and see their colours and normals, but for the
+/// Rays hit fragments where they would if those named their triangles, and see their colours and normals, but for the
 /// quantisation, and what a fragment has of its material beside these.
 #[test]
 fn stored_surfaces_are_those_of_the_triangles() {

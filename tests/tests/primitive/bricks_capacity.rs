@@ -14,8 +14,8 @@ use rasray_tests::shapes::Triangle;
 use rasray_tracer::build_until_complete;
 
 use crate::edges::{
-    EYE, NEAR_TRIANGLES, Room, demand, every_edge_capacity, made, missing_room_for_triangles, rays, scene,
-    trace,
+    Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, rays,
+    scene, trace,
 };
 
 /// Cells along each side of the scene, which is a cube.
@@ -25,8 +25,8 @@ fn config(views: Views) -> Config {
     Config { grid: Some(GRID), slices: (views == Views::Cube).then_some(GRID), ..Config::new(views) }
 }
 
-impl Room for Demand {
-    fn room(entries: u64, near: u64, triangles: &[Triangle]) -> Self {
+impl Capacity for Demand {
+    fn capacity(entries: u64, near: u64, triangles: &[Triangle]) -> Self {
         let triangles = triangles.len() as u64;
         Self { entries, near, records: 1 << 16, cells: 1 << 16, triangles, grid: [GRID; 3] }
     }
@@ -54,9 +54,9 @@ fn every_edge_capacity_of_bricks_by_address() {
     edges_of(Config { addressing: Addressing::Address, ..config(Views::Cube) });
 }
 
-/// Records and lists of bricks at every edge: whatever there is room for, the next build completes, with the same hits.
+/// Records and lists of bricks at every edge: whatever there is capacity for, the next build completes, with the same hits.
 #[test]
-fn bricks_grow_from_any_room_to_what_they_need() {
+fn bricks_grow_from_any_capacity_to_what_they_need() {
     Views::ALL.map(config).into_iter().for_each(bricks_grow);
 }
 
@@ -64,7 +64,7 @@ fn bricks_grow(config: Config) {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
     let mut structure: Bricks = made(&bench, config, &bench.geometry(&triangles));
-    let ample = Demand::room(1 << 20, 1 << 10, &triangles);
+    let ample = Demand::capacity(1 << 20, 1 << 10, &triangles);
     structure.resize(bench.device(), &plan(&config, &ample).expect("in range")).expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
@@ -72,18 +72,18 @@ fn bricks_grow(config: Config) {
     assert!(cells > 500 && records > cells / 2 && records < demand(&status, "entries"), "{status:?}");
     let expected = trace(&bench, &structure, &rays);
     let edges = |exact: u64| [0, 1, exact / 2, exact - 1, exact];
-    for (records_room, cells_room) in edges(records)
+    for (records_capacity, cells_capacity) in edges(records)
         .into_iter()
-        .map(|room| (room, cells))
-        .chain(edges(cells).map(|room| (records, room)))
+        .map(|capacity| (capacity, cells))
+        .chain(edges(cells).map(|capacity| (records, capacity)))
         .chain([(0, 0)])
     {
-        let sizes =
-            plan(&config, &Demand { records: records_room, cells: cells_room, ..ample }).expect("in range");
+        let sizes = plan(&config, &Demand { records: records_capacity, cells: cells_capacity, ..ample })
+            .expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let mut status = bench.build_once(&mut structure, EYE);
-        let fits = records_room >= records && cells_room >= cells;
-        assert_eq!(status.complete, fits, "room for {records_room} records and {cells_room} lists");
+        let fits = records_capacity >= records && cells_capacity >= cells;
+        assert_eq!(status.complete, fits, "room for {records_capacity} records and {cells_capacity} lists");
         assert_eq!(demand(&status, "records"), records);
         if !fits {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
@@ -94,7 +94,10 @@ fn bricks_grow(config: Config) {
             };
             structure.resize(bench.device(), &sizes).expect("it fits");
             status = bench.build_once(&mut structure, EYE);
-            assert!(status.complete, "grown from room for {records_room} records and {cells_room} lists");
+            assert!(
+                status.complete,
+                "grown from room for {records_capacity} records and {cells_capacity} lists"
+            );
         }
         assert_eq!((demand(&status, "records"), demand(&status, "lists")), (records, cells));
         let contents = structure.download(bench.device()).expect("the device works");
@@ -104,11 +107,11 @@ fn bricks_grow(config: Config) {
 }
 
 #[test]
-fn missing_room_for_triangles_is_noticed() {
-    Views::ALL.map(config).into_iter().for_each(missing_room_for_triangles::<Passes>);
+fn missing_capacity_for_triangles_is_noticed() {
+    Views::ALL.map(config).into_iter().for_each(missing_capacity_for_triangles::<Passes>);
 }
 
-/// More triangles than there was room for when the structure was made, and with them more columns.
+/// More triangles than there was capacity for when the structure was made, and with them more columns.
 #[test]
 fn bricks_take_another_geometry() {
     let bench = Bench::new();
@@ -174,7 +177,7 @@ fn every_fault_of_a_brick_is_noticed() {
     let count = triangles.len() as u32;
     let config = config(Views::Cube);
     let mut structure: Bricks = made(&bench, config, &bench.geometry(&triangles));
-    let sizes = plan(&config, &Demand::room(1 << 20, 64, &triangles)).expect("in range");
+    let sizes = plan(&config, &Demand::capacity(1 << 20, 64, &triangles)).expect("in range");
     structure.resize(bench.device(), &sizes).expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     let good = structure.download(bench.device()).expect("the device works");

@@ -1,5 +1,5 @@
 //! Bricks of cells along the axes: they list exactly the cells that a triangle reaches into, hits are those
-//! of brute force on every shape of a scene and from everywhere, and too little room for them is noticed.
+//! of brute force on every shape of a scene and from everywhere, and too little capacity for them is noticed.
 
 use std::collections::HashMap;
 
@@ -219,8 +219,9 @@ fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
     for (what, triangles) in shapes(&mut random) {
         let geometry = bench.geometry(&triangles);
         let rays = rays_at(&mut random, geometry.bounds(), 2000);
-        let judge = BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
-        let expected = bench.trace(&judge, &rays).hits;
+        let reference =
+            BruteForce::new(bench.device(), &geometry, None, false).expect("pipelines can be made");
+        let expected = bench.trace(&reference, &rays).hits;
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         println!("{what}: {hit} of {} rays hit", rays.len());
         assert!(hit > 100 || what.starts_with("a point") || what.starts_with("a line"), "{what}: {hit}");
@@ -247,7 +248,7 @@ fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
 
 /// Another geometry may ask for more bricks; what was given fewer than it asks for makes no half structure.
 #[test]
-fn missing_room_for_bricks_is_noticed() {
+fn missing_capacity_for_bricks_is_noticed() {
     let bench = Bench::new();
     let room = closed_box([-10.0; 3], [10.0; 3]);
     let flat: Vec<Triangle> = vec![[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]];

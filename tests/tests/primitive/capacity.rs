@@ -10,11 +10,11 @@ use rasray_tests::harness::Bench;
 use rasray_tests::shapes::Triangle;
 
 use crate::edges::{
-    EYE, NEAR_TRIANGLES, Room, demand, every_edge_capacity, made, missing_room_for_triangles, scene,
+    Capacity, EYE, NEAR_TRIANGLES, demand, every_edge_capacity, made, missing_capacity_for_triangles, scene,
 };
 
-impl Room for Demand {
-    fn room(entries: u64, near: u64, triangles: &[Triangle]) -> Self {
+impl Capacity for Demand {
+    fn capacity(entries: u64, near: u64, triangles: &[Triangle]) -> Self {
         Self { entries, near, triangles: triangles.len() as u64 }
     }
 }
@@ -52,9 +52,9 @@ fn every_edge_capacity_by_address() {
 }
 
 #[test]
-fn missing_room_for_triangles_is_noticed() {
+fn missing_capacity_for_triangles_is_noticed() {
     let lists = Config { storage: Storage::Linked, builder: Builder::Binning, ..Config::robust(64) };
-    missing_room_for_triangles::<Passes>(lists);
+    missing_capacity_for_triangles::<Passes>(lists);
 }
 
 /// What is allocated after the exact demand has been met is what the formula says.
@@ -80,7 +80,7 @@ fn bytes_are_those_of_the_formula() {
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete);
-        // The guess for the near list was larger.
+        // The guess for the near-region list was larger.
         let counted = Demand {
             entries: demand(&status, "entries"),
             near: demand(&status, "near"),
@@ -108,7 +108,7 @@ fn every_fault_of_a_list_is_noticed() {
     for storage in [Storage::Linked, Storage::Contiguous] {
         let config = Config { storage, buckets: 2, ..Config::robust(16) };
         let mut structure: PrimitiveLists = made(&bench, config, &geometry);
-        let sizes = plan(&config, &Demand::room(1 << 20, 64, &triangles)).expect("in range");
+        let sizes = plan(&config, &Demand::capacity(1 << 20, 64, &triangles)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(bench.build_once(&mut structure, EYE).complete);
         let good = structure.download(bench.device()).expect("the device works");

@@ -1,5 +1,5 @@
 //! What tests of pools of either structure share: the scene, the rays, and every edge capacity of entries and of the
-//! near list.
+//! near-region list.
 
 use rasray_ads::{BuildStatus, Check, Design, Geometry, Hit, Pooled, Ray, Structure, TraceMode};
 use rasray_tests::conformance::trace_in_rounds;
@@ -11,7 +11,7 @@ use rasray_tests::shapes::{Triangle, closed_box};
 pub const EYE: [f32; 3] = [0.0; 3];
 pub const NEAR_TRIANGLES: u64 = 5;
 
-/// Layers, a room, and triangles around the eye for the near list.
+/// Layers, a room, and triangles around the eye for the near-region list.
 pub fn scene() -> Vec<Triangle> {
     let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
     triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
@@ -42,17 +42,17 @@ pub fn made<D: Design>(bench: &Bench, config: D::Config, geometry: &Geometry) ->
     Pooled::new(bench.device(), config, geometry, None).expect("the options are valid")
 }
 
-/// Room for so many entries and near triangles, and ample room for all else.
-pub trait Room: Sized {
-    fn room(entries: u64, near: u64, triangles: &[Triangle]) -> Self;
+/// Capacity for so many entries and near triangles, and ample capacity for all else.
+pub trait Capacity: Sized {
+    fn capacity(entries: u64, near: u64, triangles: &[Triangle]) -> Self;
 }
 
-/// Whatever room there is for entries and near triangles, demands are exact, no answer is partial, and what was grown
+/// Whatever capacity there is for entries and near triangles, demands are exact, no answer is partial, and what was grown
 /// from there completes with the same hits. `check` holds lists well formed.
 pub fn every_edge_capacity<D>(config: D::Config, near_triangles: u64, check: impl Fn(&D::Contents, u32))
 where
     D: Design,
-    D::Demand: Room,
+    D::Demand: Capacity,
 {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
@@ -63,9 +63,9 @@ where
         check(&contents, triangles.len() as u32);
     };
     let plan =
-        |entries, near| D::plan(&config, &D::Demand::room(entries, near, &triangles)).expect("in range");
+        |entries, near| D::plan(&config, &D::Demand::capacity(entries, near, &triangles)).expect("in range");
 
-    // Ample room: what the demand and the hits are.
+    // Ample capacity: what the demand and the hits are.
     structure.resize(bench.device(), &plan(1 << 20, 1 << 10)).expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
@@ -76,12 +76,16 @@ where
 
     let full = [0, 1, entries / 2, entries - 1, entries].map(|capacity| (capacity, near));
     let near_full = [0, 1, near / 2, near.saturating_sub(1)].map(|capacity| (entries, capacity.min(near)));
-    for (room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
-        structure.resize(bench.device(), &plan(room, near_room)).expect("it fits");
+    for (capacity, near_capacity) in full.into_iter().chain(near_full).chain([(0, 0)]) {
+        structure.resize(bench.device(), &plan(capacity, near_capacity)).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
-        let fits = room >= entries && near_room >= near;
-        assert_eq!(status.complete, fits, "room for {room} and {near_room}");
-        assert_eq!((demand(&status, "entries"), demand(&status, "near")), (entries, near), "room for {room}");
+        let fits = capacity >= entries && near_capacity >= near;
+        assert_eq!(status.complete, fits, "room for {capacity} and {near_capacity}");
+        assert_eq!(
+            (demand(&status, "entries"), demand(&status, "near")),
+            (entries, near),
+            "room for {capacity}"
+        );
         if fits {
             assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
             assert_eq!(trace(&bench, &structure, &rays), expected);
@@ -89,31 +93,35 @@ where
         }
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
-            assert_eq!(counters.not_ready as usize, rays.len(), "room for {room} and {near_room}, {mode:?}");
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+            assert_eq!(
+                counters.not_ready as usize,
+                rays.len(),
+                "room for {capacity} and {near_capacity}, {mode:?}"
+            );
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {capacity}");
         }
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("room for {room} does not grow")
+            panic!("room for {capacity} does not grow")
         };
         assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
         assert!(bench.build_once(&mut structure, EYE).complete, "a build completes with its exact demand");
         check(&structure);
-        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {room} and {near_room}");
+        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {capacity} and {near_capacity}");
     }
 }
 
 /// Pools for fewer triangles than there are make no half structure.
-pub fn missing_room_for_triangles<D>(config: D::Config)
+pub fn missing_capacity_for_triangles<D>(config: D::Config)
 where
     D: Design,
-    D::Demand: Room,
+    D::Demand: Capacity,
 {
     let bench = Bench::new();
     let (triangles, rays) = (scene(), rays());
     let geometry = bench.geometry(&triangles);
     let mut structure = made::<D>(&bench, config, &geometry);
-    let few = D::Demand::room(1 << 20, 1 << 10, &triangles[..3]);
+    let few = D::Demand::capacity(1 << 20, 1 << 10, &triangles[..3]);
     structure.resize(bench.device(), &D::plan(&config, &few).expect("in range")).expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(!status.complete, "{status:?}");

@@ -70,7 +70,7 @@ impl Made {
     }
 
     /// Whether triangles around the eye are in a list of their own.
-    fn has_near_list(self) -> bool {
+    fn has_near_region_list(self) -> bool {
         !matches!(self, Self::Bricks(BricksConfig { views: Views::Axes, .. }))
     }
 }
@@ -195,12 +195,12 @@ fn crossing() -> Vec<Triangle> {
         .collect();
     for _ in 0..400 {
         // Seen almost edge-on from the middle.
-        let (far, beside) = (random.point(-9.0, 9.0), random.point(-2.0, 2.0));
+        let (far, nearby) = (random.point(-9.0, 9.0), random.point(-2.0, 2.0));
         let near = random.point(-0.1, 0.1);
         triangles.push([
             far,
             std::array::from_fn(|axis| 0.2 * far[axis] + near[axis]),
-            std::array::from_fn(|axis| 0.6 * far[axis] + beside[axis]),
+            std::array::from_fn(|axis| 0.6 * far[axis] + nearby[axis]),
         ]);
     }
     triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
@@ -305,7 +305,7 @@ fn triangles_around_the_eye_are_found() {
             let status = structure.status(0).expect("the header is readable");
             let near = status.demand("near").expect("the pool is counted") as usize;
             let right =
-                if made.has_near_list() { near > 20 && near < triangles.len() / 2 } else { near == 0 };
+                if made.has_near_region_list() { near > 20 && near < triangles.len() / 2 } else { near == 0 };
             assert!(right, "{made:?}: {near} triangles are in the near list");
             let what = format!("eye at {eye:?}, {made:?}");
             assert_exact(&what, &bench, structure.as_ref(), &rays, &expected);
@@ -346,7 +346,7 @@ fn no_budget_changes_a_hit() {
     let mut triangles = closed_box([-10.0; 3], [10.0; 3]);
     triangles.extend(sphere([-3.0, 0.5, -2.0], 1.5, 8));
     let mut rays = rays(9, 300, 9.0);
-    // Some are tested against every triangle, and some against the near list.
+    // Some are tested against every triangle, and some against the near-region list.
     rays.extend((0..20).map(|k| Ray::new([0.0, 50.0, k as f32 / 20.0], [0.0, -1.0, 0.0])));
     let expected = brute_force(&bench, &triangles, &rays);
     for (budget, rounds) in [(1, 4000), (2, 2000), (3, 1500), (64, 100)] {

@@ -24,12 +24,12 @@ fn built(bench: &Bench, structure: &mut dyn Structure, name: &str) -> (Vec<[u32;
     assert_eq!(report.bytes() - report.slack(), report.formula_bytes, "{name}");
     let hits = bench.trace(structure, &rays()).hits.iter().map(bits).collect();
     let status = structure.status(0).expect("the header is readable");
-    (hits, status.demand("pairs").expect("the pool has a status"))
+    (hits, status.demand("large").expect("the pool has a status"))
 }
 
 /// Hits of both, after what has to hold of how each was built.
-fn same_hits(name: &str, many: bool, [drawn, computed]: [(Vec<[u32; 4]>, u64); 2]) {
-    assert_eq!((drawn.1, computed.1 > 0), (0, many), "{name}");
+fn same_hits(name: &str, large: bool, [drawn, computed]: [(Vec<[u32; 4]>, u64); 2]) {
+    assert_eq!((drawn.1, computed.1 > 0), (0, large), "{name}");
     assert!(drawn.0 == computed.0, "{name}: other hits");
     assert!(drawn.0.iter().any(|hit| hit[1] != u32::MAX), "{name}: nothing is hit");
 }
@@ -42,7 +42,7 @@ fn both_builders_of_layered_depth_cubes_store_the_same_fragments() {
     let robust = Config::robust;
     let exact = |resolution| Config { coverage: Coverage::Exact, ..robust(resolution) };
     let tolerance = Config { payload: Payload::Index, coverage: Coverage::Exact, ..Config::published(40) };
-    for (config, many) in [
+    for (config, large) in [
         (robust(37), true),
         (robust(1), false),
         (exact(64), true),
@@ -59,10 +59,10 @@ fn both_builders_of_layered_depth_cubes_store_the_same_fragments() {
             contents.push(structure.download(bench.device()).expect("the device works"));
             found
         });
-        same_hits(&name, many, both);
+        same_hits(&name, large, both);
         let [drawn, computed] = [&contents[0], &contents[1]];
         assert!(drawn.lists == computed.lists && drawn.blocks == computed.blocks, "{name}");
-        assert_eq!(drawn.header.fringe_demand, computed.header.fringe_demand, "{name}");
+        assert_eq!(drawn.header.conservative_demand, computed.header.conservative_demand, "{name}");
         // Lists are sorted, so that they have one order. Lists of 16-bit depths may have a place at their end
         // that holds nothing.
         if config.depth == Depth::Bits32 {
@@ -88,7 +88,7 @@ fn both_builders_of_voxels_store_the_same_fragments() {
         sort: true,
         ..robust(48)
     };
-    for (config, many) in [
+    for (config, large) in [
         (robust(37), true),
         (Config { grid: Some(1), ..robust(1) }, false),
         // More columns of voxels than cells.
@@ -112,7 +112,7 @@ fn both_builders_of_voxels_store_the_same_fragments() {
             contents.push(structure.download(bench.device()).expect("the device works"));
             found
         });
-        same_hits(&name, many, both);
+        same_hits(&name, large, both);
         let [drawn, computed] = [&contents[0], &contents[1]];
         assert!(drawn.voxels == computed.voxels, "{name}: other voxels");
         assert_eq!(drawn.header.fragments, computed.header.fragments, "{name}");
@@ -125,20 +125,20 @@ fn both_builders_of_voxels_store_the_same_fragments() {
 }
 
 #[test]
-fn every_edge_capacity_of_pairs_of_layered_depth_cubes() {
+fn every_edge_capacity_of_large_triangles_of_layered_depth_cubes() {
     use rasray_ldc::{Config, Demand, plan};
     let bench = Bench::new();
     let triangles = all_sizes();
     let config = Config { builder: Builder::Binning, ..Config::robust(40) };
     let mut structure = LayeredDepthCube::new(bench.device(), config, &bench.geometry(&triangles), None)
         .expect("the options are valid");
-    let demand = Demand { fragments: 1 << 16, fringe: 1 << 16, layers: 1 << 8, ..Demand::default() };
-    let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays());
+    let demand = Demand { fragments: 1 << 16, conservative: 1 << 16, layers: 1 << 8, ..Demand::default() };
+    let sizes = |large| plan(&config, Demand { large, ..demand }).expect("in range");
+    check_capacities_of(&bench, &mut structure, "large", sizes, &rays());
 }
 
 #[test]
-fn every_edge_capacity_of_pairs_of_voxels() {
+fn every_edge_capacity_of_large_triangles_of_voxels() {
     use rasray_voxel::{Config, Demand, plan};
     let bench = Bench::new();
     let triangles = all_sizes();
@@ -146,6 +146,6 @@ fn every_edge_capacity_of_pairs_of_voxels() {
     let mut structure = Voxels::new(bench.device(), config, &bench.geometry(&triangles), None)
         .expect("the options are valid");
     let demand = Demand { entries: 1 << 16, ..Demand::default() };
-    let sizes = |pairs| plan(&config, Demand { pairs, ..demand }).expect("in range");
-    check_capacities_of(&bench, &mut structure, "pairs", sizes, &rays());
+    let sizes = |large| plan(&config, Demand { large, ..demand }).expect("in range");
+    check_capacities_of(&bench, &mut structure, "large", sizes, &rays());
 }

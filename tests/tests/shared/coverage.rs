@@ -54,22 +54,22 @@ fn triangles(resolution: u32, random: &mut Random, count: usize) -> Vec<Triangle
     (0..count)
         .map(|index| {
             let base = random.direction().map(|x| x * random.between(0.5, 8.0));
-            let beside = |random: &mut Random, size: f32| {
+            let nearby = |random: &mut Random, size: f32| {
                 let d = random.direction();
                 std::array::from_fn(|axis| base[axis] + size * d[axis])
             };
             match index % 7 {
-                0 => [base, beside(random, 2.0), beside(random, 2.0)],
+                0 => [base, nearby(random, 2.0), nearby(random, 2.0)],
                 1 => {
-                    let far: [f32; 3] = beside(random, 6.0);
+                    let far: [f32; 3] = nearby(random, 6.0);
                     let off = random.direction();
                     let width = 10.0_f32.powf(random.between(-5.0, -1.0));
                     let middle =
                         std::array::from_fn(|axis| 0.5 * (base[axis] + far[axis]) + width * off[axis]);
                     [base, far, middle]
                 }
-                2 => [base, beside(random, 1.0e4), beside(random, 1.0e4)],
-                3 => [base, base.map(|x| -0.7 * x + 0.3), beside(random, 3.0)],
+                2 => [base, nearby(random, 1.0e4), nearby(random, 1.0e4)],
+                3 => [base, base.map(|x| -0.7 * x + 0.3), nearby(random, 3.0)],
                 4 => {
                     // In a plane through the eye, or nearly so.
                     let other = random.direction();
@@ -79,7 +79,7 @@ fn triangles(resolution: u32, random: &mut Random, count: usize) -> Vec<Triangle
                 }
                 5 => {
                     let size = base.iter().fold(0.0_f32, |far, x| far.max(x.abs())) / resolution as f32;
-                    [base, beside(random, size), beside(random, size)]
+                    [base, nearby(random, size), nearby(random, size)]
                 }
                 _ => {
                     let corner = |random: &mut Random| {

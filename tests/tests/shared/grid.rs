@@ -1,4 +1,4 @@
-//! The walk through a regular grid: visited cells are a superset of the exact ones, in a bounded number.
+//! The traversal through a regular grid: visited cells are a superset of the exact ones, in a bounded number.
 //! Letters and numbers are those of the list of hard cases (voxel grid).
 
 use std::collections::HashSet;
@@ -17,7 +17,7 @@ fn visit_limit(size: u32) -> usize {
     7 * (3 * size as usize + 1) + 8
 }
 
-fn walk(bench: &Bench, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
+fn traverse(bench: &Bench, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
     let limit = visit_limit(size);
     let mut all = Vec::with_capacity(rays.len());
     for chunk in rays.chunks((64 << 20) / (size_of::<Cell>() * limit)) {
@@ -78,10 +78,10 @@ fn fault(ray: &Ray, visits: &[Cell], size: u32) -> Option<String> {
 
 fn check(name: &str, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
     let bench = Bench::new();
-    let walks = walk(&bench, rays, size);
+    let traversals = traverse(&bench, rays, size);
     let faults: Vec<String> = rays
         .iter()
-        .zip(&walks)
+        .zip(&traversals)
         .filter_map(|(ray, visits)| {
             let fault = fault(ray, visits, size)?;
             Some(format!("o {:?} d {:?} [{}, {}]: {fault}", ray.origin, ray.direction, ray.t_min, ray.t_max))
@@ -89,7 +89,7 @@ fn check(name: &str, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
         .collect();
     let shown = &faults[..faults.len().min(4)];
     assert!(faults.is_empty(), "{name}: {} of {} rays, first: {shown:#?}", faults.len(), rays.len());
-    walks
+    traversals
 }
 
 fn towards(origin: [f32; 3], target: [f32; 3]) -> Ray {
@@ -186,7 +186,7 @@ fn rays_in_a_plane_of_the_grid_visit_both_sides() {
 
 /// X4: zeros of either sign.
 #[test]
-fn signed_zeros_walk_along_an_axis() {
+fn signed_zeros_traverse_along_an_axis() {
     for direction in [[1.0, -0.0, 0.0], [-1.0, 0.0, -0.0], [-0.0, 1.0, -0.0], [0.0, -0.0, -1.0]] {
         for origin in [[31.5, 20.25, 7.75], [32.0, 20.0, 7.0], [0.0; 3], [64.0; 3]] {
             let visits = check("X4", &[Ray::new(origin, direction)], 64).concat();
@@ -278,7 +278,7 @@ fn rays_through_a_corner_visit_all_cells_around_it() {
 fn a_lost_cell_and_a_stray_one_are_noticed() {
     let bench = Bench::new();
     let ray = towards([1.3, 2.2, 0.9], [6.6, 3.1, 5.2]);
-    let visits = walk(&bench, &[ray], 8).remove(0);
+    let visits = traverse(&bench, &[ray], 8).remove(0);
     assert_eq!(fault(&ray, &visits, 8), None);
     for chord in exact_grid_chords(&ray, 8) {
         let kept: Vec<Cell> = visits.iter().copied().filter(|cell| *cell != chord.cell).collect();
@@ -291,7 +291,7 @@ fn a_lost_cell_and_a_stray_one_are_noticed() {
 /// The rays of every case that is made for voxels, in units of its grid.
 #[test]
 fn rays_of_cases_about_voxels() {
-    let mut walked = 0;
+    let mut traversed = 0;
     for case in hard_cases::cases(Scale { rays: 300, ..Scale::QUICK }) {
         let Some(grid) = case.grid else { continue };
         // Where this rounds, the ray is another one, and as good.
@@ -311,10 +311,10 @@ fn rays_of_cases_about_voxels() {
         // X5 has none that are valid.
         assert_eq!(rays.is_empty(), case.id == "X5", "{}", case.id);
         if !rays.is_empty() {
-            let walks = check(case.id, &rays, grid.resolution);
-            assert!(walks.iter().any(|walk| walk.len() > 1), "{}", case.id);
-            walked += 1;
+            let traversals = check(case.id, &rays, grid.resolution);
+            assert!(traversals.iter().any(|traversal| traversal.len() > 1), "{}", case.id);
+            traversed += 1;
         }
     }
-    assert_eq!(walked, 14);
+    assert_eq!(traversed, 14);
 }

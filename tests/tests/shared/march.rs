@@ -1,4 +1,4 @@
-//! The walk through the six faces: visited cells are a superset of the exact ones, without gaps.
+//! The traversal through the six faces: visited cells are a superset of the exact ones, without gaps.
 
 use std::collections::HashMap;
 
@@ -12,14 +12,14 @@ use rasray_tests::visits::{
 
 use crate::march_cases;
 
-/// Most visits of one ray. A walk is monotone in columns and rows, and a line crosses at most three
+/// Most visits of one ray. A traversal is monotone in columns and rows, and a line crosses at most three
 /// faces at length, so there are at most 4 (resolution + 2) steps and a few for the border. Each visits at
 /// most the eight cells around it as well, which happens only where cells are as small as rounding.
 fn visit_limit(resolution: u32) -> usize {
     9 * 4 * (resolution as usize + 2) + 64
 }
 
-fn walk_within(
+fn traverse_within(
     bench: &Bench,
     rays: &[Ray],
     resolution: u32,
@@ -43,18 +43,18 @@ fn walk_within(
     all
 }
 
-/// The visits of each ray. Few rays need room for more than they would without rounding; those walk again.
-fn walk(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visit>> {
-    let first = walk_within(bench, rays, resolution, near, 4 * (resolution as usize + 2) + 64);
+/// The visits of each ray. Few rays need capacity for more than they would without rounding; those are traversed again.
+fn traverse(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<Visit>> {
+    let first = traverse_within(bench, rays, resolution, near, 4 * (resolution as usize + 2) + 64);
     let long: Vec<Ray> =
         rays.iter().zip(&first).filter(|(_, visits)| visits.is_none()).map(|(ray, _)| *ray).collect();
     let mut again =
-        walk_within(bench, &long, resolution, near, visit_limit(resolution)).into_iter().zip(&long);
-    let mut rewalked = || {
+        traverse_within(bench, &long, resolution, near, visit_limit(resolution)).into_iter().zip(&long);
+    let mut traversed_again = || {
         let (visits, ray) = again.next()?;
         Some(visits.unwrap_or_else(|| panic!("{ray:?} visits more than {} cells", visit_limit(resolution))))
     };
-    first.into_iter().map(|visits| visits.or_else(&mut rewalked).unwrap_or_default()).collect()
+    first.into_iter().map(|visits| visits.or_else(&mut traversed_again).unwrap_or_default()).collect()
 }
 
 /// What is wrong with the visits of a ray; `None` if nothing is.
@@ -112,16 +112,16 @@ fn check(name: &str, rays: &[Ray], resolution: u32, radius: f32) {
     let bench = Bench::new();
     let near = near_size(resolution, radius);
     let mut random = Random::new(7);
-    let walks = walk(&bench, rays, resolution, near);
+    let traversals = traverse(&bench, rays, resolution, near);
     let faults: Vec<String> = rays
         .iter()
-        .zip(&walks)
+        .zip(&traversals)
         .filter_map(|(ray, visits)| {
             let fault = fault(ray, visits, resolution, near, &mut random)?;
             Some(format!("o {:?} d {:?} [{}, {}]: {fault}", ray.origin, ray.direction, ray.t_min, ray.t_max))
         })
         .collect();
-    let most = walks.iter().map(Vec::len).max().unwrap_or(0);
+    let most = traversals.iter().map(Vec::len).max().unwrap_or(0);
     println!("{name}, resolution {resolution}: {} rays, at most {most} visits", rays.len());
     assert!(
         faults.is_empty(),
@@ -210,9 +210,9 @@ fn rays_from_the_eye_and_close_to_it() {
     }
 }
 
-/// V9, V10, V12: what lies in the near box is on the walk, with the t of the box.
+/// V9, V10, V12: what lies in the near region is on the traversal, with the t of the box.
 #[test]
-fn the_near_box_is_met_by_every_ray_that_crosses_it() {
+fn every_ray_that_crosses_the_near_region_visits_it() {
     let bench = Bench::new();
     let mut random = Random::new(3);
     let near = 0.125_f32;
@@ -224,7 +224,7 @@ fn the_near_box_is_met_by_every_ray_that_crosses_it() {
         })
         .collect();
     let mut met = 0;
-    for (ray, visits) in rays.iter().zip(walk(&bench, &rays, 16, near)) {
+    for (ray, visits) in rays.iter().zip(traverse(&bench, &rays, 16, near)) {
         // Samples of the ray in double precision decide whether, and where, it is inside.
         for step in 0..400 {
             let t = f64::from(step) / 200.0;
@@ -241,14 +241,14 @@ fn the_near_box_is_met_by_every_ray_that_crosses_it() {
     assert!(met > 10_000, "only {met} samples were inside: the test tests nothing");
 }
 
-/// The checker itself: a walk that loses a cell, or claims too little of one, is found out.
+/// The checker itself: a traversal that loses a cell, or claims too little of one, is found out.
 #[test]
 fn a_lost_cell_and_a_gap_are_noticed() {
     let bench = Bench::new();
     let ray = Ray { t_max: 4.0, ..Ray::new([0.3, 0.2, -0.9], [-0.31, 0.17, 0.83]) };
     let near = near_size(16, 4.0);
     let mut random = Random::new(4);
-    let visits = walk(&bench, &[ray], 16, near).remove(0);
+    let visits = traverse(&bench, &[ray], 16, near).remove(0);
     assert_eq!(fault(&ray, &visits, 16, near, &mut random), None);
     let required = exact_face_chords(&ray, 16, near);
     assert!(required.len() > 8 && required.iter().all(|c| c.t_out - c.t_in > unresolved(&ray, c.t_out)));

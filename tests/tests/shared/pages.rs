@@ -77,7 +77,7 @@ fn every_entry_is_in_its_list_once() {
 fn demand_is_exact_where_threads_do_not_meet_and_counted_past_the_end() {
     const LISTS: usize = 640;
     let bench = Bench::new();
-    // One thread a list: a page each, whatever there is room for.
+    // One thread a list: a page each, whatever there is capacity for.
     let lists: Vec<u32> = (0..LISTS as u32).collect();
     for capacity in [0, 1, 100, LISTS as u32] {
         let (words, slots) = fill(&bench, &lists, LISTS, 4, capacity);

@@ -36,7 +36,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|axis| a[axis] * b[axis]).sum()
 }
 
-/// Where the ray meets the triangle's plane, within the range of its corners along the ray's longest axis, and how far
+/// Where the ray hits the triangle's plane, within the range of its corners along the ray's longest axis, and how far
 /// double precision may be off.
 fn truth(case: &Case) -> (f64, f64) {
     let wide = |p: [f32; 3]| p.map(f64::from);
@@ -60,7 +60,7 @@ fn truth(case: &Case) -> (f64, f64) {
 }
 
 /// A point and a few metres around it.
-fn beside(random: &mut Random, [x, y, z]: [f32; 3], size: f32) -> [f32; 3] {
+fn nearby(random: &mut Random, [x, y, z]: [f32; 3], size: f32) -> [f32; 3] {
     let d = random.direction();
     [x + size * d[0], y + size * d[1], z + size * d[2]]
 }
@@ -69,7 +69,7 @@ fn beside(random: &mut Random, [x, y, z]: [f32; 3], size: f32) -> [f32; 3] {
 fn aimed(random: &mut Random, triangle: Triangle, near: f32) -> Case {
     let (u, v) = (random.between(0.05, 0.9), random.between(0.05, 0.9));
     let [a, b, c] = triangle;
-    let origin = beside(random, [0.0; 3], near);
+    let origin = nearby(random, [0.0; 3], near);
     let direction = std::array::from_fn(|axis| {
         let target = a[axis] + u * (b[axis] - a[axis]) + v * (1.0 - u) * (c[axis] - a[axis]);
         target - origin[axis]
@@ -124,7 +124,7 @@ fn huge_and_straight(random: &mut Random) -> Case {
         corner[(axis + 2) % 3] = size * (angle + turn).sin();
         corner
     });
-    let origin = beside(random, [0.0; 3], 0.9);
+    let origin = nearby(random, [0.0; 3], 0.9);
     let mut direction = random.direction().map(|x| 20.0 * x);
     direction[axis] = height;
     Case { triangle, origin, direction }
@@ -153,7 +153,7 @@ fn t_is_within_its_bound() {
     let bench = Bench::new();
     let ordinary = cases(|random| {
         let base = random.direction().map(|x| 5.0 * x);
-        let triangle = [base, beside(random, base, 2.0), beside(random, base, 2.0)];
+        let triangle = [base, nearby(random, base, 2.0), nearby(random, base, 2.0)];
         aimed(random, triangle, 2.0)
     });
     let (_, of_bound) = worst(&bench, "ordinary", &ordinary);
@@ -161,35 +161,35 @@ fn t_is_within_its_bound() {
     // Their planes lose digits that their corners keep.
     let needles = cases(|random| {
         let base = random.direction().map(|x| 4.0 * x);
-        let far = beside(random, base, 2.0);
+        let far = nearby(random, base, 2.0);
         let middle: [f32; 3] = std::array::from_fn(|axis| 0.5 * (base[axis] + far[axis]));
         let width = 10.0_f32.powf(random.between(-5.0, -1.0));
-        let triangle = [base, far, beside(random, middle, width)];
+        let triangle = [base, far, nearby(random, middle, width)];
         aimed(random, triangle, 1.0)
     });
     worst(&bench, "needles", &needles);
     let far = cases(|random| {
         let base = random.direction().map(|x| 1.0e5 * x);
-        let triangle = [base, beside(random, base, 3.0), beside(random, base, 3.0)];
+        let triangle = [base, nearby(random, base, 3.0), nearby(random, base, 3.0)];
         aimed(random, triangle, 5.0)
     });
     worst(&bench, "small and far", &far);
     let huge = cases(|random| {
         let size = 10.0_f32.powf(random.between(3.0, 7.0));
         let middle = random.direction().map(|x| 10.0 * x);
-        let first = beside(random, middle, size);
-        let second = beside(random, middle, size);
+        let first = nearby(random, middle, size);
+        let second = nearby(random, middle, size);
         // The middle is inside.
         let third: [f32; 3] = std::array::from_fn(|axis| 3.0 * middle[axis] - first[axis] - second[axis]);
-        let origin = beside(random, [0.0; 3], 1.0);
-        let target = beside(random, middle, 1.0);
+        let origin = nearby(random, [0.0; 3], 1.0);
+        let target = nearby(random, middle, 1.0);
         let direction = std::array::from_fn(|axis| target[axis] - origin[axis]);
         Case { triangle: [first, second, third], origin, direction }
     });
     worst(&bench, "huge", &huge);
     let tiny = cases(|random| {
         let base = random.direction().map(|x| 1.0e-9 * x);
-        let triangle = [base, beside(random, base, 1.0e-9), beside(random, base, 1.0e-9)];
+        let triangle = [base, nearby(random, base, 1.0e-9), nearby(random, base, 1.0e-9)];
         let case = aimed(random, triangle, 1.0e-9);
         Case { direction: case.direction.map(|x| x * 1.0e9), ..case }
     });

@@ -32,8 +32,8 @@ fn trace(bench: &Bench, structure: &Voxels, rays: &[Ray]) -> Vec<Hit> {
     hits
 }
 
-/// Room for so many fragments.
-fn room(entries: u64) -> Demand {
+/// Capacity for so many fragments.
+fn capacity(entries: u64) -> Demand {
     Demand { entries, ..Demand::default() }
 }
 
@@ -42,8 +42,8 @@ fn every_edge_capacity(config: Config) {
     let (triangles, rays) = (scene(), rays());
     let mut structure = made(&bench, config, &triangles);
 
-    // Ample room: what the demand and the hits are.
-    structure.resize(bench.device(), &plan(&config, room(1 << 20)).expect("in range")).expect("it fits");
+    // Ample capacity: what the demand and the hits are.
+    structure.resize(bench.device(), &plan(&config, capacity(1 << 20)).expect("in range")).expect("it fits");
     let status = bench.build_once(&mut structure, [0.0; 3]);
     assert!(status.complete, "{status:?}");
     let demand = status.pools[0].demand;
@@ -54,7 +54,9 @@ fn every_edge_capacity(config: Config) {
     assert!(expected.iter().filter(|hit| hit.is_hit()).count() > rays.len() / 2);
 
     for entries in [0, 1, demand / 2, demand - 1, demand] {
-        structure.resize(bench.device(), &plan(&config, room(entries)).expect("in range")).expect("it fits");
+        structure
+            .resize(bench.device(), &plan(&config, capacity(entries)).expect("in range"))
+            .expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert_eq!(status.complete, entries == demand, "room for {entries}");
         assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, entries));
@@ -71,7 +73,7 @@ fn every_edge_capacity(config: Config) {
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
             panic!("room for {entries} does not grow")
         };
-        // Pages come with a little more room: how many are begun depends on which threads meet.
+        // Pages come with a little more capacity: how many are begun depends on which threads meet.
         let extra = if config.storage == Storage::Paged { demand / 64 } else { 0 };
         assert_eq!(sizes.elements("fragments"), demand + extra);
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -138,23 +140,23 @@ fn bytes_are_those_of_the_formula() {
         Config { storage: Storage::Contiguous, ..selective(40) },
     ] {
         let mut structure = made(&bench, config, &triangles);
-        structure.resize(bench.device(), &plan(&config, room(0)).expect("in range")).expect("it fits");
+        structure.resize(bench.device(), &plan(&config, capacity(0)).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(
             matches!(structure.check(&status, 0).expect("sizes that do"), Check::Grow(_)),
             "there is no room for anything"
         );
-        let sizes = plan(&config, room(status.pools[0].demand)).expect("in range");
+        let sizes = plan(&config, capacity(status.pools[0].demand)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(status.complete);
         let report = structure.report().expect("the header is readable");
         let demand = status.pools[0].demand;
-        let formula = formula_bytes(&config, room(demand));
+        let formula = formula_bytes(&config, capacity(demand));
         assert_eq!(report.bytes(), formula.total(), "{config:?}");
         assert_eq!(report.formula_bytes, formula.total());
         assert_eq!(structure.sizes().bytes(), formula.total());
-        assert_ne!(formula.total(), formula_bytes(&config, room(demand + 1)).total());
+        assert_ne!(formula.total(), formula_bytes(&config, capacity(demand + 1)).total());
         let stored = report.stored.expect("fragments are counted");
         match config.storage {
             Storage::Contiguous | Storage::Linked => assert_eq!(stored, demand),
@@ -165,7 +167,7 @@ fn bytes_are_those_of_the_formula() {
     }
 }
 
-/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is room for the names of such
+/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is capacity for the names of such
 /// lists, or stay as they are; planes find each layer, and parities the same whatever the order.
 #[test]
 fn lists_of_ten_thousand_are_searched() {
@@ -234,7 +236,7 @@ fn every_fault_of_a_list_is_noticed() {
         assert!(bench.build_once(&mut structure, [0.0; 3]).complete);
         let good = structure.download(bench.device()).expect("the device works");
         well_formed(&good, count).expect("lists are well formed");
-        // The first list with more fragments than a page has room for, at different depths.
+        // The first list with more fragments than a page has capacity for, at different depths.
         let is_long = |list: &usize| {
             let fragments = good.list(*list).expect("well formed");
             fragments.len() > config.page as usize && fragments[0].z != fragments[1].z

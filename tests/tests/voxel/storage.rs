@@ -226,7 +226,7 @@ fn a_room_is_exact_at_every_resolution() {
 /// As many cells as a dispatch may step through, in one voxel, and what lies behind them is still found: the
 /// walk fits the loops that a driver allows.
 #[test]
-fn a_walk_as_long_as_the_budget_reaches_its_end() {
+fn a_traversal_as_long_as_the_budget_reaches_its_end() {
     let bench = Bench::new();
     let plate = |x: f32, y: f32, z: f32| [[x, y - 0.1, z], [x + 0.1, y, z], [x - 0.1, y + 0.1, z]];
     let triangles = [plate(-0.9, -0.9, -1.0), plate(0.9, 0.9, 0.0), plate(-0.9, 0.9, 1.0)];

@@ -68,7 +68,7 @@ pub(super) fn fit_images(
     needs: &Needs,
     backend: &dyn Backend,
 ) -> Result<(), AppError> {
-    let fitted = during("scene", "fitting images", || texels::fit(loaded, needs, &backend.texel_room()))?;
+    let fitted = during("scene", "fitting images", || texels::fit(loaded, needs, &backend.texel_capacity()))?;
     if let Some(text) = fitted {
         terminal::warn(&format!("{}: {text} (smaller-images)", loaded.scene.name));
     }

@@ -234,8 +234,8 @@ fn absolute(path: &Path) -> PathBuf {
         _ => Path::new("."),
     };
     let whole = std::fs::canonicalize(path);
-    let beside = || Some(std::fs::canonicalize(folder).ok()?.join(path.file_name()?));
-    whole.ok().or_else(beside).unwrap_or_else(|| path.to_owned())
+    let next_to = || Some(std::fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    whole.ok().or_else(next_to).unwrap_or_else(|| path.to_owned())
 }
 
 #[cfg(test)]

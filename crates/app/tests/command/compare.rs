@@ -1,4 +1,4 @@
-//! The built command on a device: what it saves can be traced again, and what others find is judged.
+//! The built command on a device: what it saves can be traced again, and what others find is evaluated.
 
 use rasray_report::{Accuracy, Report};
 use std::path::Path;
@@ -51,9 +51,9 @@ fn rays_and_hits_go_out_and_come_back_and_a_wrong_hit_is_found() {
     std::fs::write(path.join("other.npy"), &truth).expect("a file");
     let right = compared(path, line);
     assert_eq!((right.runs[1].system.as_str(), right.runs[1].times.trace_ms), ("other", None));
-    let judged = accuracy(&right, 1);
-    assert_eq!((judged.missed, judged.false_hits, judged.wrong_primitive), (0, 0, Some(0)));
-    assert_eq!((judged.t_off, judged.non_finite), (Some(0), 0));
+    let evaluated = accuracy(&right, 1);
+    assert_eq!((evaluated.missed, evaluated.false_hits, evaluated.wrong_primitive), (0, 0, Some(0)));
+    assert_eq!((evaluated.t_off, evaluated.non_finite), (Some(0), 0));
 
     // Records are t (8 bytes), triangle (4), u, v (8 each) and whether the ray is ambiguous.
     let start = records(&truth);
@@ -73,8 +73,8 @@ fn rays_and_hits_go_out_and_come_back_and_a_wrong_hit_is_found() {
         }
         std::fs::write(path.join("other.npy"), wrong_hits).expect("a file");
         let report = compared(path, line);
-        let judged = accuracy(&report, 1);
-        let counts = (judged.missed, judged.wrong_primitive, judged.t_off);
+        let evaluated = accuracy(&report, 1);
+        let counts = (evaluated.missed, evaluated.wrong_primitive, evaluated.t_off);
         assert_eq!(counts, (missed, Some(wrong), Some(off)), "{change:?}");
     }
 
@@ -179,6 +179,6 @@ fn a_pool_beyond_a_binding_is_reached_by_address_unless_told() {
     let memory = report.runs[0].memory.as_ref().expect("bytes are counted");
     assert!(memory.by_part["lists"] > 128 << 20, "{:?}", memory.by_part);
     assert_eq!(report.runs[0].paths["addressing"], "address");
-    let judged = accuracy(&report, 0);
-    assert_eq!((judged.missed, judged.false_hits, judged.wrong_primitive), (0, 0, Some(0)));
+    let evaluated = accuracy(&report, 0);
+    assert_eq!((evaluated.missed, evaluated.false_hits, evaluated.wrong_primitive), (0, 0, Some(0)));
 }

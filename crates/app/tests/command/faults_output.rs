@@ -59,7 +59,7 @@ struct Remains {
     /// Files that are not whole, or of two contents.
     torn: usize,
     /// Further files after a kill.
-    beside: usize,
+    extra: usize,
     /// Further files after the next check of the place.
     kept: usize,
 }
@@ -85,7 +85,7 @@ fn kill_writers(in_place: bool, enough: impl Fn(&Remains) -> bool) -> Remains {
         let bytes = std::fs::read(&path).expect("the file is there at any time");
         let is_whole = bytes.len() == LENGTH && bytes.iter().all(|byte| *byte == bytes[0]);
         remains.torn += usize::from(!is_whole);
-        remains.beside += entries(folder.path()).len() - 1;
+        remains.extra += entries(folder.path()).len() - 1;
         Destination::check(&path).expect("writable");
         remains.kept += entries(folder.path()).len() - 1;
         if enough(&remains) {
@@ -99,7 +99,7 @@ fn kill_writers(in_place: bool, enough: impl Fn(&Remains) -> bool) -> Remains {
 /// what was left beside it goes with the next run.
 #[test]
 fn a_writer_that_is_killed_leaves_the_old_file_or_the_new_one() {
-    let remains = kill_writers(false, |remains| remains.beside >= 3 || remains.torn > 0);
+    let remains = kill_writers(false, |remains| remains.extra >= 3 || remains.torn > 0);
     assert_eq!((remains.torn, remains.kept), (0, 0), "{remains:?}");
     // A writer that writes in place is found out.
     let remains = kill_writers(true, |remains| remains.torn > 0);

@@ -131,10 +131,10 @@ fn several_values_make_as_many_contestants() {
 
 #[test]
 fn in_a_comparison_what_nobody_has_is_refused() {
-    let judge = [system("brute-force")];
+    let evaluate = [system("brute-force")];
     let plain = StructureOptions::default();
-    assert!(several_systems(&judge, &[Preset::Robust], &with_buckets(), &[], &read_value).is_err());
-    assert!(several_systems(&judge, &[Preset::Published], &plain, &[], &read_value).is_err());
+    assert!(several_systems(&evaluate, &[Preset::Robust], &with_buckets(), &[], &read_value).is_err());
+    assert!(several_systems(&evaluate, &[Preset::Published], &plain, &[], &read_value).is_err());
     for bad in [
         "mmrt.samples=50",
         "mmrt",
@@ -144,7 +144,7 @@ fn in_a_comparison_what_nobody_has_is_refused() {
         "mmrt.sort=on,x",
         "mmrt.sort=on,",
     ] {
-        let error = several_systems(&judge, &[Preset::Robust], &plain, &[bad.to_owned()], &read_value)
+        let error = several_systems(&evaluate, &[Preset::Robust], &plain, &[bad.to_owned()], &read_value)
             .expect_err(bad);
         assert!(matches!(error, ExperimentError::Usage { .. }), "{error:?}");
     }

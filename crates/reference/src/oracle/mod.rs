@@ -169,7 +169,7 @@ impl<'a> Oracle<'a> {
         let cutoff = found.cutoff;
         found.contacts.retain(|(_, contact)| contact.t_low <= cutoff);
         found.contacts.sort_unstable_by_key(|(slot, _)| *slot);
-        self.judge(&found.contacts)
+        self.evaluate(&found.contacts)
     }
 
     /// [`Oracle::closest`] of many rays on all threads, in the order of the rays.
@@ -210,7 +210,7 @@ impl<'a> Oracle<'a> {
     }
 
     /// `contacts` are sorted by primitive.
-    fn judge(&self, contacts: &[(usize, Contact)]) -> Verdict {
+    fn evaluate(&self, contacts: &[(usize, Contact)]) -> Verdict {
         if contacts.is_empty() {
             return Verdict::miss();
         }

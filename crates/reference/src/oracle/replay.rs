@@ -26,7 +26,7 @@ pub enum TestClass {
     /// Refused by the alpha test.
     Transparent,
     /// The ray passes outside of the triangle.
-    Beside,
+    Outside,
 }
 
 /// One triangle that the oracle tested.
@@ -65,7 +65,7 @@ pub struct OracleReplay {
     /// Triangles in the order of tests, those that the ray passes outside of are left out.
     pub tests: Vec<TestedTriangle>,
     /// Triangles tested that the ray passes outside of by more than rounding.
-    pub beside: usize,
+    pub outside: usize,
     /// The answer.
     pub verdict: Verdict,
 }
@@ -74,14 +74,15 @@ impl Oracle<'_> {
     /// [`Oracle::closest`] of one ray with everything it looked at. The signs are computed without a filter.
     pub fn replay(&self, ray: &Ray) -> OracleReplay {
         let verdict = self.closest(ray);
-        let mut replay = OracleReplay { ray: *ray, nodes: Vec::new(), tests: Vec::new(), beside: 0, verdict };
+        let mut replay =
+            OracleReplay { ray: *ray, nodes: Vec::new(), tests: Vec::new(), outside: 0, verdict };
         let Some(test) = ContactTest::new(ray) else { return replay };
         let mut cutoff = f64::INFINITY;
         let mut nodes = Vec::new();
         let mut look = |slot: usize, cutoff: &mut f64| {
             let (tested, contact) = self.look_at(ray, &test, slot, *cutoff);
-            if tested.class == TestClass::Beside {
-                replay.beside += 1;
+            if tested.class == TestClass::Outside {
+                replay.outside += 1;
                 return;
             }
             if let (TestClass::Certain, Some(contact)) = (tested.class, contact) {
@@ -128,7 +129,7 @@ impl Oracle<'_> {
                 Some(contact) if contact.hit => TestClass::Uncertain,
                 Some(_) => TestClass::Possible,
                 None if inside => TestClass::OutOfRange,
-                None => TestClass::Beside,
+                None => TestClass::Outside,
             }
         };
         let t = contact.map(|contact| [contact.t, contact.t_low, contact.t_high]);
@@ -158,7 +159,7 @@ impl fmt::Display for TestClass {
             Self::Behind => "behind a certain hit",
             Self::Excluded => "excluded by the ray",
             Self::Transparent => "transparent",
-            Self::Beside => "passed outside",
+            Self::Outside => "passed outside",
         })
     }
 }
@@ -183,7 +184,7 @@ impl fmt::Display for TestedTriangle {
 impl fmt::Display for OracleReplay {
     /// Nodes, tested triangles, the answer; one line each.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "oracle: {} nodes, {} triangles passed outside", self.nodes.len(), self.beside)?;
+        writeln!(f, "oracle: {} nodes, {} triangles passed outside", self.nodes.len(), self.outside)?;
         for VisitedNode { node, t, triangles } in &self.nodes {
             match triangles {
                 0 => writeln!(f, "  node {node}, t from {t}")?,

@@ -17,9 +17,9 @@ fn ahead(x: f32, y: f32) -> Ray {
 }
 
 /// The class of the only triangle, how many of its edges the ray intersects exactly, and what is admissible.
-fn judge(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
+fn evaluate(triangle: Triangle, ray: &Ray) -> (TestClass, usize, bool, bool) {
     let replay = replay(&[triangle], ray);
-    let (class, zeros) = replay.tests.first().map_or((TestClass::Beside, 0), |tested| {
+    let (class, zeros) = replay.tests.first().map_or((TestClass::Outside, 0), |tested| {
         (tested.class, tested.signs.iter().filter(|sign| **sign == 0).count())
     });
     (class, zeros, replay.verdict.ambiguous, replay.verdict.miss_allowed)
@@ -35,11 +35,11 @@ fn table() -> Vec<(&'static str, Ray, TestClass, usize, bool, bool)> {
         ("on a slanted edge", ahead(-0.5, 0.0), TestClass::Uncertain, 1, true, true),
         ("on a vertex", ahead(1.0, -1.0), TestClass::Uncertain, 2, true, true),
         ("a unit inside, head-on", ahead(0.0, -(1.0_f32.next_down())), TestClass::Certain, 0, false, false),
-        ("a unit outside, head-on", ahead(0.0, -(1.0_f32.next_up())), TestClass::Beside, 0, false, true),
+        ("a unit outside, head-on", ahead(0.0, -(1.0_f32.next_up())), TestClass::Outside, 0, false, true),
         // 0.1 and 1.1 in single precision: y is -1.000000022 and -0.999999903.
         ("barely outside, at a slant", slanted(-1.1), TestClass::Possible, 0, true, true),
         ("barely inside, at a slant", slanted(-(1.1_f32.next_down())), TestClass::Uncertain, 0, true, true),
-        ("far beside", ahead(3.0, 0.0), TestClass::Beside, 0, false, true),
+        ("far beside", ahead(3.0, 0.0), TestClass::Outside, 0, false, true),
         ("in its plane", Ray::new([-3.0, 0.0, 5.0], [1.0, 0.0, 0.0]), TestClass::InPlane, 3, true, true),
         ("behind", Ray::new([0.0, 0.0, 6.0], [0.0, 0.0, 1.0]), TestClass::OutOfRange, 0, false, true),
         (
@@ -57,13 +57,13 @@ fn table() -> Vec<(&'static str, Ray, TestClass, usize, bool, bool)> {
 #[test]
 fn classes_of_constructed_rays() {
     for (name, ray, class, zeros, ambiguous, miss_allowed) in table() {
-        assert_eq!(judge(TRIANGLE, &ray), (class, zeros, ambiguous, miss_allowed), "{name}");
+        assert_eq!(evaluate(TRIANGLE, &ray), (class, zeros, ambiguous, miss_allowed), "{name}");
     }
 }
 
 fn fits(triangle: Triangle) -> bool {
     table().iter().all(|(_, ray, class, zeros, ambiguous, miss_allowed)| {
-        judge(triangle, ray) == (*class, *zeros, *ambiguous, *miss_allowed)
+        evaluate(triangle, ray) == (*class, *zeros, *ambiguous, *miss_allowed)
     })
 }
 
@@ -120,7 +120,7 @@ fn a_replay_lists_what_was_tested_and_ends_in_the_verdict() {
     let nearest = replay.tests.iter().find(|tested| tested.primitive == 99).expect("the hit was tested");
     assert_eq!((nearest.class, nearest.t.map(|[t, ..]| t)), (TestClass::Certain, Some(1.0)));
     // The far walls are cut off, not tested one by one.
-    assert!(replay.tests.len() + replay.beside < 20, "{replay}");
+    assert!(replay.tests.len() + replay.outside < 20, "{replay}");
     let text = replay.to_string();
     assert!(text.contains("triangle 99: edges") && text.ends_with("hit: triangle 99, t 1\n"), "{text}");
     let miss = self::replay(&triangles, &ahead(9.0, 9.0));

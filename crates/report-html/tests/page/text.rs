@@ -90,7 +90,7 @@ fn hard_cases_have_verdicts_and_a_few_have_plots() {
 }
 
 #[test]
-fn intervals_and_quartiles_stand_beside_their_numbers() {
+fn intervals_and_quartiles_stand_next_to_their_numbers() {
     let (mut report, figures) = everything("spheres:10k");
     let before = page(&report, &figures);
     assert!(before.contains("0<span class=\"interval\">&lt; 1.5e-5</span>"), "3/N of no missed hit");

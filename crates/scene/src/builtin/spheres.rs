@@ -75,8 +75,8 @@ pub fn spheres(parameters: Spheres) -> Scene {
         );
         let radius = cell * (0.2 + 0.25 * random.unit());
         // Space to move within the cell, a hundredth of it kept free on all sides.
-        let room = cell * 0.49 - radius;
-        let jitter = DVec3::new(random.signed(), random.signed(), random.signed()) * room;
+        let slack = cell * 0.49 - radius;
+        let jitter = DVec3::new(random.signed(), random.signed(), random.signed()) * slack;
         let centre = DVec3::splat(-SIDE / 2.0) + (corner + 0.5) * cell + jitter;
         let material = (random.next() % shapes.len() as u64) as usize;
         shapes[material].sphere(&units[level], centre, radius, false);

@@ -129,7 +129,7 @@ impl Reader<'_> {
         match &*statement.word {
             b"v" => {
                 let (position, count) = statement.numbers::<3>(self.path, 3)?;
-                self.room(self.positions.len())?;
+                self.check_count(self.positions.len())?;
                 self.positions.push(position);
                 if count >= 6 {
                     self.skipped.colors += 1;
@@ -137,12 +137,12 @@ impl Reader<'_> {
             }
             b"vt" => {
                 let ([u, v], _) = statement.numbers::<2>(self.path, 1)?;
-                self.room(self.uvs.len())?;
+                self.check_count(self.uvs.len())?;
                 self.uvs.push([u, 1.0 - v]);
             }
             b"vn" => {
                 let (normal, _) = statement.numbers::<3>(self.path, 3)?;
-                self.room(self.normals.len())?;
+                self.check_count(self.normals.len())?;
                 self.normals.push(normal);
             }
             b"f" | b"fo" => self.take_face(statement)?,
@@ -207,7 +207,7 @@ impl Reader<'_> {
             run.mesh.indices.extend([first, previous, next]);
             previous = next;
         }
-        self.room(run.mesh.positions.len())?;
+        self.check_count(run.mesh.positions.len())?;
         self.run = Some(run);
         Ok(())
     }
@@ -282,7 +282,7 @@ impl Reader<'_> {
             .ok_or_else(|| self.bad_corner(statement, word))?;
         let place = if written < 0 { written.saturating_add(count as i64) } else { written - 1 };
         if (0..count as i64).contains(&place) {
-            // `room` keeps all counts below the end of u32.
+            // `check_count` keeps all counts below the end of u32.
             return Ok(place as u32);
         }
         if what == "vertex" && written > 0 {
@@ -305,7 +305,7 @@ impl Reader<'_> {
     }
 
     /// Refuses to let an array of `count` elements grow.
-    fn room(&self, count: usize) -> Result<(), SceneError> {
+    fn check_count(&self, count: usize) -> Result<(), SceneError> {
         // Indices are u32, whatever the limit says.
         let limit = self.limits.vertices.min(u64::from(u32::MAX) - 1);
         Limits::check(self.path, "the number of vertices", count as u64 + 1, limit, "vertices")

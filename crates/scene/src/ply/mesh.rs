@@ -25,7 +25,7 @@ pub(super) fn read(
         if element.properties.is_empty() || element.count == 0 {
             continue;
         }
-        check_room(&body, element)?;
+        check_length(&body, element)?;
         match element.name.as_str() {
             "vertex" if !has_vertices => {
                 has_vertices = true;
@@ -49,7 +49,7 @@ pub(super) fn read(
 }
 
 /// Refuses counts that the rest of the file cannot hold, before memory is set aside.
-fn check_room(body: &Body<'_>, element: &Element) -> Result<(), SceneError> {
+fn check_length(body: &Body<'_>, element: &Element) -> Result<(), SceneError> {
     // At least one byte a property, in every encoding.
     let least = element.count.saturating_mul(element.properties.len() as u64);
     if least > body.left() as u64 {

@@ -193,8 +193,8 @@ fn one_open_side_is_looked_in_through() {
 #[test]
 fn what_stands_in_the_middle_is_looked_past() {
     let obstacle = box_mesh([0.5, 0.9, 0.5], false, &[]);
-    let beside = DAffine3::from_translation(DVec3::new(1.0, -1.0, 0.0));
-    let scene = scene_of(vec![(box_mesh(HALL, true, &[]), DAffine3::IDENTITY), (obstacle, beside)]);
+    let next_to = DAffine3::from_translation(DVec3::new(1.0, -1.0, 0.0));
+    let scene = scene_of(vec![(box_mesh(HALL, true, &[]), DAffine3::IDENTITY), (obstacle, next_to)]);
     let camera = default_camera(&scene);
     let (eye, forward) = (eye(&camera), forward(&camera));
     assert!(stands_inside(&scene) && (eye.x * forward.x) < -3.0, "{eye} {forward}");
@@ -223,7 +223,7 @@ fn what_is_broken_or_too_large_is_seen_from_outside() {
 }
 
 #[test]
-fn real_scenes_are_judged_right() {
+fn real_scenes_are_classified_right() {
     let Some(folder) = std::env::var_os("RASRAY_SCENES").map(PathBuf::from) else {
         eprintln!("skipped: RASRAY_SCENES is not set");
         return;
@@ -280,7 +280,7 @@ fn the_default_light_shows_grey_things_before_grey() {
 }
 
 /// Two triangles of a square metre each: one grey, and one of this material with these corners in the texture.
-fn beside(material: Material, uv: [f32; 2]) -> Scene {
+fn next_to(material: Material, uv: [f32; 2]) -> Scene {
     let triangle = |x: f32, material| Mesh {
         positions: vec![[x, 0.0, 0.0], [x + 2.0, 0.0, 0.0], [x, 1.0, 0.0]],
         indices: vec![0, 1, 2],
@@ -306,18 +306,18 @@ fn beside(material: Material, uv: [f32; 2]) -> Scene {
 fn what_glows_a_little_is_no_light() {
     let glow = |emission: f32| Material { emission: [emission; 3], ..Material::default() };
     // Half of the surface glows, from one side: 0.1 is 0.05 on average.
-    assert!(is_lit(&beside(glow(0.101), [0.0; 2])));
-    assert!(!is_lit(&beside(glow(0.099), [0.0; 2])));
-    assert!(is_lit(&beside(Material { double_sided: true, ..glow(0.051) }, [0.0; 2])), "from both");
+    assert!(is_lit(&next_to(glow(0.101), [0.0; 2])));
+    assert!(!is_lit(&next_to(glow(0.099), [0.0; 2])));
+    assert!(is_lit(&next_to(Material { double_sided: true, ..glow(0.051) }, [0.0; 2])), "from both");
     // By luminance.
-    assert!(!is_lit(&beside(Material { emission: [0.0, 0.0, 1.0], ..Material::default() }, [0.0; 2])));
-    assert!(is_lit(&beside(Material { emission: [0.0, 1.0, 0.0], ..Material::default() }, [0.0; 2])));
+    assert!(!is_lit(&next_to(Material { emission: [0.0, 0.0, 1.0], ..Material::default() }, [0.0; 2])));
+    assert!(is_lit(&next_to(Material { emission: [0.0, 1.0, 0.0], ..Material::default() }, [0.0; 2])));
     // Unlit surfaces emit their base colour.
     let unlit = |base_color| Material { unlit: true, base_color, ..Material::default() };
-    assert!(is_lit(&beside(unlit([0.051, 0.051, 0.051, 1.0]), [0.0; 2])));
-    assert!(!is_lit(&beside(unlit([0.049, 0.049, 0.049, 1.0]), [0.0; 2])));
+    assert!(is_lit(&next_to(unlit([0.051, 0.051, 0.051, 1.0]), [0.0; 2])));
+    assert!(!is_lit(&next_to(unlit([0.049, 0.049, 0.049, 1.0]), [0.0; 2])));
     // Where nothing is placed nothing glows, and lights that are out light nothing.
-    let mut nothing = beside(glow(1.0), [0.0; 2]);
+    let mut nothing = next_to(glow(1.0), [0.0; 2]);
     nothing.instances.pop();
     assert!(!is_lit(&nothing));
     nothing.lights.push(Light::Directional { direction: DVec3::NEG_Y, irradiance: [0.0; 3] });
@@ -335,11 +335,11 @@ fn emission_is_what_its_texture_leaves_of_it() {
         ..Material::default()
     };
     let (black, white) = ([0.25, 0.5], [0.75, 0.5]);
-    assert!(is_lit(&beside(with(identity), white)));
-    assert!(!is_lit(&beside(with(identity), black)));
+    assert!(is_lit(&next_to(with(identity), white)));
+    assert!(!is_lit(&next_to(with(identity), black)));
     let shifted = [[1.0, 0.0, 1.5], [0.0, 1.0, 0.0]];
-    assert!(is_lit(&beside(with(shifted), black)) && !is_lit(&beside(with(shifted), white)), "repeated");
-    let mut mirrored = beside(with([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), black);
+    assert!(is_lit(&next_to(with(shifted), black)) && !is_lit(&next_to(with(shifted), white)), "repeated");
+    let mut mirrored = next_to(with([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), black);
     assert!(!is_lit(&mirrored));
     mirrored.textures[0].wrap_u = Wrap::Mirror;
     assert!(is_lit(&mirrored));
@@ -348,7 +348,7 @@ fn emission_is_what_its_texture_leaves_of_it() {
     assert!(is_lit(&mirrored));
 
     let workload = Workload { integrator: Integrator::Path, bounces: 2 };
-    let mut scene = beside(with(identity), black);
+    let mut scene = next_to(with(identity), black);
     assert!(!Needs::of(&scene, workload).requires(Term::Environment));
     assert!(ensure_lit(&mut scene));
     assert!(matches!(scene.environment, Environment::LatLong { .. }));

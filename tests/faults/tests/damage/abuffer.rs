@@ -3,7 +3,7 @@
 use rasray_abuffer::{ABuffer, Addressing, Config, Contents, Coverage, Storage};
 use rasray_faults::{in_child, scrambled};
 
-use crate::survive::{self, Flag, each_fringe_node, survive};
+use crate::survive::{self, Flag, each_conservative_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -93,30 +93,30 @@ const DAMAGES: [Damage; 10] = [
 ];
 
 /// Damage to what cells keep beside their centres.
-const DAMAGES_OF_FRINGES: [Damage; 4] = [
+const DAMAGES_OF_CONSERVATIVE_LISTS: [Damage; 4] = [
     (
-        "every node of a fringe is its own neighbour",
-        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |own| own),
+        "every node of a conservative list is its own neighbour",
+        |c| each_conservative_node(&mut c.conservative, c.header.conservative_demand, |own| own),
         Flag::Unfinished,
     ),
     (
-        "links of fringes just past the end",
+        "links of conservative lists just past the end",
         |c| {
-            let past = c.header.fringe_demand + 1;
-            each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| past);
+            let past = c.header.conservative_demand + 1;
+            each_conservative_node(&mut c.conservative, c.header.conservative_demand, |_| past);
         },
         Flag::Corrupted,
     ),
     (
-        "links of fringes far past the end",
-        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| u32::MAX),
+        "links of conservative lists far past the end",
+        |c| each_conservative_node(&mut c.conservative, c.header.conservative_demand, |_| u32::MAX),
         Flag::Corrupted,
     ),
     (
-        "fringes at random",
+        "conservative lists at random",
         |c| {
             let mut next = scrambled(0x1234_5677);
-            c.fringe.fill_with(&mut next);
+            c.conservative.fill_with(&mut next);
         },
         Flag::Corrupted,
     ),
@@ -177,11 +177,11 @@ fn damaged_lists_of_every_storage_are_survived_and_told() {
 }
 
 #[test]
-fn damaged_fringes_are_survived_and_told() {
-    if in_child("abuffer::damaged_fringes_are_survived_and_told") {
+fn damaged_conservative_lists_are_survived_and_told() {
+    if in_child("abuffer::damaged_conservative_lists_are_survived_and_told") {
         let config = Config { coverage: Coverage::Conservative, ..Config::robust(32) };
         for addressing in [Addressing::Descriptor, Addressing::Address] {
-            check(Config { addressing, ..config }, &DAMAGES_OF_FRINGES);
+            check(Config { addressing, ..config }, &DAMAGES_OF_CONSERVATIVE_LISTS);
         }
     }
 }

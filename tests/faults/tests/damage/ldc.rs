@@ -3,7 +3,7 @@
 use rasray_faults::{in_child, scrambled};
 use rasray_ldc::{Addressing, Config, Contents, LayeredDepthCube};
 
-use crate::survive::{self, Flag, each_fringe_node, survive};
+use crate::survive::{self, Flag, each_conservative_node, survive};
 
 type Damage = survive::Damage<Contents>;
 
@@ -27,28 +27,28 @@ const OF_LISTS: [Damage; 4] = [
     ),
 ];
 
-/// Damage to fringes.
-const OF_FRINGES: [Damage; 4] = [
+/// Damage to conservative lists.
+const OF_CONSERVATIVE_LISTS: [Damage; 4] = [
     (
-        "every node of a fringe is its own neighbour",
-        |c| each_fringe_node(&mut c.fringe, c.header.fringe_demand, |own| own),
+        "every node of a conservative list is its own neighbour",
+        |c| each_conservative_node(&mut c.conservative, c.header.conservative_demand, |own| own),
         Flag::Unfinished,
     ),
     (
-        "links of fringes just past the end",
+        "links of conservative lists just past the end",
         |c| {
-            let past = c.header.fringe_demand + 1;
-            each_fringe_node(&mut c.fringe, c.header.fringe_demand, |_| past);
+            let past = c.header.conservative_demand + 1;
+            each_conservative_node(&mut c.conservative, c.header.conservative_demand, |_| past);
         },
         Flag::Corrupted,
     ),
-    ("heads of fringes that are all ones", |c| c.heads.fill(u32::MAX), Flag::Corrupted),
+    ("heads of conservative lists that are all ones", |c| c.heads.fill(u32::MAX), Flag::Corrupted),
     (
-        "heads and fringes at random",
+        "heads and conservative lists at random",
         |c| {
             let mut next = scrambled(0x1234_5677);
             c.heads.fill_with(&mut next);
-            c.fringe.fill_with(&mut next);
+            c.conservative.fill_with(&mut next);
         },
         Flag::Corrupted,
     ),
@@ -74,10 +74,10 @@ fn damaged_lists_of_layered_depth_cubes_are_survived_and_told() {
 }
 
 #[test]
-fn damaged_fringes_of_layered_depth_cubes_are_survived_and_told() {
-    if in_child("ldc::damaged_fringes_of_layered_depth_cubes_are_survived_and_told") {
+fn damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told() {
+    if in_child("ldc::damaged_conservative_lists_of_layered_depth_cubes_are_survived_and_told") {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
-            check(Config { addressing, ..Config::robust(32) }, &OF_FRINGES);
+            check(Config { addressing, ..Config::robust(32) }, &OF_CONSERVATIVE_LISTS);
         }
     }
 }

@@ -42,7 +42,7 @@ fn check(system: &str, addressing: &str) {
             let mut pools = whole.clone();
             fill(&mut pools[place].1);
             for mode in [TraceMode::Closest, TraceMode::Occluded] {
-                // Damage counts once: each trace is judged by itself.
+                // Damage counts once: each trace is evaluated by itself.
                 structure.upload_pools(&device, &pools).expect("damaged contents");
                 let result = trace(mode);
                 println!(

@@ -23,9 +23,9 @@ pub enum Flag {
 /// Damage by its name, and what traces say of it.
 pub type Damage<C> = (&'static str, fn(&mut C), Flag);
 
-/// Changes the link of every node of a fringe (`ads/fringe.glsl`); `change` is given the node's own link.
-pub fn each_fringe_node(fringe: &mut [u32], count: u32, change: impl Fn(u32) -> u32) {
-    for (index, node) in fringe.chunks_exact_mut(3).take(count as usize).enumerate() {
+/// Changes the link of every node of a conservative list (`ads/conservative.glsl`); `change` is given the node's own link.
+pub fn each_conservative_node(conservative: &mut [u32], count: u32, change: impl Fn(u32) -> u32) {
+    for (index, node) in conservative.chunks_exact_mut(3).take(count as usize).enumerate() {
         node[1] = change(index as u32 + 1);
     }
 }
@@ -56,7 +56,7 @@ pub fn survive<D: Design<Contents: Clone>>(
         damage(&mut contents);
         assert!(D::fault(&contents, triangles).is_some(), "{name}: the check of the contents finds nothing");
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
-            // Damage counts once: each trace is judged by itself.
+            // Damage counts once: each trace is evaluated by itself.
             structure.upload(&device, &contents).expect("damaged contents");
             let start = Instant::now();
             let result = trace(&structure, mode);

@@ -6,14 +6,14 @@ use rasray_tests::conformance::trace_in_rounds;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 
-use super::{EYE, beside, check_well_formed, config, room, scene};
+use super::{EYE, capacity, check_well_formed, config, nearby, scene};
 
 #[test]
-fn every_fault_of_a_fringe_is_noticed() {
+fn every_fault_of_a_conservative_list_is_noticed() {
     let bench = Bench::new();
-    let (geometry, config) = (bench.geometry(&scene()), beside(Storage::Dllb));
+    let (geometry, config) = (bench.geometry(&scene()), nearby(Storage::Dllb));
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    let sizes = plan(&config, Demand { fringe: 1 << 16, ..room(50_000, 64) }).expect("in range");
+    let sizes = plan(&config, Demand { conservative: 1 << 16, ..capacity(50_000, 64) }).expect("in range");
     structure.resize(bench.device(), &sizes).expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
@@ -23,17 +23,17 @@ fn every_fault_of_a_fringe_is_noticed() {
     let head = (0..cells)
         .map(|cell| (cell + 1) * stride - 1)
         .find(|&word| good.bounds[word] != 0)
-        .expect("a cell has a fringe");
+        .expect("a cell has a conservative list");
     let node = good.bounds[head] as usize - 1;
     let broken = |spoil: &dyn Fn(&mut Contents)| {
         let mut contents = good.clone();
         spoil(&mut contents);
         well_formed(&contents).expect_err("the fault is noticed")
     };
-    assert!(matches!(broken(&|c| c.header.fringe_demand += 1), Fault::Count { .. }));
+    assert!(matches!(broken(&|c| c.header.conservative_demand += 1), Fault::Count { .. }));
     assert!(matches!(broken(&|c| c.bounds[head] = 0), Fault::Count { .. }));
-    assert!(matches!(broken(&|c| c.bounds[head] = u32::MAX), Fault::Fringe { .. }));
-    assert!(matches!(broken(&|c| c.fringe[3 * node + 1] = c.bounds[head]), Fault::Fringe { .. }));
+    assert!(matches!(broken(&|c| c.bounds[head] = u32::MAX), Fault::Conservative { .. }));
+    assert!(matches!(broken(&|c| c.conservative[3 * node + 1] = c.bounds[head]), Fault::Conservative { .. }));
     // Traces end whatever links say, and count what names nothing.
     let mut dangling = good.clone();
     for cell in 0..cells {
@@ -69,7 +69,9 @@ fn every_fault_of_a_list_is_noticed() {
     let geometry = bench.geometry(&scene());
     let config = Config { buckets: 2, ..Config::robust(16) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, capacity(50_000, 64)).expect("in range"))
+        .expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     let (list, links) = long_list(&good);
@@ -127,7 +129,9 @@ fn every_fault_of_a_contiguous_list_is_noticed() {
     let geometry = bench.geometry(&scene());
     let config = config(Storage::Sb);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, capacity(50_000, 64)).expect("in range"))
+        .expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     let counts = good.lists.len() / 2;
@@ -171,7 +175,9 @@ fn every_fault_of_a_page_is_noticed() {
     let geometry = bench.geometry(&scene());
     let config = Config { page: 4, buckets: 1, ..config(Storage::Paged) };
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-    structure.resize(bench.device(), &plan(&config, room(50_000, 64)).expect("in range")).expect("it fits");
+    structure
+        .resize(bench.device(), &plan(&config, capacity(50_000, 64)).expect("in range"))
+        .expect("it fits");
     assert!(bench.build_once(&mut structure, EYE).complete);
     let good = check_well_formed(&bench, &structure);
     // A list of two pages; the first one to be read is the younger.

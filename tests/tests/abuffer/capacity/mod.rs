@@ -18,7 +18,7 @@ use rasray_tests::tier::{first, in_turn};
 const EYE: [f32; 3] = [0.0; 3];
 const NEAR_TRIANGLES: u64 = 5;
 
-/// Layers, a room, and triangles around the eye for the near list.
+/// Layers, a room, and triangles around the eye for the near-region list.
 fn scene() -> Vec<Triangle> {
     let mut triangles = hard_cases::case("C4", Scale::QUICK).expect("the case exists").triangles;
     triangles.extend(closed_box([-10.0; 3], [10.0; 3]));
@@ -39,16 +39,16 @@ fn config(storage: Storage) -> Config {
 }
 
 /// The same with what reaches into cells beside their centres.
-fn beside(storage: Storage) -> Config {
+fn nearby(storage: Storage) -> Config {
     Config { coverage: Coverage::Conservative, ..config(storage) }
 }
 
-/// Room for so many fragments and triangles around the eye.
-fn room(fragments: u64, near_triangles: u64) -> Demand {
+/// Capacity for so many fragments and triangles around the eye.
+fn capacity(fragments: u64, near_triangles: u64) -> Demand {
     Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
 }
 
-/// What rays meet, bit for bit. Of fragments without an id a and b name a node, whose number follows the
+/// What rays hit, bit for bit. Of fragments without an id a and b name a node, whose number follows the
 /// order of threads.
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<[u32; 4]> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
@@ -76,9 +76,9 @@ fn every_edge_capacity(config: Config) {
     let geometry = bench.geometry(&triangles);
     let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
 
-    // Ample room: what the demand and the hits are.
+    // Ample capacity: what the demand and the hits are.
     structure
-        .resize(bench.device(), &plan(&config, room(1 << 20, 1 << 10)).expect("in range"))
+        .resize(bench.device(), &plan(&config, capacity(1 << 20, 1 << 10)).expect("in range"))
         .expect("it fits");
     let status = bench.build_once(&mut structure, EYE);
     assert!(status.complete);
@@ -89,16 +89,16 @@ fn every_edge_capacity(config: Config) {
 
     let full = [0, 1, nodes / 2, nodes - 1, nodes].map(|capacity| (capacity, near));
     let near_full = [0, 1, near / 2, near - 1].map(|capacity| (nodes, capacity));
-    for (nodes_room, near_room) in full.into_iter().chain(near_full).chain([(0, 0)]) {
-        let sizes = plan(&config, room(nodes_room, near_room)).expect("in range");
+    for (nodes_capacity, near_capacity) in full.into_iter().chain(near_full).chain([(0, 0)]) {
+        let sizes = plan(&config, capacity(nodes_capacity, near_capacity)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
-        let fits = nodes_room >= nodes && near_room >= near;
-        assert_eq!(status.complete, fits, "{config:?}: room for {nodes_room} and {near_room}");
+        let fits = nodes_capacity >= nodes && near_capacity >= near;
+        assert_eq!(status.complete, fits, "{config:?}: room for {nodes_capacity} and {near_capacity}");
         assert_eq!(
             (demand(&status, "nodes"), demand(&status, "near")),
             (nodes, near),
-            "room for {nodes_room}"
+            "room for {nodes_capacity}"
         );
         check_well_formed(&bench, &structure);
         if fits {
@@ -111,21 +111,25 @@ fn every_edge_capacity(config: Config) {
             assert_eq!(
                 counters.not_ready as usize,
                 rays.len(),
-                "room for {nodes_room} and {near_room}, {mode:?}"
+                "room for {nodes_capacity} and {near_capacity}, {mode:?}"
             );
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {nodes_room}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {nodes_capacity}");
         }
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("room for {nodes_room} does not grow")
+            panic!("room for {nodes_capacity} does not grow")
         };
-        // Pages come with a little more room: how many are begun depends on which threads meet.
-        let extra = if config.storage == Storage::Paged && nodes_room < nodes { nodes / 64 } else { 0 };
+        // Pages come with a little more capacity: how many are begun depends on which threads meet.
+        let extra = if config.storage == Storage::Paged && nodes_capacity < nodes { nodes / 64 } else { 0 };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (nodes + extra, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
         assert!(status.complete, "once grown to its exact demand a build completes");
         check_well_formed(&bench, &structure);
-        assert_eq!(trace(&bench, &structure, &rays), expected, "grown from {nodes_room} and {near_room}");
+        assert_eq!(
+            trace(&bench, &structure, &rays),
+            expected,
+            "grown from {nodes_capacity} and {near_capacity}"
+        );
     }
 }
 
@@ -162,25 +166,26 @@ fn every_edge_capacity_with_addresses() {
     }
 }
 
-/// What has no room in the fringe is counted, whether or not the lists have room.
+/// What has no capacity in the conservative list is counted, whether or not the lists have capacity.
 #[test]
-fn every_edge_capacity_of_the_fringe() {
+fn every_edge_capacity_of_the_conservative_lists() {
     let edge_on = Config { coverage: Coverage::EdgeOn, ..config(Storage::Dllb) };
     let storages = [Storage::Ll, Storage::Sb, Storage::Paged, Storage::Dll, Storage::Llb, Storage::Dllb];
-    for config in first(&storages, 3).iter().copied().map(beside).chain([edge_on]) {
+    for config in first(&storages, 3).iter().copied().map(nearby).chain([edge_on]) {
         let bench = Bench::new();
         let (triangles, rays, storage) = (scene(), rays(), config.storage);
         let geometry = bench.geometry(&triangles);
         let mut structure =
             ABuffer::new(bench.device(), config, &geometry, None).expect("the options are valid");
-        let mut build = |nodes, fringe| {
-            let sizes = plan(&config, Demand { fringe, ..room(nodes, NEAR_TRIANGLES) }).expect("in range");
+        let mut build = |nodes, conservative| {
+            let sizes =
+                plan(&config, Demand { conservative, ..capacity(nodes, NEAR_TRIANGLES) }).expect("in range");
             structure.resize(bench.device(), &sizes).expect("it fits");
             let status = bench.build_once(&mut structure, EYE);
             check_well_formed(&bench, &structure);
             let grown = match structure.check(&status, 0).expect("sizes that do") {
                 Check::Complete => None,
-                Check::Grow(sizes) => Some((sizes.elements("nodes"), sizes.elements("fringe"))),
+                Check::Grow(sizes) => Some((sizes.elements("nodes"), sizes.elements("conservative"))),
             };
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
             assert_eq!(status.complete, counters.not_ready == 0, "{config:?}");
@@ -188,23 +193,26 @@ fn every_edge_capacity_of_the_fringe() {
         };
         let (ample, grown, expected) = build(1 << 20, 1 << 16);
         assert!(ample.complete && grown.is_none());
-        let (nodes, fringe) = (demand(&ample, "nodes"), demand(&ample, "fringe"));
-        assert!(fringe > 100, "{ample:?}");
+        let (nodes, conservative) = (demand(&ample, "nodes"), demand(&ample, "conservative"));
+        assert!(conservative > 100, "{ample:?}");
         // Which pages are begun depends on which threads meet.
         let all = if storage == Storage::Paged { nodes + nodes / 8 } else { nodes };
-        for room in [0, 1, fringe / 2, fringe - 1, fringe] {
-            let (status, grown, hits) = build(all, room);
-            assert_eq!(demand(&status, "fringe"), fringe, "{storage:?}: room for {room}");
-            if room == fringe {
+        for capacity in [0, 1, conservative / 2, conservative - 1, conservative] {
+            let (status, grown, hits) = build(all, capacity);
+            assert_eq!(demand(&status, "conservative"), conservative, "{storage:?}: room for {capacity}");
+            if capacity == conservative {
                 assert!(status.complete && hits == expected, "{storage:?}");
             } else {
-                assert_eq!(grown, Some((all, fringe)), "{storage:?}: room for {room}");
-                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {room}");
+                assert_eq!(grown, Some((all, conservative)), "{storage:?}: room for {capacity}");
+                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {capacity}");
             }
         }
         let (status, grown, _) = build(nodes / 2, 0);
-        assert_eq!(demand(&status, "fringe"), fringe);
-        assert!(grown.is_some_and(|(room, beside)| room >= nodes && beside == fringe), "{grown:?}");
+        assert_eq!(demand(&status, "conservative"), conservative);
+        assert!(
+            grown.is_some_and(|(capacity, nearby)| capacity >= nodes && nearby == conservative),
+            "{grown:?}"
+        );
     }
 }
 
@@ -240,14 +248,14 @@ fn formula_equals_allocations_without_slack() {
             .map(|&storage| Config { march: March::Pyramid, ..config(storage) }),
     );
     configs.extend(first(&[2, 1, 8], 1).iter().map(|&page| Config { page, ..config(Storage::Paged) }));
-    configs.extend(first(&[Storage::Ll, Storage::Paged, Storage::Dllb], 2).iter().copied().map(beside));
+    configs.extend(first(&[Storage::Ll, Storage::Paged, Storage::Dllb], 2).iter().copied().map(nearby));
     for config in configs {
         let before = bench.device().allocated_bytes();
         let mut structure = ABuffer::new(bench.device(), config, &geometry, None).expect("valid");
         structure
             .resize(
                 bench.device(),
-                &plan(&config, Demand { fringe: 50_000, ..room(50_000, 7) }).expect("in range"),
+                &plan(&config, Demand { conservative: 50_000, ..capacity(50_000, 7) }).expect("in range"),
             )
             .expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
@@ -260,10 +268,10 @@ fn formula_equals_allocations_without_slack() {
             Storage::Paged => structure.header().expect("the header is readable").fragments.into(),
             _ => demand(&status, "nodes"),
         };
-        let fringe = demand(&status, "fringe");
-        assert_eq!(fringe > 0, config.coverage == Coverage::Conservative);
-        assert_eq!(report.stored, Some(fragments + fringe));
-        let counted = Demand { fringe, ..room(demand(&status, "nodes"), demand(&status, "near")) };
+        let conservative = demand(&status, "conservative");
+        assert_eq!(conservative > 0, config.coverage == Coverage::Conservative);
+        assert_eq!(report.stored, Some(fragments + conservative));
+        let counted = Demand { conservative, ..capacity(demand(&status, "nodes"), demand(&status, "near")) };
         assert_eq!(report.formula_bytes, formula_bytes(&config, counted).total());
         // What is reported is what was allocated: downloads have that size, and so has device memory.
         assert_eq!(report.bytes(), structure.sizes().bytes());
@@ -275,7 +283,7 @@ fn formula_equals_allocations_without_slack() {
             &contents.data,
             &contents.near,
             &contents.scratch,
-            &contents.fringe,
+            &contents.conservative,
         ]
         .iter()
         .map(|pool| pool.len())

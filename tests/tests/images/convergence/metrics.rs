@@ -1,4 +1,4 @@
-//! The figures that images are judged by, on a device's image: each must see what it is for.
+//! The figures that images are evaluated by, on a device's image: each must see what it is for.
 
 use rasray_metrics::{Image, ImageError, flip};
 use rasray_tests::harness::Bench;

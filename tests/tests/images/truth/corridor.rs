@@ -1,4 +1,4 @@
-//! Two parallel mirrors: a ray meets one after the other, and both its place and its share of light are
+//! Two parallel mirrors: a ray hits one after the other, and both its place and its share of light are
 //! known after every reflection.
 
 use glam::DVec3;
@@ -20,7 +20,7 @@ fn height(reflections: u32, rise: f64) -> f64 {
     rise * (f64::from(reflections) + 0.5)
 }
 
-/// Mirrors at x = 0 and x = 1 for a ray that should rise by `step`. On the wall that the ray meets next, the
+/// Mirrors at x = 0 and x = 1 for a ray that should rise by `step`. On the wall that the ray hits next, the
 /// mirror ends below a strip of radiance 1 and twice `half` metres in height around where the ray should
 /// arrive; nothing lies above.
 fn corridor(reflections: u32, step: f64, half: f64, reflectance: f32) -> Scene {

@@ -6,9 +6,9 @@ use glam::DVec3;
 use rasray_scene::{Camera, Mesh, Scene};
 use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::{
-    Estimate, Studio, System, assert_refused, assert_truth, beside_sphere, convex_occlusion, diffuse,
-    glowing, octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles, polygon_irradiance,
-    scene_of, square,
+    Estimate, Studio, System, assert_refused, assert_truth, convex_occlusion, diffuse, glowing,
+    next_to_sphere, octahedron_sphere, parallel, parallel_rectangles, perpendicular_rectangles,
+    polygon_irradiance, scene_of, square,
 };
 
 use super::{RESOLUTION, SYSTEMS, by_system, grey, law, samples};
@@ -40,11 +40,11 @@ fn direct(bench: &Bench, scene: &Scene, camera: Camera, system: System) -> Estim
 #[test]
 fn squares_exchange_their_form_factors() {
     let bench = Bench::new();
-    let (opposed, beside) = (parallel_rectangles(1.0, 1.0, 1.0), perpendicular_rectangles(1.0, 1.0, 1.0));
+    let (opposed, nearby) = (parallel_rectangles(1.0, 1.0, 1.0), perpendicular_rectangles(1.0, 1.0, 1.0));
     for system in SYSTEMS {
         for (name, truth, right, broken, eye) in [
             ("parallel squares", opposed, opposite(1.0), opposite(1.1), 0.5),
-            ("perpendicular squares", beside, upright(1.0), upright(0.8), 2.0),
+            ("perpendicular squares", nearby, upright(1.0), upright(0.8), 2.0),
         ] {
             let slack = law(system, 2);
             let name = format!("{name}, {system:?}");
@@ -82,7 +82,7 @@ fn a_sphere_on_a_plane_hides_its_share() {
     let truth = |distance: f64| grey(1.0 - convex_occlusion(DVec3::X * distance, DVec3::Y, &facets));
     for distance in [0.5, 1.0, 2.0, 4.0] {
         let hidden = 1.0 - truth(distance)[0];
-        let sphere = beside_sphere(1.0, 1.0, distance);
+        let sphere = next_to_sphere(1.0, 1.0, distance);
         assert!(hidden < sphere && hidden > 0.9 * sphere, "facets lie a little inside: {hidden} {sphere}");
         let name = format!("sphere {distance} m beside");
         stage.look(camera(distance));

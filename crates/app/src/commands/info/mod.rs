@@ -63,8 +63,8 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             let passes = during("passes", "building", || backend.passes(&job))?;
             return show(given.json, || passes_json(&passes), || passes_text(&passes));
         }
-        let room = || open_device(open, &given.device).ok().map(|backend| backend.texel_room());
-        let info = SceneInfo::of(&mut loaded, &view, &frame, room)?;
+        let capacity = || open_device(open, &given.device).ok().map(|backend| backend.texel_capacity());
+        let info = SceneInfo::of(&mut loaded, &view, &frame, capacity)?;
         show(given.json, || info.json(), || scene_text(&info))?;
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
         return Ok(());

@@ -5,7 +5,7 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelRoom,
+    HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -29,9 +29,9 @@ impl Backend for Scripted {
         Device { name: "scripted".to_owned(), driver: "none 1".to_owned(), software: true }
     }
 
-    fn texel_room(&self) -> TexelRoom {
+    fn texel_capacity(&self) -> TexelCapacity {
         let texels = if self.device == "small" { 2000 } else { u32::MAX.into() };
-        TexelRoom { texels, device: self.device().name }
+        TexelCapacity { texels, device: self.device().name }
     }
 
     fn render(

@@ -10,12 +10,12 @@ fn floor() -> rasray_scene::Mesh {
 }
 
 /// Of a point on a plane at `distance` from where a sphere of radius 1 touches it.
-fn beside_sphere(distance: f64) -> f64 {
+fn next_to_sphere(distance: f64) -> f64 {
     1.0 - (1.0 + distance * distance).powf(-1.5)
 }
 
 #[test]
-fn visibility_beside_a_sphere_has_its_closed_form() {
+fn visibility_next_to_a_sphere_has_its_closed_form() {
     let mut ball = sphere(5, false, false, 0);
     // Inscribed facets are a little inside the sphere; half of the deviation is put outside.
     ball.positions.iter_mut().for_each(|p| *p = [p[0] * 1.0003, p[1] * 1.0003 + 1.0, p[2] * 1.0003]);
@@ -26,7 +26,7 @@ fn visibility_beside_a_sphere_has_its_closed_form() {
         let eye = [distance + 10.0 * 0.94, 10.0 * 0.342, 0.0];
         let view = parallel_view(eye, [distance, 0.0, 0.0], 1.0e-3, 16, 96);
         let image = posed.render_ambient_occlusion(&view, f32::INFINITY).expect("rendered");
-        assert_mean(&image, beside_sphere(distance), 0.002, 0.1);
+        assert_mean(&image, next_to_sphere(distance), 0.002, 0.1);
     }
 }
 

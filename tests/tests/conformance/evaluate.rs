@@ -1,9 +1,9 @@
-//! The judgement of conformance notices what it is there for, and nothing else.
+//! The evaluation of conformance notices what it is there for, and nothing else.
 
 use rasray_metrics::{DeviceHit, Rate, Truth};
 use rasray_tests::conformance::{
-    Demand, Deviation, FALSE_ALARM, Prepared, ROWS, Row, compare, comparisons, confidence, first_other,
-    judge, measure,
+    Demand, Deviation, FALSE_ALARM, Prepared, ROWS, Row, compare, comparisons, confidence, evaluate,
+    first_other, measure,
 };
 use rasray_tests::hard_cases::{self, Answer, Expectation, Scale};
 use rasray_tests::harness::Bench;
@@ -27,7 +27,7 @@ fn perfect(prepared: &Prepared) -> Hits {
 
 fn faults(row: &Row, prepared: &Prepared, hits: &Hits) -> Vec<String> {
     let (depth_tolerance, rounding) = row.tolerances();
-    judge(row, prepared, &compare(prepared, hits, depth_tolerance, rounding))
+    evaluate(row, prepared, &compare(prepared, hits, depth_tolerance, rounding))
 }
 
 /// A ray whose answer nothing but the oracle decides, with or without a hit.
@@ -236,7 +236,7 @@ fn binomial_tail(total: u64, least: u64, p: f64) -> f64 {
     sum
 }
 
-/// All judgements of a run together are wrong with the stated probability at most, whatever the seed, where
+/// All evaluations of a run together are wrong with the stated probability at most, whatever the seed, where
 /// every law holds with nothing to spare.
 #[test]
 fn false_alarms_are_as_rare_as_stated() {
@@ -267,16 +267,16 @@ fn a_structure_of_another_scene_is_noticed() {
     let mut prepared = prepare(&bench, "Z10", 2000);
     let mut structure = exact.make(&bench, &prepared.geometry);
     let measured = measure(&bench, structure.as_mut(), &prepared, 0.0, 1e-6);
-    assert_eq!(judge(exact, &prepared, &measured), Vec::<String>::new());
+    assert_eq!(evaluate(exact, &prepared, &measured), Vec::<String>::new());
     let other = prepare(&bench, "Z8", 2000);
     prepared.geometry = other.geometry.clone();
     let measured = measure(&bench, structure.as_mut(), &prepared, 0.0, 1e-6);
-    assert!(judge(exact, &prepared, &measured).iter().any(|fault| fault.contains("wrong answer")));
+    assert!(evaluate(exact, &prepared, &measured).iter().any(|fault| fault.contains("wrong answer")));
     let lenient = Row {
         demand: Demand::Law { resolution: 64, per_cell: 1.0, depth_tolerance: 1e-3, laws: &[] },
         ..*exact
     };
-    assert!(judge(&lenient, &prepared, &measured).iter().any(|fault| fault.contains("error rate")));
+    assert!(evaluate(&lenient, &prepared, &measured).iter().any(|fault| fault.contains("error rate")));
     let mut prepared = other;
     prepared.case.expect = Expectation::All(Answer::HitAt { t: 1.001, tolerance: 1e-6 });
     let measured = measure(&bench, structure.as_mut(), &prepared, 0.0, 1e-6);

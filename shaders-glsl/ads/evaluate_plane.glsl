@@ -2,14 +2,14 @@
 // ray's best hit, and if not, why.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
 // Source: not in the papers, which compare depths; see docs/systems/mmrt.md.
-#ifndef ADS_JUDGE_PLANE_GLSL
-#define ADS_JUDGE_PLANE_GLSL
+#ifndef ADS_EVALUATE_PLANE_GLSL
+#define ADS_EVALUATE_PLANE_GLSL
 
 #include "contract/alpha.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "ads/geometry.glsl"
-#include "ads/judge.glsl"
+#include "ads/evaluate.glsl"
 #include "ads/triangle.glsl"
 
 // The width of a cell at a point, and how far beyond its triangle a plane is accepted.
@@ -53,7 +53,7 @@ Hit plane_rival(Hit best) {
 }
 
 // The verdict (TEST_*) on the plane of a triangle, for intersections within [t_low, t_high].
-uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
+uint evaluate_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     vec3 a;
     vec3 b;
@@ -103,17 +103,17 @@ uint judge_plane(PlaneCell cell, Ray ray, Hit best, uint primitive, float t_low,
 }
 
 // Evaluates a triangle of a list, logs the verdict, and replaces the best hit if the triangle is accepted.
-// `beside_planes`: fragments of the same structure are hit by their planes. The caller counts the test.
-void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool beside_planes, inout Hit best) {
+// `with_planes`: fragments of the same structure are hit by their planes. The caller counts the test.
+void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool with_planes, inout Hit best) {
     float t;
     vec2 barycentrics;
     float t_error;
     Hit rival = best;
-    if (beside_planes) {
+    if (with_planes) {
         rival = plane_rival(best);
     }
-    uint verdict = judge_triangle(ray, rival, primitive, t_low, t_high, t, barycentrics, t_error);
-    if (beside_planes && verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
+    uint verdict = evaluate_triangle(ray, rival, primitive, t_low, t_high, t, barycentrics, t_error);
+    if (with_planes && verdict == TEST_ACCEPTED && !plane_is_better(best, t, primitive, barycentrics)) {
         verdict = TEST_NOT_BETTER;
     }
     trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
@@ -124,7 +124,7 @@ void test_listed(Ray ray, uint primitive, float t_low, float t_high, bool beside
 }
 
 // The same where fragments are hit by their planes.
-void test_beside_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
+void test_with_planes(Ray ray, uint primitive, float t_low, float t_high, inout Hit best) {
     test_listed(ray, primitive, t_low, t_high, true, best);
 }
 
@@ -134,7 +134,7 @@ void test_plane(PlaneCell cell, Ray ray, uint primitive, float t_low, float t_hi
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict = judge_plane(cell, ray, best, primitive, t_low, t_high, t, barycentrics, t_error);
+    uint verdict = evaluate_plane(cell, ray, best, primitive, t_low, t_high, t, barycentrics, t_error);
     trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
     if (verdict == TEST_ACCEPTED) {
         trace_log(STEP_BEST, primitive, 0u, 0u, t, t);

@@ -1,12 +1,12 @@
 // What: keeps triangles in cells that they reach into without covering their centre. Conservative coverage only.
-// Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand.
+// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
 // Source: not in the paper, whose rays pass between the views' cells there.
 #version 460
 #include "contract/extensions.glsl"
-#include "ldc/visit_fringe.glsl"
+#include "ldc/visit_conservative.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_axis;
 
 void main() {
-    ldc_visit_fringe(primitive_and_axis.x, primitive_and_axis.y, ldc_cell_at(gl_FragCoord));
+    ldc_visit_conservative(primitive_and_axis.x, primitive_and_axis.y, ldc_cell_at(gl_FragCoord));
 }

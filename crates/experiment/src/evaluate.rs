@@ -85,19 +85,19 @@ mod tests {
     fn a_perturbed_hit_is_counted() {
         let verdicts = [verdict(2.0), verdict(3.0)];
         let right = [(2.0, 0), (3.0, 0)].map(|(t, primitive)| Hit { t, primitive, a: 0.0, b: 0.0 });
-        let judge = |hits: &[Hit]| {
+        let evaluate = |hits: &[Hit]| {
             accuracy(StructureKind::Primitive, &verdicts, &device_hits(hits.iter().copied()))
                 .expect("a hit a verdict")
         };
-        let clean = judge(&right);
+        let clean = evaluate(&right);
         assert_eq!((clean.missed, clean.wrong_primitive, clean.dt_rel_max), (0, Some(0), Some(0.0)));
         let lost = Hit { primitive: rasray_ads::PRIMITIVE_NONE, ..right[0] };
-        assert_eq!(judge(&[lost, right[1]]).missed, 1);
-        let missed = judge(&[lost, right[1]]).rates["missed"];
+        assert_eq!(evaluate(&[lost, right[1]]).missed, 1);
+        let missed = evaluate(&[lost, right[1]]).rates["missed"];
         assert_eq!((missed.count, missed.of, missed.bound), (1, 2, Bound::ClopperPearson));
         assert!(!clean.rates.contains_key("false_hits") && clean.rates["missed"].bound == Bound::OneSided);
-        assert_eq!(judge(&[Hit { primitive: 5, ..right[0] }, right[1]]).wrong_primitive, Some(1));
-        assert_eq!(judge(&[Hit { t: 2.5, ..right[0] }, right[1]]).dt_rel_max, Some(0.25));
-        assert_eq!(judge(&[Hit { t: f32::NAN, ..right[0] }, right[1]]).non_finite, 1);
+        assert_eq!(evaluate(&[Hit { primitive: 5, ..right[0] }, right[1]]).wrong_primitive, Some(1));
+        assert_eq!(evaluate(&[Hit { t: 2.5, ..right[0] }, right[1]]).dt_rel_max, Some(0.25));
+        assert_eq!(evaluate(&[Hit { t: f32::NAN, ..right[0] }, right[1]]).non_finite, 1);
     }
 }

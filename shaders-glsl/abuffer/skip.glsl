@@ -4,15 +4,15 @@
 // What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be
 // the same, with the same stays, with skipping and without. Left out are only cells whose fragments the search
 // would refuse one by one.
-#ifndef ABUFFER_LEAP_GLSL
-#define ABUFFER_LEAP_GLSL
+#ifndef ABUFFER_SKIP_GLSL
+#define ABUFFER_SKIP_GLSL
 
-#include "ads/march_leap.glsl"
+#include "ads/march_skip.glsl"
 #include "abuffer/pyramid.glsl"
-#include "abuffer/walk.glsl"
+#include "abuffer/traversal.glsl"
 
 // The depths of a ray over [t_low, t_high], with more than the rounding that a search allows for.
-vec2 abuffer_leap_depths(float origin_z, float direction_z, float t_low, float t_high) {
+vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t_high) {
     vec2 z = origin_z + vec2(t_low, t_high) * direction_z;
     float rounding = 9.6e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
     // What lies before the eye counts as at the eye.
@@ -22,34 +22,37 @@ vec2 abuffer_leap_depths(float origin_z, float direction_z, float t_low, float t
 // Skips the cell that a traversal is at, and all in the largest block around it that it may. False where
 // the cell must be searched; else `more` says whether the traversal goes on. Each level that is tested is a
 // unit of work; a view has at most 14.
-bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, float best, inout uint work, out bool more) {
+bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch search, float best, inout uint work,
+    out bool more) {
     more = true;
-    if (any(notEqual(walk.searched, walk.cells.cell))) {
+    if (any(notEqual(traversal.searched, traversal.cells.cell))) {
         return false;
     }
-    vec3 size = abs(walk.origin);
-    vec3 speed = abs(walk.direction);
+    vec3 size = abs(traversal.origin);
+    vec3 speed = abs(traversal.direction);
     float reach = max(size.x, max(size.y, size.z)) / max(speed.x, max(speed.y, speed.z));
     bool found = false;
-    MarchLeap leap;
+    MarchSkip skip;
     float slack = 0.0;
-    PyramidLevel level = abuffer_pyramid_first(s, walk.segment.face);
-    uint view = walk.segment.face == ABUFFER_CAMERA ? 0u : walk.segment.face;
+    PyramidLevel level = abuffer_pyramid_first(s, traversal.segment.face);
+    uint view = traversal.segment.face == ABUFFER_CAMERA ? 0u : traversal.segment.face;
     while (true) {
         work++;
-        MarchLeap over = march_leap_over_block(walk.cells, level.level);
+        MarchSkip over = march_skip_over_block(traversal.cells, level.level);
         // Without skipping the traversal ends at the first cell that begins behind the best hit.
         if ((over.step_x || over.step_y) && over.t_out > best) {
             break;
         }
         // Stays in cells are widened by the errors of their ends, of which only the block's are known here.
-        float widening = 1.6e-5 * (max(abs(walk.cells.t_in), abs(over.t_out)) + reach) + over.error_out + walk.cells.error_in;
-        vec2 depths = abuffer_leap_depths(walk.origin.z, walk.direction.z, walk.cells.t_in - widening, over.t_out + widening);
-        uint word = pyramid_word(level, view, pyramid_block(level, walk.cells.cell));
+        float widening = 1.6e-5 * (max(abs(traversal.cells.t_in), abs(over.t_out)) + reach) + over.error_out
+            + traversal.cells.error_in;
+        vec2 depths = abuffer_skip_depths(traversal.origin.z, traversal.direction.z, traversal.cells.t_in - widening,
+            over.t_out + widening);
+        uint word = pyramid_word(level, view, pyramid_block(level, traversal.cells.cell));
         if (!pyramid_leaves_out(abuffer_pyramid_read(s, word), depths)) {
             break;
         }
-        leap = over;
+        skip = over;
         slack = widening;
         found = true;
         if (level.side == 1u) {
@@ -60,24 +63,24 @@ bool abuffer_leap(AbufferRef s, inout AbufferWalk walk, AbufferSearch search, fl
     if (!found) {
         return false;
     }
-    bool ends = !leap.step_x && !leap.step_y;
-    ivec2 to = ends ? march_leap_end(walk.cells, leap) : march_leap_to(walk.cells, leap);
-    if (march_leap_error(walk.cells, to, max(abs(walk.cells.t_in), abs(leap.t_out))) <= slack) {
+    bool ends = !skip.step_x && !skip.step_y;
+    ivec2 to = ends ? march_skip_end(traversal.cells, skip) : march_skip_to(traversal.cells, skip);
+    if (march_skip_error(traversal.cells, to, max(abs(traversal.cells.t_in), abs(skip.t_out))) <= slack) {
         if (ends) {
             more = false;
             return true;
         }
-        if (march_take_leap_exactly(walk.cells, leap)) {
-            abuffer_come_to(walk);
+        if (march_take_skip_exactly(traversal.cells, skip)) {
+            abuffer_enter_cell(traversal);
             return true;
         }
     }
     // On to the next cell, as without skipping.
-    if (!(walk.cells.t_out + walk.cells.error_out <= leap.t_out + slack)) {
+    if (!(traversal.cells.t_out + traversal.cells.error_out <= skip.t_out + slack)) {
         return false;
     }
-    more = march_step(walk.cells);
-    abuffer_come_to(walk);
+    more = march_step(traversal.cells);
+    abuffer_enter_cell(traversal);
     return true;
 }
 

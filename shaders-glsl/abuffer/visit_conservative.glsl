@@ -1,12 +1,12 @@
 // What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, the same
 // for every builder.
-// Reads: geometry, header. Writes: bounds (heads, marks), fringe, header.fringe_demand.
+// Reads: geometry, header. Writes: bounds (heads, marks), conservative lists, header.conservative_demand.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
-#ifndef ABUFFER_VISIT_FRINGE_GLSL
-#define ABUFFER_VISIT_FRINGE_GLSL
+#ifndef ABUFFER_VISIT_CONSERVATIVE_GLSL
+#define ABUFFER_VISIT_CONSERVATIVE_GLSL
 
 #include "abuffer/covered.glsl"
-#include "abuffer/fringe.glsl"
+#include "abuffer/conservative.glsl"
 
 // Whether the plane of a triangle reaches much farther in depth over a cell than the cell is wide. a, b, c in the view.
 bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
@@ -16,12 +16,12 @@ bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
 }
 
 // Whether the conservative list keeps a triangle that reaches into a cell outside of its centre.
-bool abuffer_fringe_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
+bool abuffer_conservative_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
     return ABUFFER_CONSERVATIVE || !abuffer_is_marked(abuffer_built, primitive)
         || abuffer_is_edge_on(a, b, c, place, resolution);
 }
 
-void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
+void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
     uint resolution = abuffer_resolution(abuffer_built, view);
     uint cell = abuffer_cell(abuffer_built, view, place);
     if (cell >= abuffer_cell_count(abuffer_built)) {
@@ -39,10 +39,10 @@ void abuffer_visit_fringe(uint primitive, uint view, ivec2 place) {
     CellCoverage coverage;
     if (abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths)
         && !coverage_at_center(a, b, c, place, resolution, coverage)
-        && abuffer_fringe_keeps(primitive, a, b, c, place, resolution)) {
+        && abuffer_conservative_keeps(primitive, a, b, c, place, resolution)) {
         // In a set of its own where the first one is being read.
         abuffer_mark(abuffer_built, primitive, abuffer_mark_sets() - 1u);
-        fringe_add(abuffer_built, cell, primitive, depths);
+        conservative_add(abuffer_built, cell, primitive, depths);
     }
 }
 

@@ -4,13 +4,13 @@
 // exactly. The other index is found from the point there, as at the start of a traversal, with all cells that the
 // point touches within rounding; or the block is not skipped where it touches any, for structures whose hits depend
 // on the cell in which a ray is.
-#ifndef ADS_MARCH_LEAP_GLSL
-#define ADS_MARCH_LEAP_GLSL
+#ifndef ADS_MARCH_SKIP_GLSL
+#define ADS_MARCH_SKIP_GLSL
 
 #include "ads/march_cells.glsl"
 
 // Cells from `first` to `last`, which include the current one, and where the ray exits them.
-struct MarchLeap {
+struct MarchSkip {
     ivec2 first;
     ivec2 last;
     float t_out;
@@ -20,11 +20,11 @@ struct MarchLeap {
 };
 
 // A skip over the current cell alone.
-MarchLeap march_leap_of_one(CellMarch m) {
-    return MarchLeap(m.cell, m.cell, m.t_out, m.error_out, m.step_x, m.step_y);
+MarchSkip march_skip_of_one(CellMarch m) {
+    return MarchSkip(m.cell, m.cell, m.t_out, m.error_out, m.step_x, m.step_y);
 }
 
-MarchLeap march_leap_over(CellMarch m, ivec2 first, ivec2 last) {
+MarchSkip march_skip_over(CellMarch m, ivec2 first, ivec2 last) {
     float error_x;
     float error_y;
     int next_x = m.step_direction.x > 0 ? last.x + 1 : first.x;
@@ -40,38 +40,39 @@ MarchLeap march_leap_over(CellMarch m, ivec2 first, ivec2 last) {
     bool step_y = !step_x && y_inside && ty < m.t_end;
     float t = step_x ? tx : (step_y ? ty : m.t_end);
     float error_out = step_x ? error_x : (step_y ? error_y : 6.0e-8 * 16.0 * abs(m.t_end));
-    return MarchLeap(first, last, max(t, m.t_in), error_out, step_x, step_y);
+    return MarchSkip(first, last, max(t, m.t_in), error_out, step_x, step_y);
 }
 
 // A skip over the block of 2^level cells along a side that contains the current cell; blocks are counted from the
 // border on.
-MarchLeap march_leap_over_block(CellMarch m, uint level) {
+MarchSkip march_skip_over_block(CellMarch m, uint level) {
     ivec2 first = ((m.cell + 1) >> int(level) << int(level)) - 1;
-    return march_leap_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
+    return march_skip_over(m, first, min(first + (1 << int(level)) - 1, ivec2(m.resolution)));
 }
 
 // The cell that a ray enters where it exits a block, or in which it ends, within rounding.
-ivec2 march_leap_to(CellMarch m, MarchLeap leap) {
+ivec2 march_skip_to(CellMarch m, MarchSkip skip) {
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
-    ivec2 cell = mix(march_cell_at(m.origin, m.direction, leap.t_out, m.resolution), m.cell, equal(m.step_direction, ivec2(0)));
-    ivec2 over = mix(leap.first - 1, leap.last + 1, up);
-    return ivec2(leap.step_x ? over.x : cell.x, leap.step_y ? over.y : cell.y);
+    ivec2 cell = mix(march_cell_at(m.origin, m.direction, skip.t_out, m.resolution), m.cell, equal(m.step_direction,
+        ivec2(0)));
+    ivec2 over = mix(skip.first - 1, skip.last + 1, up);
+    return ivec2(skip.step_x ? over.x : cell.x, skip.step_y ? over.y : cell.y);
 }
 
 // The cell of a block in which a segment ends that does not exit the block; the cell beyond a boundary where rounding
 // allows that it was crossed.
-ivec2 march_leap_end(CellMarch m, MarchLeap leap) {
+ivec2 march_skip_end(CellMarch m, MarchSkip skip) {
     CellMarch last = m;
-    last.cell = clamp(march_leap_to(m, leap), leap.first, leap.last);
-    uint touched = march_touched(last, leap.t_out, leap.error_out, true, true);
+    last.cell = clamp(march_skip_to(m, skip), skip.first, skip.last);
+    uint touched = march_touched(last, skip.t_out, skip.error_out, true, true);
     // Bits of the cells in other columns, and in other rows.
     ivec2 farther = ivec2((touched & 0x16Du) != 0u ? 1 : 0, (touched & 0x1C7u) != 0u ? 1 : 0);
-    return clamp(last.cell + farther * m.step_direction, leap.first, leap.last);
+    return clamp(last.cell + farther * m.step_direction, skip.first, skip.last);
 }
 
 // Bound of the errors of all t at which a traversal crosses boundaries up to a cell; `t` is the largest of them. The
 // error at a boundary between two others is no larger than theirs. Infinite where the ray runs along a boundary.
-float march_leap_error(CellMarch m, ivec2 cell, float t) {
+float march_skip_error(CellMarch m, ivec2 cell, float t) {
     float error = 0.0;
     for (int axis = 0; axis < 2; axis++) {
         if (cell[axis] != m.cell[axis]) {
@@ -89,41 +90,41 @@ float march_leap_error(CellMarch m, ivec2 cell, float t) {
 // Advances to the cell behind the block, with the same state, bit for bit, as a traversal without skips has there; the
 // exit of that cell is still to be found. False, with nothing changed, where rounding does not decide that state
 // because the ray exits the block where it touches another boundary.
-bool march_take_leap_exactly(inout CellMarch m, MarchLeap leap) {
+bool march_take_skip_exactly(inout CellMarch m, MarchSkip skip) {
     CellMarch next = m;
-    next.cell = march_leap_to(m, leap);
-    ivec2 step_cells = ivec2(leap.step_x ? m.step_direction.x : 0, leap.step_y ? m.step_direction.y : 0);
+    next.cell = march_skip_to(m, skip);
+    ivec2 step_cells = ivec2(skip.step_x ? m.step_direction.x : 0, skip.step_y ? m.step_direction.y : 0);
     CellMarch left = m;
     left.cell = next.cell - step_cells;
-    bool within = all(greaterThanEqual(left.cell, leap.first)) && all(lessThanEqual(left.cell, leap.last))
+    bool within = all(greaterThanEqual(left.cell, skip.first)) && all(lessThanEqual(left.cell, skip.last))
         && all(greaterThanEqual((left.cell - m.cell) * m.step_direction, ivec2(0)));
     // The crossed boundary is touched from both sides; no other boundary may be touched.
     int crossed = step_cells.x + 3 * step_cells.y;
-    uint touched = march_touched(next, leap.t_out, leap.error_out, true, true) & ~(1u << (4 - crossed))
-        | march_touched(left, leap.t_out, leap.error_out, true, true) & ~(1u << (4 + crossed));
+    uint touched = march_touched(next, skip.t_out, skip.error_out, true, true) & ~(1u << (4 - crossed))
+        | march_touched(left, skip.t_out, skip.error_out, true, true) & ~(1u << (4 + crossed));
     if (!within || touched != 0u) {
         return false;
     }
     m.cell = next.cell;
-    m.t_in = leap.t_out;
-    m.error_in = leap.error_out;
+    m.t_in = skip.t_out;
+    m.error_in = skip.error_out;
     m.touched = 0u;
     m.neighbours = 0u;
     return true;
 }
 
 // Advances to the cell behind the block; false where the segment ends in it.
-bool march_take_leap(inout CellMarch m, MarchLeap leap) {
-    if (!leap.step_x && !leap.step_y) {
+bool march_take_skip(inout CellMarch m, MarchSkip skip) {
+    if (!skip.step_x && !skip.step_y) {
         return false;
     }
-    ivec2 cell = march_leap_to(m, leap);
+    ivec2 cell = march_skip_to(m, skip);
     // Never back, and not beyond the block.
     bvec2 up = greaterThan(m.step_direction, ivec2(0));
-    ivec2 inside = clamp(cell, mix(leap.first, m.cell, up), mix(m.cell, leap.last, up));
-    m.cell = ivec2(leap.step_x ? cell.x : inside.x, leap.step_y ? cell.y : inside.y);
-    m.t_in = leap.t_out;
-    m.error_in = leap.error_out;
+    ivec2 inside = clamp(cell, mix(skip.first, m.cell, up), mix(m.cell, skip.last, up));
+    m.cell = ivec2(skip.step_x ? cell.x : inside.x, skip.step_y ? cell.y : inside.y);
+    m.t_in = skip.t_out;
+    m.error_in = skip.error_out;
     m.touched = 0u;
     m.neighbours = march_touched(m, m.t_in, m.error_in, true, true);
     march_find_exit(m);

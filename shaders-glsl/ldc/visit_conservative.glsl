@@ -1,14 +1,14 @@
 // What: stores a triangle in the conservative list of a cell that it reaches into without covering the centre, where no
 // fragment represents it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a
 // cell. The same for every builder.
-// Reads: geometry, header, lists, depths, payload. Writes: heads, fringe, blocks, header.fringe_demand.
+// Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
 // Source: not in the paper, whose rays pass between the views' cells there.
-#ifndef LDC_VISIT_FRINGE_GLSL
-#define LDC_VISIT_FRINGE_GLSL
+#ifndef LDC_VISIT_CONSERVATIVE_GLSL
+#define LDC_VISIT_CONSERVATIVE_GLSL
 
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
-#include "ldc/fringe.glsl"
+#include "ldc/conservative.glsl"
 
 // Whether a fragment of the cell represents a triangle there: one of the same draw, whose plane passes within `close`
 // metres of this point of the triangle, in the view. Another draw may be of another material: a lamp let into a ceiling
@@ -16,7 +16,7 @@
 bool ldc_is_stood_for(
     AxisView view, uint cell, uint primitive, vec2 point, float z_point, float z_center, float close) {
     uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
-    if (list.y - list.x > FRINGE_LIMIT) {
+    if (list.y - list.x > CONSERVATIVE_LIMIT) {
         return false;
     }
     // The depth of each plane changes by at most one cell between point and centre.
@@ -38,7 +38,7 @@ bool ldc_is_stood_for(
     return false;
 }
 
-void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
+void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(ldc_built)) {
         // What stands for what is not known until all fragments fit.
         return;
@@ -66,7 +66,7 @@ void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
     // A triangle far smaller than a cell is not represented by a surface that is near only in units of the cell.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
-    if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, FRINGE_DEPTH * size)) {
+    if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, CONSERVATIVE_DEPTH * size)) {
         return;
     }
     float extent = axis_extent(view, a, b, c);
@@ -75,7 +75,7 @@ void ldc_visit_fringe(uint primitive, uint axis, ivec2 place) {
     float z_high = clamp(z_center + extent, z_nearest, z_farthest);
     vec2 depths = max(vec2(z_low, z_high), vec2(0.0));
     ldc_widen_blocks(ldc_built, view.axis, place, depths.x, depths.y);
-    fringe_add(ldc_built, cell, primitive, depths);
+    conservative_add(ldc_built, cell, primitive, depths);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // What: whether a triangle becomes a ray's best hit, and if not, why.
 // Reads: geometry; the scene where alpha is tested. Writes: nothing.
-#ifndef ADS_JUDGE_GLSL
-#define ADS_JUDGE_GLSL
+#ifndef ADS_EVALUATE_GLSL
+#define ADS_EVALUATE_GLSL
 
 #include "contract/alpha.glsl"
 #include "contract/trace_log.glsl"
@@ -11,7 +11,7 @@
 
 // The verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and t_error are 0 where the
 // ray does not intersect it.
-uint judge_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
+uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     t = 0.0;
     barycentrics = vec2(0.0);
@@ -20,7 +20,7 @@ uint judge_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, fl
         return TEST_EXCLUDED;
     }
     if (!triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
-        return TEST_BESIDE;
+        return TEST_OUTSIDE;
     }
     if (!(t > max(ray.t_min, t_error))) {
         return TEST_BEFORE;
@@ -38,13 +38,13 @@ uint judge_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, fl
 }
 
 // The same with the corners of the geometry.
-uint judge_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
+uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_high, out float t, out vec2 barycentrics,
     out float t_error) {
     vec3 a;
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    return judge_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
+    return evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
 // Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. True if it was
@@ -53,7 +53,7 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     float t;
     vec2 barycentrics;
     float t_error;
-    uint verdict = judge_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
+    uint verdict = evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
     trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;

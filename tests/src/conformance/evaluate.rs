@@ -3,7 +3,7 @@ use rasray_metrics::Rate;
 use super::{Demand, Measured, Prepared, Row, comparisons, deviations_ambiguous};
 use crate::hard_cases::Target;
 
-/// The probability that any judgement of any row on any case is wrong although every law and every
+/// The probability that any evaluation of any row on any case is wrong although every law and every
 /// deviation holds. Each comparison gets an equal share of it (Bonferroni).
 pub const FALSE_ALARM: f64 = 1e-6;
 
@@ -17,7 +17,7 @@ pub fn confidence() -> f64 {
 ///
 /// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
 /// Exact rows have no such room: one wrong answer is a fault.
-pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
+pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
     let mut faults = Vec::new();
     let case = &prepared.case;
     let mut fault = |what: String, ray: Option<usize>| {
@@ -51,7 +51,7 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
         return faults;
     }
     let deviation = row.deviations.iter().find(|deviation| deviation.case == case.id);
-    // Cases all of whose rays are ambiguous are judged by these alone, below.
+    // Cases all of whose rays are ambiguous are evaluated by these alone, below.
     if !row.is_exact() && measured.errors.total > 0 && measured.inadmissible.total > 0 {
         let limit = deviation.map_or_else(|| row.largest_rate(case.id), |deviation| deviation.at_most_rate);
         let ([least, most], reason) = deviations_ambiguous::bounds(row.name, case.id, limit);
@@ -64,9 +64,9 @@ pub fn judge(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String>
             fault(what, measured.first_inadmissible);
         }
     }
-    let judged = measured.judged();
-    let rate = judged.value().unwrap_or(0.0);
-    let [low, high] = judged.interval_at(confidence()).unwrap_or([0.0, 1.0]);
+    let evaluated = measured.evaluated();
+    let rate = evaluated.value().unwrap_or(0.0);
+    let [low, high] = evaluated.interval_at(confidence()).unwrap_or([0.0, 1.0]);
     let first_wrong = measured.wrong.first().copied();
     if let Some(deviation) = deviation.filter(|_| !row.is_exact()) {
         if high < deviation.at_least_rate {

@@ -14,12 +14,12 @@ const int block_side = 1;
 #endif
 
 void main() {
-    uint pair;
+    uint entry;
     uint triangles = geometry_triangle_count();
     BinTriangle triangle;
     Bin bin;
-    if (!bin_enqueued(bin_built, gl_WorkGroupID.y * BIN_PAIR_ROW + gl_WorkGroupID.x, pair)
-        || !bin_load(pair % triangles, triangle) || !bin_begin(triangle, pair / triangles, bin)) {
+    if (!bin_enqueued(bin_built, gl_WorkGroupID.y * BIN_LARGE_ROW + gl_WorkGroupID.x, entry)
+        || !bin_load(entry % triangles, triangle) || !bin_begin(triangle, entry / triangles, bin)) {
         return;
     }
     ivec2 blocks = (bin.upper - bin.lower) / block_side + 1;

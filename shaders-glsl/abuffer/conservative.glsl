@@ -1,0 +1,26 @@
+// What: the conservative lists of an A-buffer's cells: where they are.
+// Reads, writes: bounds (heads), conservative lists, header.conservative_demand, header.corrupted.
+// Source: not in the paper; see ads/conservative.glsl.
+#ifndef ABUFFER_CONSERVATIVE_GLSL
+#define ABUFFER_CONSERVATIVE_GLSL
+
+#include "abuffer/accessors.glsl"
+
+// Word of a cell's head, the last of its bounds.
+uint abuffer_conservative_word(uint cell) {
+    return (cell + 1u) * ABUFFER_BOUNDS_STRIDE - 1u;
+}
+
+// The first link of a cell's conservative list.
+uint abuffer_conservative_head(AbufferRef s, uint cell) {
+    return ABUFFER_HAS_CONSERVATIVE && cell < abuffer_cell_count(s) ? ABUFFER_BOUNDS(s)[abuffer_conservative_word(cell)]
+        : 0u;
+}
+
+#define ConservativeRef AbufferRef
+#define CONSERVATIVE_HEAD(s, cell) ABUFFER_BOUNDS(s)[abuffer_conservative_word(cell)]
+#define CONSERVATIVE_NODES(s) ABUFFER_CONSERVATIVE_NODES(s)
+#define CONSERVATIVE_HEADER(s) ABUFFER_HEADER(s)
+#include "ads/conservative.glsl"
+
+#endif

@@ -1,0 +1,20 @@
+// What: the conservative lists of the cells of a layered depth cube: where they are.
+// Reads, writes: heads, conservative lists, header.conservative_demand, header.corrupted.
+// Source: not in the paper; see ads/conservative.glsl.
+#ifndef LDC_CONSERVATIVE_GLSL
+#define LDC_CONSERVATIVE_GLSL
+
+#include "ldc/accessors.glsl"
+
+// The first link of a cell's conservative list.
+uint ldc_conservative_head(LdcRef s, uint cell) {
+    return LDC_COVERAGE == LDC_COVERAGE_CONSERVATIVE ? LDC_HEADS(s)[cell] : 0u;
+}
+
+#define ConservativeRef LdcRef
+#define CONSERVATIVE_HEAD(s, cell) LDC_HEADS(s)[cell]
+#define CONSERVATIVE_NODES(s) LDC_CONSERVATIVE_NODES(s)
+#define CONSERVATIVE_HEADER(s) LDC_HEADER(s)
+#include "ads/conservative.glsl"
+
+#endif
