@@ -78,11 +78,11 @@
 // Cells along axes reach this many margins below the bounds, and twice as many above.
 #define PLACEMENT_WIDENING 4.0
 // Side of a cube over the longest side of the geometry in it.
-#define PLACEMENT_WIDENED 1.00390625
+#define PLACEMENT_WIDENED 1.0039063
 // Sizes of what has none, metres: all that follows from them stays within the range of numbers.
 #define PLACEMENT_SMALLEST 1.0e-30
 // The largest number.
-#define PLACEMENT_LONGEST 3.402823466e+38
+#define PLACEMENT_LONGEST 3.4028235e+38
 
 // Pages that the word of a list can name beside how many of their slots are used.
 #define PAGE_LIMIT 0x0FFFFFFEu

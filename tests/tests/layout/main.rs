@@ -23,9 +23,12 @@ const TRACES: [&Shader; 5] = [
     &shaders::ABUFFER_TRACE_CLOSEST_CELLS_PLANES_ADDRESS,
 ];
 
+/// A module with the records that each of the two readers finds in it, the own one first.
+type Found = (&'static Shader, [BTreeMap<String, Record>; 2]);
+
 /// What both readers find in every module, the own one first.
-fn found_in_modules() -> &'static [(&'static Shader, [BTreeMap<String, Record>; 2])] {
-    static FOUND: LazyLock<Vec<(&Shader, [BTreeMap<String, Record>; 2])>> = LazyLock::new(|| {
+fn found_in_modules() -> &'static [Found] {
+    static FOUND: LazyLock<Vec<Found>> = LazyLock::new(|| {
         shaders::ALL.iter().map(|shader| (*shader, [read_by_us(shader), read_by_spirq(shader)])).collect()
     });
     &FOUND
