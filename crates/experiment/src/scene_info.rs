@@ -20,6 +20,8 @@ pub struct SceneInfo {
     pub name: String,
     /// What there are how many of.
     pub counts: [(&'static str, u64); 7],
+    /// Its clips: name and seconds.
+    pub clips: Vec<(String, f32)>,
     /// Its environment in words.
     pub environment: String,
     /// Whether it gets the default light.
@@ -68,6 +70,7 @@ impl SceneInfo {
         Ok(Self {
             name: scene.name.clone(),
             counts: counts(scene, loaded.triangles),
+            clips: scene.animation.rig.clips.iter().map(|clip| (clip.name.clone(), clip.duration)).collect(),
             environment,
             unlit,
             bounds: default_view::bounds(scene),
@@ -84,6 +87,7 @@ impl SceneInfo {
 
     /// Fields of `rasray info --json`.
     pub fn json(&self) -> Value {
+        let clips = self.clips.iter().map(|(name, seconds)| json!({ "name": name, "duration_s": seconds }));
         let mut scene = json!({
             "name": self.name,
             "environment": self.environment,
@@ -91,6 +95,7 @@ impl SceneInfo {
             "cameras": self.cameras,
             "default_view": self.view.record(),
             "texels": self.texels.json(),
+            "animation": clips.collect::<Vec<_>>(),
         });
         for (name, count) in self.counts {
             scene[name] = count.into();

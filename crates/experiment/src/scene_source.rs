@@ -2,9 +2,9 @@
 
 use crate::error::ExperimentError;
 use rasray_gpu_scene::{Parts, SceneTables, left_out_bytes};
-use rasray_report::{SceneRecord, SmallerImageRecord};
+use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::needs::Needs;
-use rasray_scene::{AlphaMode, Camera, Environment, LoadOptions, Scene, builtin, default_view};
+use rasray_scene::{AlphaMode, Camera, Environment, LoadOptions, Moment, Scene, builtin, default_view};
 use sha2::{Digest, Sha256};
 use std::ffi::OsStr;
 use std::fs::File;
@@ -23,6 +23,8 @@ pub struct LoadedScene {
     /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent until they
     /// are counted ([`Self::count_not_uploaded`]), and where the scene is at fault in what is left out.
     pub not_uploaded_bytes: Option<u64>,
+    /// When it is shown; absent at rest.
+    pub pose: Option<PoseRecord>,
     /// Images that were made smaller for the device.
     pub smaller_images: Vec<SmallerImageRecord>,
 }
@@ -35,6 +37,7 @@ impl LoadedScene {
             triangles: self.triangles,
             sha256: self.sha256.clone(),
             not_uploaded_bytes: self.not_uploaded_bytes,
+            pose: self.pose.clone(),
             smaller_images: self.smaller_images.clone(),
         }
     }
@@ -82,6 +85,7 @@ fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
         scene,
         sha256,
         not_uploaded_bytes: None,
+        pose: None,
         smaller_images: Vec::new(),
     }
 }
@@ -102,6 +106,41 @@ impl LoadedScene {
         let eye = camera.world_from_camera.translation;
         let origin = SceneTables::default_frame_origin(&self.scene, eye);
         self.not_uploaded_bytes = left_out_bytes(&self.scene, origin, &Parts::from(needs)).ok();
+    }
+
+    /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that position from 0,
+    /// or without one by all that can be played at once.
+    ///
+    /// # Errors
+    /// The scene has no clips, or no such clip.
+    pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
+        let names = &self.scene.animation.clips;
+        if names.is_empty() {
+            return Err(ExperimentError::usage(
+                format!("the scene {} has no clips that could move it", self.scene.name),
+                "leave --time out; `rasray info SCENE` lists clips",
+            ));
+        }
+        let clips = match clip {
+            None => self.scene.animation.rig.compatible_clips(),
+            Some(wanted) => {
+                let named = names.iter().position(|name| name == wanted);
+                let counted = || wanted.parse().ok().filter(|index: &usize| *index < names.len());
+                let index = named.or_else(counted).ok_or_else(|| {
+                    let listed: Vec<String> =
+                        names.iter().enumerate().map(|(index, name)| format!("{index} ({name})")).collect();
+                    ExperimentError::usage(
+                        format!("the scene {} has no clip '{wanted}'", self.scene.name),
+                        format!("it has {}", listed.join(", ")),
+                    )
+                })?;
+                vec![index]
+            }
+        };
+        let shown = clips.iter().map(|clip| names[*clip].clone()).collect();
+        self.scene = self.scene.at(&Moment { seconds, clips });
+        self.pose = Some(PoseRecord { time_s: seconds, clips: shown });
+        Ok(())
     }
 
     /// Makes every surface opaque.

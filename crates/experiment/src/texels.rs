@@ -155,6 +155,7 @@ mod tests {
             triangles: 0,
             sha256: None,
             not_uploaded_bytes: None,
+            pose: None,
             smaller_images: Vec::new(),
         }
     }

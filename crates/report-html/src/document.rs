@@ -64,6 +64,9 @@ fn header(page: &mut Markup, report: &Report) {
     if let Some(count) = report.scene.not_uploaded_bytes {
         fact("Scene, not uploaded", bytes(count).into());
     }
+    if let Some(pose) = &report.scene.pose {
+        fact("Time", format!("{} s of {}", pose.time_s, pose.clips.join(", ")).into());
+    }
     let smaller = report.scene.smaller_images.iter().map(|image| {
         let ([width, height], [from_width, from_height]) = (image.to, image.from);
         format!("{} as {width}x{height}, not {from_width}x{from_height}", image.name)

@@ -14,8 +14,8 @@ mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
 pub use schema::{
-    CameraRecord, Counters, Device, Memory, Pass, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord,
-    Spread, Statistics, Timer, Times,
+    CameraRecord, Counters, Device, Memory, Pass, PoseRecord, Report, Run, SCHEMA, SceneRecord,
+    SmallerImageRecord, Spread, Statistics, Timer, Times,
 };
 
 pub use markdown::markdown;

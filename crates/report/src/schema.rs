@@ -68,7 +68,7 @@ pub struct Device {
 }
 
 /// A scene.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneRecord {
     /// File stem, or built-in name with its parameters.
@@ -82,9 +82,22 @@ pub struct SceneRecord {
     /// hold; absent for hard cases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_uploaded_bytes: Option<u64>,
+    /// When it was shown; absent at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<PoseRecord>,
     /// Images that were made smaller, because the device does not hold the texels of all; absent where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub smaller_images: Vec<SmallerImageRecord>,
+}
+
+/// A time of an animation.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PoseRecord {
+    /// Seconds from the beginning of the clips.
+    pub time_s: f64,
+    /// Names of the clips that were played.
+    pub clips: Vec<String>,
 }
 
 /// An image that was made smaller.

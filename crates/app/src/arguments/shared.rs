@@ -167,6 +167,14 @@ pub struct SceneArguments {
     /// Let alpha cut holes and blend; off makes every surface opaque
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub alpha: Switch,
+    /// Show the scene at this time of its animation, seconds; before the first and after the last key it stands still
+    /// [default: at rest, as the file places everything]
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
+    pub time: Option<f64>,
+    /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
+    /// thing]
+    #[arg(long, value_name = "NAME", requires = "time")]
+    pub clip: Option<String>,
     /// What is uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]
     pub needs: NeedsName,

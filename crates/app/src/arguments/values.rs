@@ -104,6 +104,17 @@ pub fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
+/// Reads a time, finite.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err("must be a finite number of seconds".to_owned()),
+    }
+}
+
 /// Reads stops of exposure.
 ///
 /// # Errors
@@ -149,6 +160,14 @@ mod tests {
         assert_eq!((parse("2"), parse(" 65535 ")), (Ok(2), Ok(65_535)));
         for bad in ["1", "65536", "-2", "2.5", "", "4294967298", "two"] {
             assert_eq!(parse(bad), Err("must be a whole number from 2 to 65535".to_owned()), "{bad}");
+        }
+    }
+
+    #[test]
+    fn times() {
+        assert_eq!((seconds("1.5"), seconds(" -2 ")), (Ok(1.5), Ok(-2.0)));
+        for bad in ["", "x", "nan", "inf", "1s"] {
+            assert!(seconds(bad).is_err(), "{bad}");
         }
     }
 

@@ -55,6 +55,9 @@ fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppErr
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
     let mut loaded = load(name)?;
+    if let Some(seconds) = reading.time {
+        loaded.pose(seconds, reading.clip.as_deref())?;
+    }
     loaded.light(environment);
     if reading.alpha == Switch::Off {
         loaded.close_holes();

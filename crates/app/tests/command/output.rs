@@ -1,7 +1,7 @@
 //! Where results go and how much is said beside them: standard output, quiet and verbose runs, names that a terminal
 //! would obey, completions and pages.
 
-use crate::scripted::{command, entries, stderr};
+use crate::scripted::{HARNESS, command, entries, stderr, stdout};
 use rasray_report::Report;
 use serde_json::Value;
 use std::io::Read;
@@ -10,14 +10,6 @@ use std::process::{Output, Stdio};
 
 fn rasray(folder: &Path, line: &str) -> Output {
     command(folder, line).output().expect("the command starts")
-}
-
-/// What the test harness says before the command begins.
-const HARNESS: &[u8] = b"\nrunning 1 test\ntest as_command ... ";
-
-/// What the command wrote to stdout, without what the test harness around it says.
-fn stdout(output: &Output) -> Vec<u8> {
-    output.stdout.strip_prefix(HARNESS).expect("the harness's lines").to_vec()
 }
 
 #[test]

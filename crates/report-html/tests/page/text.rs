@@ -1,8 +1,8 @@
 //! The page of a comparison, as text: its parts, what it loads, and that no name becomes markup.
 
 use crate::fixture::{everything, hard_runs};
-use rasray_report::Report;
 use rasray_report::figures::Figures;
+use rasray_report::{PoseRecord, Report};
 use rasray_report_html as html;
 
 fn page(report: &Report, figures: &Figures) -> String {
@@ -122,6 +122,9 @@ fn numbers_that_change_change_the_page() {
         }),
         ("a pixel's FLIP", |_, figures| figures.images.as_mut().expect("images").systems[1].flip[77] = 0.5),
         ("bytes that are not uploaded", |report, _| report.scene.not_uploaded_bytes = Some(9_216)),
+        ("a time", |report, _| {
+            report.scene.pose = Some(PoseRecord { time_s: 0.75, clips: vec!["walk".to_owned()] });
+        }),
         ("an option", |report, _| {
             report.runs[0].options.insert("resolution".to_owned(), 1024.into());
         }),

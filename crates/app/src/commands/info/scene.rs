@@ -26,6 +26,13 @@ pub(super) fn scene_text(info: &SceneInfo) -> String {
         text += "cameras\n";
         text += &columns(&info.cameras.iter().map(camera_row).collect::<Vec<_>>(), 4);
     }
+    if !info.clips.is_empty() {
+        text += "clips\n";
+        let row = |(index, (name, seconds)): (usize, &(String, f32))| {
+            vec![index.to_string(), name.clone(), format!("{seconds:.3} s")]
+        };
+        text += &columns(&info.clips.iter().enumerate().map(row).collect::<Vec<_>>(), 3);
+    }
     text + &needs_text(info)
 }
 

@@ -193,6 +193,14 @@ pub fn command(folder: &Path, line: &str) -> Command {
     command
 }
 
+/// What the test harness says before the command begins.
+pub const HARNESS: &[u8] = b"\nrunning 1 test\ntest as_command ... ";
+
+/// What the command wrote to stdout, without what the test harness around it says.
+pub fn stdout(output: &Output) -> Vec<u8> {
+    output.stdout.strip_prefix(HARNESS).expect("the harness's lines").to_vec()
+}
+
 /// What the command said on stderr.
 pub fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()

@@ -1,0 +1,80 @@
+//! Scenes at a time: which clips move them, what reports say of it, and what is refused.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use exr::prelude::read_first_flat_layer_from_file;
+use serde_json::{Value, json};
+
+use crate::scripted::stderr;
+
+/// A triangle that rises from z = 0 to 4 m within two seconds, and a second clip that lets it rise from there.
+const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"sheet","mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"animations":[
+ {"name":"rise","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]},
+ {"name":"stay","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+  "samplers":[{"input":1,"output":2,"interpolation":"STEP"}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+ {"bufferView":0,"byteOffset":36,"componentType":5126,"count":2,"type":"SCALAR","min":[0],"max":[2]},
+ {"bufferView":0,"byteOffset":44,"componentType":5126,"count":2,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":68}],
+"buffers":[{"byteLength":68,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAgEA="}]}"#;
+
+fn rasray(folder: &Path, line: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rasray"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the command starts")
+}
+
+#[test]
+fn a_scene_is_shown_at_a_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("rising.gltf"), RISING).expect("a scene");
+    let run = |line: &str| {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        output.stdout
+    };
+    let info: Value = serde_json::from_slice(&run("info rising.gltf --json")).expect("JSON");
+    let clips = json!([{ "name": "rise", "duration_s": 2.0 }, { "name": "stay", "duration_s": 2.0 }]);
+    assert_eq!(info["scene"]["animation"], clips);
+    let text = String::from_utf8(run("info rising.gltf")).expect("text");
+    assert!(text.contains("rise") && text.contains("2.000 s"), "{text}");
+
+    // Seen from 9 m above where it lies at rest.
+    let aimed = "--eye 0.25,0.25,9 --target 0.25,0.25,0 --size 1x1 --spp 1 --aov depth --report r.json --output o.exr";
+    let depth = |time: &str| -> (f32, Value) {
+        run(&format!("render rising.gltf {time} {aimed}"));
+        let report = std::fs::read(folder.path().join("r.json")).expect("the report");
+        let report: Value = serde_json::from_slice(&report).expect("JSON");
+        let image = read_first_flat_layer_from_file(folder.path().join("o.exr")).expect("an image");
+        let channels = &image.layer_data.channel_data.list;
+        let channel = channels.iter().find(|channel| channel.name.to_string() == "Z").expect("a depth");
+        (channel.sample_data.value_by_flat_index(0).to_f32(), report["scene"]["pose"].clone())
+    };
+    assert_eq!(depth(""), (9.0, Value::Null));
+    assert_eq!(depth("--time 1"), (7.0, json!({ "time_s": 1.0, "clips": ["rise"] })));
+    assert_eq!(depth("--time 1 --clip stay"), (9.0, json!({ "time_s": 1.0, "clips": ["stay"] })));
+    assert_eq!(depth("--time 7.5 --clip 0"), (5.0, json!({ "time_s": 7.5, "clips": ["rise"] })));
+    run("compare rising.gltf --time 1.25 --systems bricks,brute-force --rays 200");
+}
+
+#[test]
+fn times_and_clips_that_there_are_not_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("rising.gltf"), RISING).expect("a scene");
+    for (line, says) in [
+        ("render cornell --time 1 -o x.png", "has no clips"),
+        ("render rising.gltf --time 1 --clip fly -o x.png", "has no clip 'fly'"),
+        ("render rising.gltf --time 1 --clip 2 -o x.png", "0 (rise), 1 (stay)"),
+        ("render rising.gltf --clip rise -o x.png", "--time"),
+        ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
+    ] {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{line}: {}", stderr(&output));
+    }
+}
