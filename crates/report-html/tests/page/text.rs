@@ -107,7 +107,7 @@ fn intervals_and_quartiles_stand_next_to_their_numbers() {
 fn numbers_that_change_change_the_page() {
     let (report, figures) = everything("spheres:10k");
     let before = page(&report, &figures);
-    let changes: [(&str, Removal); 10] = [
+    let changes: [(&str, Removal); 11] = [
         ("a rate", |report, _| report.runs[1].times.mrays_per_s = Some(3.5)),
         ("a missed hit", |report, _| report.runs[3].accuracy.as_mut().expect("judged").missed += 1),
         ("a pass", |report, _| report.runs[7].passes[2].ms_median *= 1.5),
