@@ -23,7 +23,12 @@ const SEED: u32 = 1;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     let name = arguments.first().map_or("spheres:10k", String::as_str);
-    let rays: u32 = arguments.get(1).and_then(|text| text.parse().ok()).unwrap_or(4096);
+    let rays: u32 = match arguments.get(1) {
+        Some(text) => text.parse().ok().filter(|rays| *rays > 0).ok_or_else(|| {
+            format!("RAYS must be a whole number above 0, not `{text}`; cargo bench -- [SCENE] [RAYS]")
+        })?,
+        None => 4096,
+    };
     let scene = builtin::builtin(name).ok_or_else(|| format!("there is no built-in scene `{name}`"))??;
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(&scene));
     let device = Device::create(&DeviceDesc { requirements: requirements(), ..DeviceDesc::default() })?;
@@ -51,8 +56,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (contestant, traced) in contestants.iter().zip(&traces) {
         let run = contestant.run(&device)?;
         let name = format!("{} {}", run.system, run.preset);
-        let (build, trace) = (run.times.build_ms.unwrap_or(0.0), median(&traced.milliseconds).unwrap_or(0.0));
-        println!("{name:<24} {build:>12.2} {trace:>12.2} {:>14.3}", rays.len() as f64 / trace / 1.0e3);
+        let trace = median(&traced.milliseconds);
+        let shown =
+            |value: Option<f64>, digits| value.map_or("-".to_owned(), |value| format!("{value:.digits$}"));
+        let speed = trace.map(|trace| rays.len() as f64 / trace / 1.0e3);
+        println!(
+            "{name:<24} {:>12} {:>12} {:>14}",
+            shown(run.times.build_ms, 2),
+            shown(trace, 2),
+            shown(speed, 3)
+        );
     }
     Ok(())
 }

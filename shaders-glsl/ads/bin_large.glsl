@@ -5,8 +5,8 @@
 #ifndef ADS_BIN_LARGE_GLSL
 #define ADS_BIN_LARGE_GLSL
 
-// Enqueues a pair for the pass for many cells: the view times the number of triangles, and the triangle. Those beyond the
-// capacity are counted only.
+// Enqueues view * triangle count + triangle for the pass for large triangles. Entries beyond the capacity are only
+// counted.
 void bin_enqueue(LargeRef s, uint entry) {
     uint place = atomicAdd(LARGE_HEADER(s).large_demand, 1u);
     if (place >= LARGE_CAPACITY(s)) {
@@ -17,11 +17,11 @@ void bin_enqueue(LargeRef s, uint entry) {
     atomicMax(LARGE_HEADER(s).groups[1], place / BIN_LARGE_ROW + 1u);
 }
 
-// The pair of a workgroup. False where there are not so many.
+// The entry that a workgroup works on. False where the queue has fewer.
 bool bin_enqueued(LargeRef s, uint place, out uint entry) {
-    bool is_one = place < min(LARGE_HEADER(s).large_demand, LARGE_CAPACITY(s));
-    entry = is_one ? LARGE_WORD(s, place) : 0u;
-    return is_one;
+    bool is_there = place < min(LARGE_HEADER(s).large_demand, LARGE_CAPACITY(s));
+    entry = is_there ? LARGE_WORD(s, place) : 0u;
+    return is_there;
 }
 
 #endif

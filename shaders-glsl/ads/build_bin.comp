@@ -1,6 +1,7 @@
-// What: goes through the cells of each triangle in each view and does there what BIN_VISIT says; one
-// invocation per triangle. Those with many cells of a view are in the large-triangle queue, for the pass for many.
-// Reads, writes: see the structure's binned.glsl; the pass that enqueues writes pairs, header.large_demand, header.groups.
+// What: visits the cells of each triangle in each view and does there what BIN_VISIT says; one invocation per triangle.
+// Large triangles are in the large-triangle queue and left to the pass for those.
+// Reads, writes: see the structure's binned.glsl; the pass that enqueues writes the large-triangle queue,
+// header.large_demand, header.groups.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_cells.glsl"

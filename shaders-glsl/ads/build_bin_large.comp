@@ -1,6 +1,7 @@
-// What: the same for triangles with many cells of a view: as many workgroups for each as the header says (groups[2]), cells
-// or blocks of cells in turn. The host gives so many that the loops of an invocation turn BIN_TURNS times at most.
-// Reads, writes: see the structure's binned.glsl; reads pairs.
+// What: visits the cells of the triangles in the large-triangle queue. Each gets groups[2] workgroups (in the header), which
+// take its cells, or blocks of them, in turn. The host chooses groups[2] so that no invocation visits more than BIN_TURNS
+// cells.
+// Reads, writes: see the structure's binned.glsl; reads the large-triangle queue.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/bin_cells.glsl"

@@ -10,7 +10,7 @@
 #define HEAP_SIFT_STEPS 33u
 
 // Sorts as far as `steps` go, in one loop, because drivers may end all loops of an
-// invocation after 65,535 iterations, and invocations that run side by side pay for the longest of each loop.
+// invocation after 65,535 iterations, and invocations that run in lockstep pay for the longest of each loop.
 // `progress` counts sifts and begins at 0: length / 2 make the heap, then length - 1 take its last element to
 // the end of what is left. True once all are done; in between the elements are whole. length is at least 2.
 bool heap_sort_share(uint length, uint steps, inout uint progress) {

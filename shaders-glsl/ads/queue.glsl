@@ -104,8 +104,8 @@ bool queue_slot(uint domain, uint invocation, out uint slot) {
     return slot < queue_header.capacity;
 }
 
-// Selects a slot of the queue with this header and these lists for the passes after the next take. A slot is selected once;
-// the order is nobody's.
+// Selects a slot of the queue with this header and these lists for the passes after the next take. A slot may be selected
+// once; the order is unspecified.
 #define QUEUE_SELECT(header, lists, slot) \
     LIST_APPEND(header.selecting, header.capacity, lists, queue_selected_at(header.takes + 1u, header.capacity), slot)
 
