@@ -95,6 +95,18 @@ impl From<rasray_ray_files::FileError> for AppError {
 }
 
 impl AppError {
+    /// The same error, with what it is about before its message.
+    pub fn about(mut self, what: &str) -> Self {
+        let (Self::Usage { message, .. }
+        | Self::Input { message, .. }
+        | Self::Device { message, .. }
+        | Self::Refused { message, .. }
+        | Self::Target { message, .. }
+        | Self::Interrupted { message, .. }) = &mut self;
+        *message = format!("{what}: {message}");
+        self
+    }
+
     /// A usage error.
     pub fn usage(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self::Usage { message: message.into(), help: help.into() }

@@ -138,7 +138,10 @@ impl LoadedScene {
             }
         };
         let shown = clips.iter().map(|clip| names[*clip].clone()).collect();
-        self.scene = self.scene.at(&Moment { seconds, clips });
+        // They do not change, and may be most of the memory.
+        let images = std::mem::take(&mut self.scene.images);
+        let posed = self.scene.at(&Moment { seconds, clips });
+        self.scene = Scene { images, ..posed };
         self.pose = Some(PoseRecord { time_s: seconds, clips: shown });
         Ok(())
     }

@@ -277,7 +277,9 @@ pub(crate) fn light_direction(world: DAffine3) -> Option<DVec3> {
 
 impl Scene {
     /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed. Triangles keep
-    /// their order and number, so that ids do not depend on the time. A scene without a rig is as it was.
+    /// their order and number, so that ids do not depend on the time. The result can be shown at another moment in the same
+    /// way. A scene without a rig is as it was. Everything else is
+    /// copied, images included: take those out before where they are large.
     ///
     /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
     /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A camera or a
@@ -308,8 +310,15 @@ impl Scene {
                     let (mesh, place) =
                         posed_mesh(&self.meshes[instance.mesh], deformed, &weights, rig, &pose);
                     let index = if std::mem::replace(&mut is_replaced[instance.mesh], true) {
+                        // Of its own from now on, so that the result can be posed again.
+                        let mesh_index = scene.meshes.len();
                         scene.meshes.push(mesh);
-                        scene.meshes.len() - 1
+                        scene
+                            .animation
+                            .rig
+                            .deformed
+                            .push(DeformedMesh { mesh: mesh_index, ..deformed.clone() });
+                        mesh_index
                     } else {
                         scene.meshes[instance.mesh] = mesh;
                         instance.mesh

@@ -9,6 +9,7 @@ use clap::{Args, ValueEnum};
 use rasray_experiment::{AovSelection, SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
@@ -19,6 +20,7 @@ Examples:
   rasray render scene.obj --eye 0,1.6,4 --target 0,1,0 --fov 60 --environment 1,1,1 --output view.png
   rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
   rasray render cornell --output - --format png | display
+  rasray render walk.glb --frames 0-49 --output 'walk.####.png'
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
@@ -27,7 +29,8 @@ miss). Files are written next to their place and renamed, so a file there is alw
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command
-ends within two seconds and writes nothing. A second one stops at once and writes nothing.";
+ends within two seconds and writes nothing. A second one stops at once and writes nothing. Of --frames only
+whole images are written; run again with --skip-existing.";
 
 /// Options of `rasray render`.
 #[derive(Debug, Args)]
@@ -60,6 +63,18 @@ pub struct RenderArguments {
     /// Builds that are timed after the first, for the medians of a report, 1 to 10000 [default: none]
     #[arg(long, value_name = "N", value_parser = values::whole(1, 10_000))]
     pub repetitions: Option<u32>,
+    /// Frames of an animation, numbers as in 0-99: one image each, at number / --fps seconds. In the names of --output and
+    /// --report a run of # is the number
+    #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
+          help_heading = "Frames")]
+    pub frames: Option<RangeInclusive<u32>>,
+    /// Frames per second
+    #[arg(long, value_name = "N", value_parser = values::frames_per_second, default_value = "25", requires = "frames",
+          help_heading = "Frames")]
+    pub fps: f64,
+    /// Leave frames alone whose image is there already: files are whole, so this goes on where a command was stopped
+    #[arg(long, requires = "frames", help_heading = "Frames")]
+    pub skip_existing: bool,
     /// The image and what light does.
     #[command(flatten)]
     pub frame: FrameArguments,

@@ -171,9 +171,9 @@ pub struct SceneArguments {
     /// [default: at rest, as the file places everything]
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
     pub time: Option<f64>,
-    /// With --time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
+    /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
     /// thing]
-    #[arg(long, value_name = "NAME", requires = "time")]
+    #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
     /// What is uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]

@@ -1,6 +1,7 @@
 //! Values that options take, read from text.
 
 use clap::ValueEnum;
+use std::ops::RangeInclusive;
 
 /// A switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -19,6 +20,9 @@ pub struct Size {
     /// Rows, in [1, 16384].
     pub height: u32,
 }
+
+/// The largest number of a frame.
+const MOST_FRAMES: u32 = 9_999_999;
 
 /// Largest side of an image, in pixels.
 const SIDE_LIMIT: u32 = 16_384;
@@ -104,6 +108,29 @@ pub fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
+/// Reads numbers of frames, `7` or `0-99`, both ends included.
+///
+/// # Errors
+/// Says what the form is.
+pub fn frames(text: &str) -> Result<RangeInclusive<u32>, String> {
+    let (first, last) = text.split_once('-').unwrap_or((text, text));
+    match (first.trim().parse(), last.trim().parse()) {
+        (Ok(first), Ok(last)) if first <= last && last <= MOST_FRAMES => Ok(first..=last),
+        _ => Err(format!("must be a frame or a range such as 0-99, up to {MOST_FRAMES}")),
+    }
+}
+
+/// Reads frames per second.
+///
+/// # Errors
+/// Says what is allowed.
+pub fn frames_per_second(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.001..=100_000.0).contains(&value) => Ok(value),
+        _ => Err("must be a number from 0.001 to 100000".to_owned()),
+    }
+}
+
 /// Reads a time, finite.
 ///
 /// # Errors
@@ -160,6 +187,18 @@ mod tests {
         assert_eq!((parse("2"), parse(" 65535 ")), (Ok(2), Ok(65_535)));
         for bad in ["1", "65536", "-2", "2.5", "", "4294967298", "two"] {
             assert_eq!(parse(bad), Err("must be a whole number from 2 to 65535".to_owned()), "{bad}");
+        }
+    }
+
+    #[test]
+    fn ranges_of_frames() {
+        assert_eq!((frames("7"), frames("0-99"), frames(" 3 - 3 ")), (Ok(7..=7), Ok(0..=99), Ok(3..=3)));
+        for bad in ["", "-", "9-3", "-1-2", "1-", "0-10000000", "1.5", "1-2-3"] {
+            assert!(frames(bad).is_err(), "{bad}");
+        }
+        assert_eq!((frames_per_second("25"), frames_per_second("23.976")), (Ok(25.0), Ok(23.976)));
+        for bad in ["0", "-1", "nan", "inf", "x"] {
+            assert!(frames_per_second(bad).is_err(), "{bad}");
         }
     }
 

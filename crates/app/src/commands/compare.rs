@@ -49,7 +49,7 @@ pub(crate) fn compare(
         given.files.hits_file.iter().map(|file| Ok::<_, AppError>(load_hits(&file.name, &file.path)?));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, &given.view)?;
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, given.reading.time, &given.view)?;
     let systems: Vec<_> =
         systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));

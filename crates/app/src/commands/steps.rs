@@ -38,24 +38,31 @@ pub(super) fn open_device(
     during("device", "opening", || Ok(open(&given.choice())?))
 }
 
-/// Reads a scene as the command line asks and chooses the camera; warns of what was left out of it.
+/// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what was left out of it.
 pub(super) fn read_scene(
     name: &OsStr,
     reading: &SceneArguments,
+    time: Option<f64>,
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
-    let loaded = during("scene", "reading", || prepare(name, reading))?;
+    let loaded = during("scene", "reading", || prepare(name, reading, time))?;
     let chosen = during("scene", "looking for a view", || view.choose(&loaded.scene))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
     Ok((loaded, chosen))
 }
 
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
-fn prepare(name: &OsStr, reading: &SceneArguments) -> Result<LoadedScene, AppError> {
+fn prepare(name: &OsStr, reading: &SceneArguments, time: Option<f64>) -> Result<LoadedScene, AppError> {
+    if time.is_none() && reading.clip.is_some() {
+        return Err(AppError::usage(
+            "--clip says what moves the scene, and nothing says when",
+            "say --time SECONDS, or to `rasray render` --frames FIRST-LAST",
+        ));
+    }
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
     let mut loaded = load(name)?;
-    if let Some(seconds) = reading.time {
+    if let Some(seconds) = time {
         loaded.pose(seconds, reading.clip.as_deref())?;
     }
     loaded.light(environment);

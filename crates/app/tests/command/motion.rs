@@ -50,16 +50,48 @@ fn a_scene_is_shown_at_a_time() {
         run(&format!("render rising.gltf {time} {aimed}"));
         let report = std::fs::read(folder.path().join("r.json")).expect("the report");
         let report: Value = serde_json::from_slice(&report).expect("JSON");
-        let image = read_first_flat_layer_from_file(folder.path().join("o.exr")).expect("an image");
-        let channels = &image.layer_data.channel_data.list;
-        let channel = channels.iter().find(|channel| channel.name.to_string() == "Z").expect("a depth");
-        (channel.sample_data.value_by_flat_index(0).to_f32(), report["scene"]["pose"].clone())
+        (depth_of(&folder.path().join("o.exr")), report["scene"]["pose"].clone())
     };
     assert_eq!(depth(""), (9.0, Value::Null));
     assert_eq!(depth("--time 1"), (7.0, json!({ "time_s": 1.0, "clips": ["rise"] })));
     assert_eq!(depth("--time 1 --clip stay"), (9.0, json!({ "time_s": 1.0, "clips": ["stay"] })));
     assert_eq!(depth("--time 7.5 --clip 0"), (5.0, json!({ "time_s": 7.5, "clips": ["rise"] })));
     run("compare rising.gltf --time 1.25 --systems bricks,brute-force --rays 200");
+}
+
+/// The depth in the middle of a picture.
+fn depth_of(path: &Path) -> f32 {
+    let image = read_first_flat_layer_from_file(path).expect("an image");
+    let channels = &image.layer_data.channel_data.list;
+    let channel = channels.iter().find(|channel| channel.name.to_string() == "Z").expect("a depth");
+    channel.sample_data.value_by_flat_index(0).to_f32()
+}
+
+#[test]
+fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("rising.gltf"), RISING).expect("a scene");
+    let line = "render rising.gltf --frames 8-11 --fps 8 --clip rise --eye 0.25,0.25,9 --target 0.25,0.25,0 --size 1x1 \
+                --spp 1 --aov depth --output out.###.exr --report r#.json --skip-existing";
+    let run = || {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let image = |number: &str| folder.path().join(format!("out.{number}.exr"));
+    run();
+    let depths = ["008", "009", "010", "011"].map(|number| depth_of(&image(number)));
+    assert_eq!(depths, [7.0, 6.75, 6.5, 6.25]);
+    let report = std::fs::read(folder.path().join("r10.json")).expect("the report");
+    let report: Value = serde_json::from_slice(&report).expect("JSON");
+    assert_eq!(report["scene"]["pose"], json!({ "time_s": 1.25, "clips": ["rise"] }));
+    // What is there stays as it is; what is missing is made.
+    std::fs::write(image("008"), "kept").expect("a file");
+    std::fs::remove_file(image("010")).expect("it is there");
+    let said = run();
+    assert!(said.contains("1 frames were rendered, 3 were there already"), "{said}");
+    assert_eq!(std::fs::read(image("008")).expect("a file"), b"kept");
+    assert_eq!(depth_of(&image("010")), 6.5);
 }
 
 #[test]
@@ -71,6 +103,11 @@ fn times_and_clips_that_there_are_not_are_refused() {
         ("render rising.gltf --time 1 --clip fly -o x.png", "has no clip 'fly'"),
         ("render rising.gltf --time 1 --clip 2 -o x.png", "0 (rise), 1 (stay)"),
         ("render rising.gltf --clip rise -o x.png", "--time"),
+        ("render rising.gltf --frames 0-3 -o x.png", "write a run of #"),
+        ("render rising.gltf --frames 3-0 -o x#.png", "a range such as 0-99"),
+        ("render rising.gltf --frames 0-3 --time 1 -o x#.png", "--time"),
+        ("render rising.gltf --skip-existing -o x#.png", "--frames"),
+        ("render cornell --frames 0-3 -o #.png", "has no clips"),
         ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
     ] {
         let output = rasray(folder.path(), line);

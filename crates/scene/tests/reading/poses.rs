@@ -199,6 +199,25 @@ fn meshes_cameras_and_lights_are_where_their_nodes_are() {
     assert!(matches!(scene.lights[1], Light::Directional { direction, .. } if direction == DVec3::NEG_Z));
 }
 
+/// A scene at a moment is a scene: shown at another one it is what the scene at rest is then.
+#[test]
+fn a_scene_at_a_moment_can_be_shown_at_another() {
+    let at = |scene: &Scene, seconds: f64| scene.at(&Moment { seconds, clips: vec![0] });
+    let shown = |scene: &Scene| -> Vec<String> {
+        let of = |instance: &Instance| {
+            format!("{:?} {:?}", scene.meshes[instance.mesh].positions, instance.world_from_mesh)
+        };
+        scene.instances.iter().map(of).collect()
+    };
+    let rest = crowd();
+    let mut scene = at(&rest, 2.0);
+    for seconds in [2.5, 1.0, 3.0, 2.0] {
+        scene = at(&scene, seconds);
+        assert_eq!(shown(&scene), shown(&at(&rest, seconds)), "{seconds}");
+    }
+    assert_eq!((rest.meshes.len(), scene.meshes.len()), (2, 3), "a mesh is split once");
+}
+
 /// Real scenes at several times: well formed, as many triangles, moved, and the same where they begin and are at rest.
 #[test]
 fn animated_scenes_are_well_formed_at_all_times() {
