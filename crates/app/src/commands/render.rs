@@ -137,9 +137,8 @@ impl Pictures<'_> {
 
     /// Renders the scene as it is and writes what was asked for. `keeps_part`: a signal keeps the samples done so far.
     fn render(&mut self, targets: &Targets, keeps_part: bool) -> Result<(), AppError> {
-        let Self { given, line, interrupt, frame, aovs, chosen, .. } = &*self;
-        let (given, line, interrupt, frame, aovs, chosen) =
-            (*given, *line, *interrupt, *frame, *aovs, chosen.clone());
+        let Self { given, line, interrupt, frame, aovs, .. } = *self;
+        let chosen = &self.chosen;
         let system = self.system.clone().seen_by(&chosen.camera, frame.width, frame.height);
         let needs = given.reading.needs(&self.loaded.scene, frame.workload());
         fit_images(&mut self.loaded, &needs, self.backend.as_ref())?;

@@ -1,16 +1,9 @@
 //! The built command on a device: what it saves can be traced again, and what others find is evaluated.
 
+use crate::scripted::rasray;
 use rasray_report::{Accuracy, Report};
 use std::path::Path;
-use std::process::{Command, Output};
-
-fn rasray(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rasray"))
-        .args(line.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .expect("the command starts")
-}
+use std::process::Command;
 
 /// Runs a comparison that must succeed and returns its report.
 fn compared(folder: &Path, line: &str) -> Report {

@@ -1,12 +1,11 @@
 //! Scenes at a time: which clips move them, what reports say of it, and what is refused.
 
 use std::path::Path;
-use std::process::{Command, Output};
 
 use exr::prelude::read_first_flat_layer_from_file;
 use serde_json::{Value, json};
 
-use crate::scripted::stderr;
+use crate::scripted::{rasray, stderr};
 
 /// A triangle that rises from z = 0 to 4 m within two seconds, and a second clip that lets it rise from there.
 const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"sheet","mesh":0}],
@@ -20,14 +19,6 @@ const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nod
  {"bufferView":0,"byteOffset":44,"componentType":5126,"count":2,"type":"VEC3"}],
 "bufferViews":[{"buffer":0,"byteLength":68}],
 "buffers":[{"byteLength":68,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAEAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAgEA="}]}"#;
-
-fn rasray(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rasray"))
-        .args(line.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .expect("the command starts")
-}
 
 #[test]
 fn a_scene_is_shown_at_a_time() {

@@ -1,20 +1,8 @@
 //! The built command, as far as it goes without a device: every mistake is answered before one is
 //! opened, with two lines on stderr and the documented exit code.
 
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
-
-fn rasray(folder: &Path, line: &str) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_rasray"))
-        .args(line.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .expect("the command starts")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use crate::scripted::{rasray, stderr};
+use std::process::{Command, Stdio};
 
 #[test]
 fn mistakes_end_with_2_and_name_what_is_wrong_and_the_fix() {

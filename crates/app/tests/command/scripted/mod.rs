@@ -193,6 +193,15 @@ pub fn command(folder: &Path, line: &str) -> Command {
     command
 }
 
+/// The built command, on a device.
+pub fn rasray(folder: &Path, line: &str) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rasray"))
+        .args(line.split_whitespace())
+        .current_dir(folder)
+        .output()
+        .expect("the command starts")
+}
+
 /// What the test harness says before the command begins.
 pub const HARNESS: &[u8] = b"\nrunning 1 test\ntest as_command ... ";
 
