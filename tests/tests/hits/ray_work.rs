@@ -65,9 +65,11 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(off.work.is_empty() && sums.work.is_empty());
             assert_eq!(per_ray.work.len(), rays.len());
             assert_eq!(off.counters, QueueCounters::default());
-            // Threads fill lists in another order in each build, and any hit ends at the first that is met.
+            // Threads fill lists in another order in each build: any hit ends at the first that is met, and whether a
+            // triangle is one of the last two tested, which are not tested again, depends on what stands before it.
             if mode == TraceMode::Closest {
-                assert_eq!(sums.counters, per_ray.counters, "{name}, {mode:?}");
+                let of_any_order = |counters: QueueCounters| QueueCounters { tests: 0, ..counters };
+                assert_eq!(of_any_order(sums.counters), of_any_order(per_ray.counters), "{name}, {mode:?}");
             }
             assert!(sums.counters.cells + sums.counters.tests > 2000, "{:?}", sums.counters);
             assert_eq!(difference(&per_ray.work, &per_ray.counters), None, "{name}, {mode:?}");
