@@ -169,6 +169,11 @@ pub trait Design: fmt::Debug + Sized {
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError>;
 
+    /// Whether [`Design::prepare`] works on the triangles.
+    fn builds_on_host(_config: &Self::Config) -> bool {
+        false
+    }
+
     /// [`Structure::prepare_build`](crate::Structure::prepare_build).
     ///
     /// # Errors

@@ -179,6 +179,10 @@ impl<D: Design> Structure for Pooled<D> {
         self.design.prepare(&mut self.parts, device)
     }
 
+    fn builds_on_host(&self) -> bool {
+        D::builds_on_host(&self.parts.config)
+    }
+
     fn slots(&self) -> u32 {
         self.parts.pools.slots()
     }

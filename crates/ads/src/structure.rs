@@ -284,6 +284,12 @@ pub trait Structure {
         Ok(())
     }
 
+    /// Whether [`Structure::prepare_build`] works on the triangles, so that these must be where they are to be built before
+    /// it is called.
+    fn builds_on_host(&self) -> bool {
+        false
+    }
+
     /// Builds whose outcome is kept apart; 1 unless [`Structure::set_slots`] was called.
     fn slots(&self) -> u32;
 

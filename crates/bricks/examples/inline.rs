@@ -3,10 +3,11 @@
 
 use std::path::Path;
 
-use rasray_ads::{BruteForce, Check, Domain, Geometry, Hit, Ray, RayQueue, Structure, TraceMode};
+use rasray_ads::{BruteForce, Domain, Geometry, Hit, InlineTrace, Ray, RayQueue, Structure, TraceMode};
 use rasray_bricks::{Bricks, Config, Views};
 use rasray_gpu::{Access, Device, Recorded, Recorder, vk};
 use rasray_shader_compiler::{Module, compile};
+use rasray_tracer::{FrameOutcome, FrameStructure, Keeping};
 
 #[path = "../../ads/examples/host/mod.rs"]
 mod host;
@@ -34,7 +35,7 @@ struct Slot {
     recorded: Option<Recorded>,
 }
 
-/// Runs the program; an error where hits differ, too few frames are complete or the validation layer complains.
+/// Runs the program; an error where hits differ, a frame was not complete or the validation layer complains.
 pub fn main() -> Result<()> {
     let config = Config::new(Views::Axes);
     let enabled = Bricks::requirements_of(&config).required;
@@ -48,8 +49,9 @@ pub fn main() -> Result<()> {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let spirv = compile(&[&own, Path::new(rasray_shaders_glsl::ROOT)], &shader)?;
     let first = host.geometry(&device, &mesh, host.buffer(&mesh.positions)?)?;
-    let mut bricks = Bricks::new(&device, config, &first, None)?;
-    bricks.set_slots(&device, FRAMES as u32)?;
+    let bricks = Box::new(Bricks::new(&device, config, &first, None)?);
+    // With half as much again as a frame needs, since the next ones may need a little more.
+    let mut bricks = FrameStructure::new(&device, bricks, Keeping { slots: FRAMES as u32, headroom: 50 })?;
     let mut slots = Vec::new();
     for _ in 0..FRAMES {
         slots.push(Slot::new(&host, &device, &mesh, &bricks, &spirv)?);
@@ -59,8 +61,7 @@ pub fn main() -> Result<()> {
     host.wait_for_all()?;
     let complete = complete?;
     println!("{complete} of {COUNT} frames were complete");
-    // Pools grow with the first, and the second began before that.
-    if complete >= COUNT - 4 { Ok(()) } else { Err("too few frames were complete".into()) }
+    if complete == COUNT { Ok(()) } else { Err("a frame was not complete".into()) }
 }
 
 /// The loop of the host: how many frames were complete.
@@ -68,9 +69,14 @@ fn frames(
     host: &Host,
     device: &Device,
     mesh: &Mesh,
-    bricks: &mut Bricks,
+    bricks: &mut FrameStructure,
     slots: &mut [Slot],
 ) -> Result<usize> {
+    // While the program loads, the first frame is repeated until its pools suffice. No other frame is waited for.
+    while !slots[0].finish(host, device, 0, bricks)? {
+        slots[0].submit(host, device, 0, bricks)?;
+        host.wait(0)?;
+    }
     let mut complete = 0;
     for frame in 0..COUNT + FRAMES {
         let (number, slot) = (frame % FRAMES, &mut slots[frame % FRAMES]);
@@ -79,18 +85,28 @@ fn frames(
         if frame < COUNT {
             let moved = mesh.positions.iter().map(|[x, y, z]| [x + frame as f32 / 16.0, *y, *z]);
             slot.positions.write(&moved.collect::<Vec<_>>());
-            let record = |commands| slot.record(host, device, commands, number, bricks);
-            slot.recorded = Some(host.submit(number, record)?);
+            slot.submit(host, device, number, bricks)?;
         }
     }
     Ok(complete)
 }
 
+/// How a shader of the host traces through the bricks.
+fn inline(bricks: &FrameStructure) -> Result<InlineTrace<'_>> {
+    bricks.structure().inline_trace().ok_or_else(|| "bricks can be traced on the spot".into())
+}
+
 impl Slot {
-    fn new(host: &Host, device: &Device, mesh: &Mesh, bricks: &Bricks, spirv: &[u32]) -> Result<Self> {
+    fn new(
+        host: &Host,
+        device: &Device,
+        mesh: &Mesh,
+        bricks: &FrameStructure,
+        spirv: &[u32],
+    ) -> Result<Self> {
         let positions = host.buffer(&mesh.positions)?;
         let geometry = host.geometry(device, mesh, positions)?;
-        let inline = bricks.inline_trace().ok_or("bricks can be traced on the spot")?;
+        let inline = inline(bricks)?;
         let unanswered = vec![[0_u32; 4]; (SIDE * SIDE) as usize];
         let found = host.buffer(&unanswered)?;
         let sets = [geometry.layout().raw(), inline.layout.raw()];
@@ -104,6 +120,19 @@ impl Slot {
         Ok(Self { positions, geometry, found, pipeline, reference, rays, expected, recorded: None })
     }
 
+    /// Submits a frame, and keeps what it uses.
+    fn submit(
+        &mut self,
+        host: &Host,
+        device: &Device,
+        number: usize,
+        bricks: &mut FrameStructure,
+    ) -> Result<()> {
+        let recorded = host.submit(number, |commands| self.record(host, device, commands, number, bricks))?;
+        self.recorded = Some(recorded);
+        Ok(())
+    }
+
     /// Records a build, the shader of the host, and brute force.
     fn record(
         &mut self,
@@ -111,15 +140,15 @@ impl Slot {
         device: &Device,
         commands: vk::CommandBuffer,
         number: usize,
-        bricks: &mut Bricks,
+        bricks: &mut FrameStructure,
     ) -> Result<Recorded> {
         // SAFETY: the command buffer is being recorded by nobody else, and what this returns is kept until the host has
         // waited for the frame.
         let mut recorder = unsafe { Recorder::from_raw(device, commands) };
         bricks.set_geometry(device, &self.geometry)?;
-        bricks.record_build(&mut recorder, number as u32, [0.5; 3].into())?;
+        bricks.record(&mut recorder, number as u32, [0.5; 3].into())?;
         let (pipeline, layout, own) = self.pipeline;
-        let inline = bricks.inline_trace().ok_or("bricks can be traced on the spot")?;
+        let inline = inline(bricks)?;
         let set = inline.set.ok_or("bricks are reached through a set")?;
         let (sets, point) = ([own, self.geometry.set().raw(), set.raw()], vk::PipelineBindPoint::COMPUTE);
         // SAFETY: the layout is that of these sets, and a build ends with a barrier towards compute shaders.
@@ -144,21 +173,22 @@ impl Slot {
         Ok(recorder.finish()?)
     }
 
-    /// What a frame that was waited for left behind: whether it was complete; then hits are those of brute force.
-    fn finish(&mut self, host: &Host, device: &Device, number: usize, bricks: &mut Bricks) -> Result<bool> {
+    /// What a frame that was waited for left behind: whether it was complete; then hits are those of brute force. Pools
+    /// that were too small have grown.
+    fn finish(
+        &mut self,
+        host: &Host,
+        device: &Device,
+        number: usize,
+        bricks: &mut FrameStructure,
+    ) -> Result<bool> {
         if self.recorded.take().is_none() {
             return Ok(false);
         }
-        // With headroom, as the next frames may ask for a little more.
-        match bricks.check(&bricks.status(number as u32)?, 50)? {
-            Check::Complete => {
-                host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>(), 0.0)?;
-                Ok(true)
-            }
-            Check::Grow(sizes) => {
-                bricks.resize(device, &sizes)?;
-                Ok(false)
-            }
+        let is_complete = bricks.finish(device, number as u32)? == FrameOutcome::Complete;
+        if is_complete {
+            host.compare(&self.found.read::<Hit>(), &self.expected.read::<Hit>(), 0.0)?;
         }
+        Ok(is_complete)
     }
 }

@@ -166,6 +166,10 @@ impl Design for Tree {
         Ok(Self { build: Build::new(pipelines, config)?, prepared: None, nodes: 0 })
     }
 
+    fn builds_on_host(config: &Config) -> bool {
+        config.builder == Builder::Sah
+    }
+
     fn prepare(&mut self, parts: &mut Parts<Config>, device: &Device) -> Result<(), AdsError> {
         if parts.config.builder != Builder::Sah {
             return Ok(());

@@ -14,7 +14,7 @@
 //!
 //! **Who waits.** A [`Recorder`] only records: it never submits, never waits, never allocates device memory.
 //! [`Device::submit`], [`Device::upload`] and [`Device::download`] submit and wait with a timeout; they are for
-//! applications and tests. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
+//! applications and tests. [`Flights`] submits without waiting, frame after frame. Code that is to run inside somebody else's frame uses a [`Recorder`] alone.
 //! Submissions keep what they use alive until the device is done with it.
 //!
 //! **Synchronisation.** Within one command buffer the caller records [`Recorder::barrier`]. Every submission of
@@ -63,6 +63,7 @@ mod error;
 #[cfg(feature = "fault-injection")]
 pub mod faults;
 mod features;
+mod flights;
 mod instance;
 mod limits;
 mod memory;
@@ -88,6 +89,7 @@ pub use choose::{DeviceKind, DeviceSummary};
 pub use device::{Device, DeviceDesc};
 pub use error::{GpuError, Result};
 pub use features::{Feature, Requirements};
+pub use flights::Flights;
 pub use limits::Limits;
 pub use memory::{Allocation, Memory, MemoryLocation, PooledMemory};
 pub use messages::ValidationLog;

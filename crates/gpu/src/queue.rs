@@ -77,7 +77,6 @@ impl Device {
         options: &SubmitOptions,
         record: impl FnOnce(&mut Recorder<'_>) -> R,
     ) -> Result<Submitted<R>> {
-        const TIMED_PASSES: u32 = 1024;
         let timers = match options.timing {
             Timing::Device => Some(self.create_timers(TIMED_PASSES)?),
             Timing::None | Timing::Host => None,
@@ -93,26 +92,18 @@ impl Device {
         if let Some(error) = completed.error.take() {
             return Err(error);
         }
-        let during = match completed.labels.as_slice() {
-            _ if split => "work after the last pass".to_owned(),
-            [] => "work without a pass".to_owned(),
-            labels => labels.join(", "),
-        };
+        let during = if split { "work after the last pass".to_owned() } else { completed.work() };
         work.run(self, &during)?;
-        let mut passes = std::mem::take(&mut completed.timings);
-        if let Some(timers) = timers {
-            passes = timers.read()?;
-            if passes.len() < completed.labels.len() {
-                tracing::warn!(
-                    "{} of {} passes were not timed",
-                    completed.labels.len() - passes.len(),
-                    completed.labels.len()
-                );
-            }
-        }
+        let passes = match &timers {
+            Some(timers) => completed.read(timers)?,
+            None => std::mem::take(&mut completed.timings),
+        };
         Ok(Submitted { value, passes })
     }
 }
+
+/// Passes of a submission that the device times at most.
+pub(crate) const TIMED_PASSES: u32 = 1024;
 
 /// Longest time that anything is waited for.
 const LONGEST_WAIT: Duration = Duration::from_secs(3600);
@@ -187,6 +178,13 @@ impl OneTime {
     /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
     /// names the work in errors. After a timeout the device is abandoned.
     pub(crate) fn run(&self, device: &Device, during: &str) -> Result<Duration> {
+        let start = self.submit(device, during)?;
+        self.wait(device, during)?;
+        Ok(start.elapsed())
+    }
+
+    /// Ends recording and submits; returns when that was. [`OneTime::wait`] comes before anything else.
+    pub(crate) fn submit(&self, device: &Device, during: &str) -> Result<Instant> {
         let raw = device.raw();
         if !self.core.is_usable() {
             return Err(GpuError::Abandoned { during: during.to_owned() });
@@ -196,15 +194,25 @@ impl OneTime {
         let commands = [self.command];
         let submit = vk::SubmitInfo::default().command_buffers(&commands);
         let start = Instant::now();
-        {
-            let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
-            // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
-            // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
-            unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during("vkQueueSubmit", during)?;
-        }
+        let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
+        // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
+        // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
+        unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during("vkQueueSubmit", during)?;
+        Ok(start)
+    }
+
+    /// Whether the device is done with what was submitted last.
+    pub(crate) fn is_done(&self, device: &Device, during: &str) -> Result<bool> {
+        // SAFETY: the fence belongs to the last submission.
+        unsafe { device.raw().get_fence_status(self.fence) }.during("vkGetFenceStatus", during)
+    }
+
+    /// Waits for what was submitted last. After a timeout the device is abandoned.
+    pub(crate) fn wait(&self, device: &Device, during: &str) -> Result<()> {
+        let raw = device.raw();
         // An hour of nanoseconds fits by far.
         let timeout = self.timeout.as_nanos() as u64;
-        // SAFETY: the fence belongs to the submission above.
+        // SAFETY: the fence belongs to the last submission.
         let wait = || unsafe { raw.wait_for_fences(&[self.fence], true, timeout) };
         match wait() {
             Ok(()) => {}
@@ -224,10 +232,8 @@ impl OneTime {
                 return Err(GpuError::from_vulkan(failed, "vkWaitForFences", during));
             }
         }
-        let elapsed = start.elapsed();
         // SAFETY: the fence is signalled, and nothing waits for it.
-        unsafe { raw.reset_fences(&[self.fence]) }.during("vkResetFences", during)?;
-        Ok(elapsed)
+        unsafe { raw.reset_fences(&[self.fence]) }.during("vkResetFences", during)
     }
 }
 

@@ -347,3 +347,20 @@ pub(crate) struct Completed {
     pub(crate) labels: Vec<String>,
     pub(crate) timings: Vec<PassTiming>,
 }
+
+impl Completed {
+    /// The passes in words, for errors.
+    pub(crate) fn work(&self) -> String {
+        if self.labels.is_empty() { "work without a pass".to_owned() } else { self.labels.join(", ") }
+    }
+
+    /// The times of the passes, once the device is done.
+    pub(crate) fn read(&self, timers: &Timers) -> Result<Vec<PassTiming>> {
+        let passes = timers.read()?;
+        if passes.len() < self.labels.len() {
+            let (left, all) = (self.labels.len() - passes.len(), self.labels.len());
+            tracing::warn!("{left} of {all} passes were not timed");
+        }
+        Ok(passes)
+    }
+}

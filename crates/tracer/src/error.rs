@@ -51,4 +51,10 @@ pub enum TracerError {
         /// Rays without an answer.
         rays: u32,
     },
+    /// All slots hold frames in flight.
+    #[error("all {slots} slots hold frames in flight: take the oldest first")]
+    Busy {
+        /// Slots of the ring.
+        slots: u32,
+    },
 }

@@ -1,15 +1,22 @@
-//! Runs structures from the host: the loop that builds until complete, and batches of rays traced through a queue. This
-//! crate submits and waits; embedders with their own frame use [`rasray_ads`] alone.
+//! Runs structures from the host: the loop that builds until complete, batches of rays traced through a queue, and frames
+//! in flight.
+//!
+//! [`FrameStructure`] neither submits nor waits: embedders with frames of their own record with it. Everything else
+//! submits for itself.
 
 mod batch;
 mod build;
 mod error;
+mod frame_structure;
+mod frames;
 mod replay;
 mod share;
 
 pub use batch::{BatchTracer, TraceOutcome};
 pub use build::{BuildOutcome, build_until_complete};
 pub use error::TracerError;
+pub use frame_structure::{FrameOutcome, FrameStructure, Keeping, StructureCounts};
+pub use frames::{Ended, Frames};
 pub use replay::Replay;
 
 /// What the readme shows compiles.

@@ -4,5 +4,6 @@ mod common;
 mod compute;
 mod embedding;
 mod errors;
+mod flights;
 mod raster;
 mod selection;

@@ -1,0 +1,50 @@
+//! Why a frame has no picture.
+
+use rasray_ads::AdsError;
+use rasray_gpu::GpuError;
+use rasray_integrators::IntegratorError;
+use rasray_tracer::TracerError;
+
+/// Why a frame could not be recorded, or has no picture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FrameError {
+    /// A build or the ring of frames failed.
+    #[error(transparent)]
+    Tracer(#[from] TracerError),
+    /// The integrator refused the frame.
+    #[error(transparent)]
+    Integrator(#[from] IntegratorError),
+    /// The Vulkan layer failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// The structure failed.
+    #[error(transparent)]
+    Ads(#[from] AdsError),
+    /// Rays had no answer, and more rounds change nothing.
+    #[error("{rays} rays of frame {frame} did not finish")]
+    Unfinished {
+        /// Number of the frame, in the order of submission.
+        frame: u64,
+        /// Number of rays.
+        rays: u64,
+    },
+    /// Rays met entries with an invalid index.
+    #[error("{entries} list entries of {structure} had an invalid index in frame {frame}")]
+    Corrupted {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Number of the frame, in the order of submission.
+        frame: u64,
+        /// Number of such entries.
+        entries: u64,
+    },
+    /// A frame was not complete however often it was repeated.
+    #[error("a frame through {structure} was not complete after {repeats} repeats; its demand is not stable")]
+    Unstable {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Repeats.
+        repeats: u32,
+    },
+}

@@ -1,0 +1,18 @@
+//! The frame loop: pose → build → trace, surfaces, shade → film, recorded in one go, several frames in flight.
+//!
+//! [`FrameRenderer`] submits a frame with a view and a pose of its own, and hands out finished pictures in order. A frame
+//! records a build only where something changed that the structure depends on; one whose build was not complete, or whose
+//! rays did not all finish, is never a picture. [`render_in_order`] repeats such frames: for images that are written.
+//! Interactive programs leave them out, and keep showing the last picture.
+//!
+//! Structures alone, with a host's own frames: `rasray_tracer::FrameStructure`.
+
+mod error;
+mod in_order;
+mod readback;
+mod renderer;
+
+pub use error::FrameError;
+pub use in_order::{InOrder, render_in_order};
+pub use readback::FilmCopy;
+pub use renderer::{FrameInput, FrameRenderer, Picture, Shown};

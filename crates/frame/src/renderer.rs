@@ -1,0 +1,229 @@
+//! Frames of a scene.
+
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use rasray_ads::{QueueCounters, Structure};
+use rasray_gpu::{Device, PassTiming, Recorder, Timing};
+use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
+use rasray_integrators::{Integrator, waves};
+use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, TracerError};
+
+use crate::readback::{FilmCopy, Readback};
+use crate::FrameError;
+
+/// What one frame shows.
+#[derive(Clone, Debug)]
+pub struct FrameInput {
+    /// Camera, image size and seed. The size is that of the film.
+    pub view: View,
+    /// How pixels are sampled.
+    pub sampling: Sampling,
+    /// Where everything is that moves; absent: where the frame before has it.
+    pub pose: Option<FramePose>,
+    /// Samples of each pixel: their indices.
+    pub samples: Range<u32>,
+    /// Whether samples are added to those of the frame before, in place of a new image.
+    pub continues: bool,
+}
+
+/// What became of a frame.
+#[derive(Clone, Debug)]
+pub enum Shown {
+    /// A picture.
+    Picture(Picture),
+    /// Its build was not complete or its rays needed more rounds, both of which the next frames have: nothing of it is
+    /// shown. A frame that continues it has no picture either.
+    Nothing,
+}
+
+/// A finished frame.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Number of the frame, from 0 in the order of submission.
+    pub number: u64,
+    /// The image; empty unless the renderer reads films.
+    pub film: FilmCopy,
+    /// Whether the structure was built in it.
+    pub built: bool,
+    /// Counters of the integrator's queues.
+    pub counters: Vec<QueueCounters>,
+    /// Times of passes, where they are timed.
+    pub passes: Vec<PassTiming>,
+}
+
+/// Frames of a scene through one structure and one integrator.
+///
+/// What the host says of a frame is stored in its command buffer, what it reads of it lies in memory of the frame's slot:
+/// frames in flight share nothing that one of them could find changed. No call waits but [`FrameRenderer::take`], and
+/// [`FrameRenderer::submit`] for structures that the host builds.
+pub struct FrameRenderer {
+    scene: GpuScene,
+    pose: Option<PosePass>,
+    integrator: Box<dyn Integrator>,
+    frames: Frames,
+    readbacks: Vec<Readback>,
+    /// What the device was told last.
+    posed: Option<FramePose>,
+    /// Of each frame in flight, the oldest first: whether it continues the one before.
+    continues: VecDeque<bool>,
+    /// Whether the film was right when the last frame ended, so that another may have added to it.
+    film_is_right: bool,
+}
+
+impl FrameRenderer {
+    /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built. With
+    /// `reads_films` each picture has its image on the host; without, it is on the device in the integrator's film.
+    ///
+    /// # Errors
+    /// Out of memory, the device has no queue, or it cannot time passes as asked.
+    pub fn new(
+        device: &Device,
+        (scene, pose): (GpuScene, Option<PosePass>),
+        structure: Box<dyn Structure>,
+        integrator: Box<dyn Integrator>,
+        (keeping, timing, reads_films): (Keeping, Timing, bool),
+    ) -> Result<Self, FrameError> {
+        let frames = Frames::new(device, structure, keeping, timing)?;
+        let readback = |_| Readback::new(device, integrator.as_ref(), reads_films);
+        let readbacks = (0..frames.slots()).map(readback).collect::<Result<_, _>>()?;
+        Ok(Self {
+            scene,
+            pose,
+            integrator,
+            frames,
+            readbacks,
+            posed: None,
+            continues: VecDeque::new(),
+            film_is_right: false,
+        })
+    }
+
+    /// The scene on the device.
+    pub fn scene(&self) -> &GpuScene {
+        &self.scene
+    }
+
+    /// What moves in it.
+    pub fn pose(&self) -> Option<&PosePass> {
+        self.pose.as_ref()
+    }
+
+    /// The integrator, with the film.
+    pub fn integrator(&self) -> &dyn Integrator {
+        self.integrator.as_ref()
+    }
+
+    /// The structure, and what was counted of it.
+    pub fn structure(&self) -> &FrameStructure {
+        self.frames.structure()
+    }
+
+    /// Whether a frame can be submitted now; else the oldest is to be taken first.
+    pub fn has_free_slot(&self) -> bool {
+        self.frames.free_slot().is_some()
+    }
+
+    /// Records a frame and submits it; returns its number.
+    ///
+    /// # Errors
+    /// [`TracerError::Busy`] while all slots hold frames, a size that is not the film's, a view without what the structure
+    /// needs, or the device failed.
+    pub fn submit(&mut self, input: &FrameInput) -> Result<u64, FrameError> {
+        if self.frames.free_slot().is_none() {
+            return Err(TracerError::Busy { slots: self.frames.slots() }.into());
+        }
+        let Self { scene, pose, integrator, frames, readbacks, .. } = self;
+        let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
+        let pass = pose.as_ref().filter(|pass| pass.moves());
+        if moved.is_some() && pass.is_some() {
+            frames.geometry_moved();
+        }
+        let before = |recorder: &mut Recorder<'_>, _slot: u32| {
+            if let (Some(pass), Some(moved)) = (pass, moved) {
+                pass.record(recorder, moved);
+            }
+            scene.record_frame(recorder, &input.view, input.sampling);
+        };
+        let after = |recorder: &mut Recorder<'_>, slot: u32, structure: &dyn Structure| {
+            if !input.continues {
+                integrator.record_reset(recorder);
+            }
+            let film = integrator.film();
+            let count = input.samples.end.saturating_sub(input.samples.start);
+            for mut wave in waves(film.pixel_count(), count, integrator.wave_capacity()) {
+                wave.sample += input.samples.start;
+                integrator.record_wave(recorder, structure.into(), wave)?;
+            }
+            readbacks[slot as usize].record(recorder, integrator.as_ref());
+            Ok(())
+        };
+        let viewpoint = scene.viewpoint_of(&input.view);
+        match frames.submit::<FrameError>(viewpoint, before, after) {
+            Ok(number) => {
+                self.continues.push_back(input.continues);
+                if let Some(moved) = moved {
+                    self.posed = Some(moved.clone());
+                }
+                Ok(number)
+            }
+            Err(error) => {
+                // Whether the device was told is unknown.
+                self.posed = None;
+                self.frames.geometry_moved();
+                Err(error)
+            }
+        }
+    }
+
+    /// Waits for the oldest frame in flight; absent where none is.
+    ///
+    /// # Errors
+    /// The device failed, no sizes suffice for the structure, rays did not finish in as many rounds as there can be
+    /// ([`FrameError::Unfinished`]), or lists are damaged.
+    pub fn take(&mut self) -> Result<Option<Shown>, FrameError> {
+        let ended = self.frames.take()?;
+        ended.map(|ended| self.shown(ended)).transpose()
+    }
+
+    /// As [`FrameRenderer::take`], without waiting: absent while the oldest frame has not ended.
+    ///
+    /// # Errors
+    /// As [`FrameRenderer::take`].
+    pub fn take_ended(&mut self) -> Result<Option<Shown>, FrameError> {
+        let ended = self.frames.take_ended()?;
+        ended.map(|ended| self.shown(ended)).transpose()
+    }
+
+    fn shown(&mut self, ended: rasray_tracer::Ended) -> Result<Shown, FrameError> {
+        // A new image does not depend on the film before it.
+        self.film_is_right |= !self.continues.pop_front().unwrap_or(false);
+        let (film, counters) = self.readbacks[ended.slot as usize].read()?;
+        let structure = self.frames.structure().structure();
+        let sum = |of: fn(&QueueCounters) -> u32| counters.iter().map(|queue| u64::from(of(queue))).sum::<u64>();
+        let entries = sum(|queue| queue.corrupted);
+        if entries > 0 {
+            return Err(FrameError::Corrupted { structure: structure.name(), frame: ended.number, entries });
+        }
+        let unanswered = sum(|queue| queue.unfinished) + sum(|queue| queue.not_ready);
+        if ended.outcome == FrameOutcome::Complete && unanswered > 0 && !structure.allow_more_rounds() {
+            return Err(FrameError::Unfinished { frame: ended.number, rays: unanswered });
+        }
+        self.film_is_right &= ended.outcome == FrameOutcome::Complete && unanswered == 0;
+        if !self.film_is_right {
+            return Ok(Shown::Nothing);
+        }
+        let rasray_tracer::Ended { number, built, passes, .. } = ended;
+        Ok(Shown::Picture(Picture { number, film, built, counters, passes }))
+    }
+}
+
+impl std::fmt::Debug for FrameRenderer {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter
+            .debug_struct("FrameRenderer")
+            .field("integrator", &self.integrator.name())
+            .field("frames", &self.frames)
+            .finish_non_exhaustive()
+    }
+}

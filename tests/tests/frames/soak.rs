@@ -1,0 +1,144 @@
+//! Frame after frame with other triangles elsewhere: hits are those of the oracle or there is no picture, and memory is
+//! bounded.
+
+use std::collections::VecDeque;
+
+use rasray_ads::StructureKind;
+use rasray_gpu::Timing;
+use rasray_metrics::{DeviceHit, HitConfusion};
+use rasray_tests::harness::{Bench, bits, oracle_of, oracle_ray};
+use rasray_tests::invariance::Subject;
+use rasray_tests::random::Random;
+use rasray_tests::tier::Counts;
+use rasray_tracer::{FrameOutcome, Frames, Keeping, TracerError};
+
+use crate::crowd::{Crowd, Shown};
+
+/// Frames of the system that is the default, and of each other preset.
+const FRAMES: [Counts<usize>; 2] = [
+    Counts { quick: 2000, software: 2000, full: 10_000 },
+    Counts { quick: 60, software: 2000, full: 10_000 },
+];
+
+/// Triangles of a frame at most, and rays of each.
+const MOST: usize = 600;
+const RAYS: usize = 24;
+
+/// The number of triangles jumps, now and then to none or few.
+fn count(random: &mut Random, frame: usize) -> usize {
+    let small = [0, 1, 2, 5][(random.bits() % 4) as usize];
+    let large = random.between(0.0, 1.0).powi(3) * MOST as f32;
+    if frame.is_multiple_of(7) { small } else { large as usize }
+}
+
+#[test]
+fn no_frame_is_wrong_and_nothing_is_left_behind() {
+    let bench = Bench::new();
+    for subject in Subject::all() {
+        let is_default = subject.name() == "bricks robust";
+        let frames = FRAMES[usize::from(!is_default)].on(bench.device(), "frames");
+        soak(&bench, &subject, frames);
+    }
+}
+
+fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
+    let (device, name) = (bench.device(), subject.name());
+    let before = device.allocated_bytes();
+    let mut random = Random::new(0x0066_7261_6D65);
+    let keeping = Keeping::default();
+    let crowd = Crowd::new(device, keeping.slots, MOST, RAYS);
+    let mut shown = Shown::random(&mut random, MOST / 8, RAYS);
+    let mut geometry = crowd.geometry(&shown);
+    let structure = subject.structure(bench, &geometry);
+    let mut frames = Frames::new(device, structure, keeping, Timing::None).expect("the device works");
+    let mut in_flight = VecDeque::new();
+    let (mut right, mut ambiguous, mut incomplete) = (0, 0, 0);
+    let mut halfway = None;
+    for frame in 0..count_of_frames + keeping.slots as usize {
+        let is_over = frame >= count_of_frames;
+        if is_over || frames.free_slot().is_none() {
+            let ended = frames.take().expect("the device works").expect("a frame is in flight");
+            let expected: Shown = in_flight.pop_front().expect("one for each frame");
+            let (hits, counters) = crowd.read(ended.slot);
+            if ended.outcome == FrameOutcome::Incomplete {
+                // All or nothing: no ray of such a frame has an answer.
+                let unanswered = counters.not_ready as usize;
+                assert_eq!(unanswered, RAYS, "{name}, frame {}: {counters:?}", ended.number);
+                incomplete += 1;
+            } else {
+                assert_eq!((counters.not_ready, counters.unfinished, counters.corrupted), (0, 0, 0), "{name}");
+                ambiguous += check(bench, subject, &expected, &hits, ended.number);
+                right += 1;
+            }
+        }
+        if is_over {
+            continue;
+        }
+        // Two of three frames have other triangles, the third the same number elsewhere.
+        let triangles =
+            if frame % 3 == 2 { shown.triangles.len() } else { count(&mut random, frame) };
+        shown = Shown::random(&mut random, triangles, RAYS);
+        if triangles as u32 == geometry.triangle_count() {
+            frames.geometry_moved();
+        } else {
+            geometry = crowd.geometry(&shown);
+            frames.set_geometry(&geometry).expect("the geometry fits");
+        }
+        let slot = frames.free_slot().expect("one was taken");
+        crowd.write(slot, &shown);
+        let submitted = frames.submit::<TracerError>(
+            shown.eye.into(),
+            |recorder, slot| crowd.record_move(recorder, slot, &geometry),
+            |recorder, slot, structure| {
+                crowd.record_trace(recorder, slot, structure);
+                Ok(())
+            },
+        );
+        assert_eq!(submitted.expect("the frame is recorded"), frame as u64);
+        in_flight.push_back(shown.clone());
+        if frame == count_of_frames / 2 {
+            halfway = Some(overhead(device, &frames));
+        }
+    }
+    let counts = frames.structure().counts();
+    println!("{name}: {right} right, {incomplete} not shown, {ambiguous} rays ambiguous, {counts:?}");
+    assert_eq!(counts.frames as usize, count_of_frames);
+    assert_eq!(counts.incomplete as usize, incomplete);
+    // Growth has headroom, so that pools soon suffice.
+    assert!(incomplete <= 12 + count_of_frames / 50, "{name}: {incomplete} frames were not shown");
+    // Beyond the pools of the structure nothing grows with the number of frames.
+    let at_end = overhead(device, &frames);
+    let halfway = halfway.expect("there is a frame halfway");
+    assert!(at_end <= halfway + 65_536, "{name}: {halfway} bytes halfway, {at_end} in the end");
+    drop((frames, crowd, geometry));
+    assert_eq!(device.allocated_bytes(), before, "{name}");
+}
+
+/// Bytes on the device that are not pools.
+fn overhead(device: &rasray_gpu::Device, frames: &Frames) -> u64 {
+    device.allocated_bytes().saturating_sub(frames.structure().structure().sizes().bytes())
+}
+
+/// Compares hits: on triangles with the oracle, of fragments with those of a structure made for this frame, now and then.
+/// Returns how many rays have several right answers.
+fn check(bench: &Bench, subject: &Subject, shown: &Shown, hits: &[rasray_ads::Hit], frame: u64) -> u64 {
+    let name = subject.name();
+    if subject.kind != StructureKind::Primitive {
+        if frame.is_multiple_of(20) {
+            let mut fresh = subject.structure(bench, &bench.geometry(&shown.triangles));
+            let expected = bench.build_and_trace(fresh.as_mut(), shown.eye, &shown.rays);
+            let key = |hits: &[rasray_ads::Hit]| hits.iter().map(bits).collect::<Vec<_>>();
+            assert_eq!(key(hits), key(&expected), "{name}, frame {frame}");
+        }
+        return 0;
+    }
+    let rays: Vec<_> = shown.rays.iter().map(oracle_ray).collect();
+    let verdicts = oracle_of(&shown.triangles).closest_batch(&rays);
+    let found: Vec<_> = hits
+        .iter()
+        .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
+        .collect();
+    let confusion = HitConfusion::measure(&verdicts, &found, 0.0).expect("one hit per ray");
+    assert!(confusion.is_clean(), "{name}, frame {frame}, {} triangles: {confusion:?}", shown.triangles.len());
+    confusion.ambiguous
+}
