@@ -53,7 +53,7 @@ pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use list_sort::ListSort;
-pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
+pub use passes::{BuildPipelines, BuildTarget, ViewDraw, folded};
 pub use pool_name::PoolName;
 pub use pooled::Pooled;
 pub use pools::Pools;

@@ -12,8 +12,8 @@ use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
 /// both.
 const MOST_GROUPS: u64 = 32_768;
 
-/// That number of workgroups in two dimensions; 0 gives none.
-pub(crate) fn folded(groups: u64) -> Option<[u32; 3]> {
+/// That number of workgroups in two dimensions, at least: shaders leave out indices that are too large. 0 gives none.
+pub fn folded(groups: u64) -> Option<[u32; 3]> {
     let rows = groups.div_ceil(MOST_GROUPS);
     (groups > 0).then(|| [groups.div_ceil(rows) as u32, rows as u32, 1])
 }

@@ -151,7 +151,7 @@ fn append_tangents(
 
 /// The inverse transpose up to a positive factor, which normalising takes out. Made from cofactors,
 /// so that a transform which flattens the mesh still gives the normal of the plane it leaves.
-fn normal_matrix(linear: DMat3) -> DMat3 {
+pub fn normal_matrix(linear: DMat3) -> DMat3 {
     let scale = linear.to_cols_array().iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
     if !scale.is_finite() || scale == 0.0 {
         return DMat3::ZERO;

@@ -15,52 +15,79 @@ use crate::{
 /// Most parts a side into which a triangle is cut to look at its texels.
 const MOST_PARTS: f64 = 128.0;
 
-/// Lists all triangles of draws that emit, in order of primitive id, and notes in every such draw
-/// where its triangles start. Answers their power, W, by luminance; nothing where nothing emits.
-///
-/// Indices of `scene` must have been checked.
-pub fn pack_emissive(
-    scene: &Scene,
-    posed: &Posed,
-    draw_shadings: &mut [DrawShading],
-) -> (f64, Vec<EmissiveTriangle>) {
-    let mut primitives = Vec::new();
-    let mut powers = Vec::new();
-    let mut first_of_draw = Vec::new();
-    for (draw, shading) in posed.draws.iter().zip(draw_shadings.iter()) {
-        let material = &scene.materials[shading.material as usize];
-        let radiosity = PI * luminance(material.emission) * if material.double_sided { 2.0 } else { 1.0 };
-        // Unlit materials are not lights; scattered rays hit what blends, as often as its opacity says.
-        if material.unlit || material.alpha_mode == AlphaMode::Blend || radiosity == 0.0 {
-            first_of_draw.push(None);
-            continue;
-        }
-        let glow = material.emission_texture.as_ref().and_then(|used| {
+/// Triangles of draws that emit, in order of primitive id.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EmissiveSources {
+    /// Global ids.
+    pub primitives: Vec<u32>,
+    /// Power per area of each, W/m^2, by luminance: it stays where triangles move.
+    pub radiosities: Vec<f64>,
+}
+
+impl EmissiveSources {
+    /// Lists all triangles of draws that emit, and notes in every such draw where its triangles start. None where nothing
+    /// emits, whatever its area.
+    ///
+    /// Indices of `scene` must have been checked.
+    pub fn new(scene: &Scene, posed: &Posed, draw_shadings: &mut [DrawShading]) -> Self {
+        let mut sources = Self::default();
+        let mut first_of_draw = Vec::new();
+        for (draw, shading) in posed.draws.iter().zip(draw_shadings.iter()) {
+            let material = &scene.materials[shading.material as usize];
+            let radiosity = PI * luminance(material.emission) * if material.double_sided { 2.0 } else { 1.0 };
+            // Unlit materials are not lights; scattered rays hit what blends, as often as its opacity says.
+            if material.unlit || material.alpha_mode == AlphaMode::Blend || radiosity == 0.0 {
+                first_of_draw.push(None);
+                continue;
+            }
             let mesh = &scene.meshes[scene.instances[shading.instance as usize].mesh];
-            Glow::new(scene, used, mesh, material.emission)
-        });
-        first_of_draw.push(Some(primitives.len() as u32));
-        for primitive in draw.first_triangle..draw.first_triangle + draw.triangle_count {
-            let corners = [0, 1, 2].map(|corner| posed.indices[3 * primitive as usize + corner]);
-            let share = glow.as_ref().map_or(1.0, |glow| {
-                glow.share(corners.map(|vertex| vertex.saturating_sub(shading.first_vertex) as usize))
-            });
-            primitives.push(primitive);
-            powers.push(area(posed, primitive) * radiosity * share);
+            let glow = material
+                .emission_texture
+                .as_ref()
+                .and_then(|used| Glow::new(scene, used, mesh, material.emission));
+            first_of_draw.push(Some(sources.primitives.len() as u32));
+            for (primitive, corners) in (draw.first_triangle..).zip(mesh.indices.chunks_exact(3)) {
+                let corners = [0, 1, 2].map(|corner| corners[corner] as usize);
+                let share = glow.as_ref().map_or(1.0, |glow| glow.share(corners));
+                sources.primitives.push(primitive);
+                sources.radiosities.push(radiosity * share);
+            }
         }
-    }
-    let (total, shares) = cumulative_shares(&powers);
-    if total == 0.0 {
-        return (0.0, Vec::new());
-    }
-    for (shading, first) in draw_shadings.iter_mut().zip(first_of_draw) {
-        if let Some(first) = first {
-            shading.first_emissive = first;
+        if sources.radiosities.iter().all(|&radiosity| radiosity == 0.0) {
+            return Self::default();
         }
+        for (shading, first) in draw_shadings.iter_mut().zip(first_of_draw) {
+            if let Some(first) = first {
+                shading.first_emissive = first;
+            }
+        }
+        sources
     }
-    let entries = primitives.into_iter().zip(shares);
-    let entries = entries.map(|(primitive, cumulative)| EmissiveTriangle { primitive, cumulative });
-    (total, entries.collect())
+
+    /// The table of triangles with these areas, m^2, and the power of them all, W, by luminance.
+    pub fn pack(&self, areas: &[f64]) -> (f64, Vec<EmissiveTriangle>) {
+        let powers: Vec<f64> = areas.iter().zip(&self.radiosities).map(|(area, of)| area * of).collect();
+        let (total, shares) = cumulative_shares(&powers);
+        let entries = self.primitives.iter().zip(shares);
+        let entries = entries.map(|(&primitive, cumulative)| EmissiveTriangle { primitive, cumulative });
+        (total, entries.collect())
+    }
+
+    /// Areas of the triangles where `posed` has them, m^2.
+    pub fn areas(&self, posed: &Posed) -> Vec<f64> {
+        let corner = |index: u32| posed.positions[index as usize];
+        let of = |primitive: u32| {
+            let first = 3 * primitive as usize;
+            area([0, 1, 2].map(|place| corner(posed.indices[first + place])))
+        };
+        self.primitives.iter().map(|&primitive| of(primitive)).collect()
+    }
+}
+
+/// Area of a triangle, m^2.
+pub fn area(corners: [[f32; 3]; 3]) -> f64 {
+    let [a, b, c] = corners.map(|corner| DVec3::from(corner.map(f64::from)));
+    0.5 * (b - a).cross(c - a).length()
 }
 
 /// An emission texture on a mesh.
@@ -131,13 +158,4 @@ fn texel(coordinate: f64, size: u32, wrap: Wrap) -> usize {
     };
     // What is not finite becomes 0, as in the shaders.
     ((within * f64::from(size)) as usize).min(size as usize - 1)
-}
-
-fn area(posed: &Posed, primitive: u32) -> f64 {
-    let corner = |index: usize| {
-        let vertex = posed.indices[3 * primitive as usize + index];
-        DVec3::from(posed.positions[vertex as usize].map(f64::from))
-    };
-    let (a, b, c) = (corner(0), corner(1), corner(2));
-    0.5 * (b - a).cross(c - a).length()
 }

@@ -10,9 +10,12 @@
 //! Texels are spread over several buffers ([`TexelRuns`]), and may exceed what one binding of a device holds. What
 //! exceeds these too is known before ([`TexelDemand`]): the scene's largest images can be made smaller.
 //!
-//! Static geometry is posed once, in f64, when the tables are made: `world_from_mesh * position`,
-//! minus the frame origin, rounded to f32. What structures build from and what an oracle should
-//! read is [`Posed::positions`].
+//! Geometry is posed in f64 when the tables are made: `world_from_mesh * position`, minus the frame
+//! origin, rounded to f32. What structures build from and what an oracle should read is
+//! [`Posed::positions`].
+//!
+//! What moves, [`PosePass`] poses on the device, frame by frame: [`PosePass::frame`] says where nodes
+//! are, [`PosePass::record`] records the rest. An oracle reads positions back from the device then.
 
 mod attributes;
 mod distribution;
@@ -28,6 +31,7 @@ pub mod mips;
 mod origin;
 mod parts;
 mod pose;
+mod pose_pass;
 mod smaller_images;
 mod table_bytes;
 mod tables;
@@ -42,6 +46,7 @@ pub use error::GpuSceneError;
 pub use origin::{frame_origin_spacing, snap_frame_origin};
 pub use parts::{Parts, TextureKind};
 pub use pose::{LARGEST_COORDINATE, Posed};
+pub use pose_pass::{FramePose, PosePass};
 pub use smaller_images::{SmallerImage, TexelDemand};
 pub use table_bytes::left_out_bytes;
 pub use tables::SceneTables;

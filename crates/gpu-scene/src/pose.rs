@@ -6,7 +6,7 @@ use rasray_scene::Scene;
 use crate::{GpuSceneError, layout::Draw};
 
 /// Largest magnitude of a posed coordinate, metres: its square is still finite in f32.
-pub const LARGEST_COORDINATE: f32 = 1.8e18;
+pub const LARGEST_COORDINATE: f32 = rasray_shaders_glsl::constants::scene::LARGEST_COORDINATE;
 
 /// Posed geometry of a scene, flat over instances.
 ///
@@ -56,16 +56,7 @@ impl Posed {
             let first_vertex = index_u32(posed.positions.len(), mesh.positions.len())?;
             index_u32(posed.indices.len(), mesh.indices.len())?;
             posed.first_vertex.push(first_vertex);
-            if instance.world_from_mesh == DAffine3::IDENTITY && frame_origin == DVec3::ZERO {
-                // To the bit: arithmetic would turn -0 into +0.
-                posed.positions.extend_from_slice(&mesh.positions);
-            } else {
-                posed.positions.extend(mesh.positions.iter().map(|position| {
-                    let world =
-                        instance.world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
-                    (world - frame_origin).as_vec3().to_array()
-                }));
-            }
+            posed.positions.extend(placed(&mesh.positions, instance.world_from_mesh, frame_origin));
             posed.append_triangles(first_vertex, mesh, number, flags(number))?;
         }
         posed.collapse_bad_vertices();
@@ -147,7 +138,25 @@ impl Posed {
     }
 }
 
-fn is_usable(position: [f32; 3]) -> bool {
+/// Positions of a mesh in the world, metres relative to `frame_origin`, rounded once.
+pub fn placed(
+    positions: &[[f32; 3]],
+    world_from_mesh: DAffine3,
+    frame_origin: DVec3,
+) -> impl Iterator<Item = [f32; 3]> {
+    let stays = world_from_mesh == DAffine3::IDENTITY && frame_origin == DVec3::ZERO;
+    positions.iter().map(move |&position| {
+        if stays {
+            // To the bit: arithmetic would turn -0 into +0.
+            return position;
+        }
+        let world = world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
+        (world - frame_origin).as_vec3().to_array()
+    })
+}
+
+/// Whether triangles with a vertex there can be hit.
+pub fn is_usable(position: [f32; 3]) -> bool {
     position.iter().all(|x| x.is_finite() && x.abs() <= LARGEST_COORDINATE)
 }
 

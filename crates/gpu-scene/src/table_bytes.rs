@@ -6,7 +6,7 @@ use rasray_scene::Scene;
 use crate::{
     GpuSceneError, Parts, Posed,
     attributes::pack_attributes,
-    emissive::pack_emissive,
+    emissive::EmissiveSources,
     environment::environment_words,
     glass_albedo::append_glass_albedos,
     layout::{DrawShading, EmissiveTriangle, Light, Material, Texture},
@@ -32,8 +32,7 @@ fn shading_bytes(scene: &Scene, posed: &Posed, parts: &Parts) -> Result<u64, Gpu
         append_glass_albedos(scene, &mut materials, &mut attributes.vertex)?;
     }
     let emissive = if parts.emissive_triangles {
-        let (_, triangles) = pack_emissive(scene, posed, &mut attributes.draw_shadings);
-        triangles.len() as u64
+        EmissiveSources::new(scene, posed, &mut attributes.draw_shadings).primitives.len() as u64
     } else {
         0
     };

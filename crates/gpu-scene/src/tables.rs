@@ -7,7 +7,7 @@ use rasray_shaders_glsl::constants::contract::DRAW_ALPHA_MASKED;
 use crate::{
     GpuSceneError, Parts, Posed, Sampling, TexelRuns, View,
     attributes::pack_attributes,
-    emissive::pack_emissive,
+    emissive::EmissiveSources,
     environment::{EnvironmentTables, pack_environment},
     glass_albedo::append_glass_albedos,
     kinds::{disk_of, kind_shares},
@@ -39,8 +39,12 @@ pub struct SceneTables {
     pub texels: Vec<u32>,
     /// Point, directional and spot lights.
     pub lights: Vec<Light>,
-    /// Triangles that are sampled as lights.
+    /// Triangles that are sampled as lights, where `emissive_power` is not 0.
     pub emissive_triangles: Vec<EmissiveTriangle>,
+    /// Their power per area, W/m^2, by luminance.
+    pub emissive_radiosities: Vec<f64>,
+    /// Their power, W, by luminance.
+    pub emissive_power: f64,
     /// What a ray sees that leaves the scene.
     pub environment: EnvironmentTables,
     /// Probability of the kinds of light: punctual, emissive triangles, environment.
@@ -68,11 +72,12 @@ impl SceneTables {
         if parts.glass_albedos {
             append_glass_albedos(scene, &mut materials, &mut attributes.vertex)?;
         }
-        let (emissive_power, emissive_triangles) = if parts.emissive_triangles {
-            pack_emissive(scene, &posed, &mut attributes.draw_shadings)
+        let emissive = if parts.emissive_triangles {
+            EmissiveSources::new(scene, &posed, &mut attributes.draw_shadings)
         } else {
-            (0.0, Vec::new())
+            EmissiveSources::default()
         };
+        let (emissive_power, emissive_triangles) = emissive.pack(&emissive.areas(&posed));
         let disk = disk_of(posed.lower, posed.upper);
         let lights = if parts.lights { &scene.lights[..] } else { &[] };
         let (punctual_power, lights) = pack_lights(lights, frame_origin, disk);
@@ -83,7 +88,7 @@ impl SceneTables {
         };
         let kind_shares = kind_shares([
             (!lights.is_empty()).then_some(punctual_power),
-            (!emissive_triangles.is_empty()).then_some(emissive_power),
+            (emissive_power > 0.0).then_some(emissive_power),
             environment.emits.then_some(environment.irradiance * disk),
         ]);
         Ok(Self {
@@ -97,6 +102,8 @@ impl SceneTables {
             texels: textures.texels,
             lights,
             emissive_triangles,
+            emissive_radiosities: emissive.radiosities,
+            emissive_power,
             environment,
             kind_shares,
         })
@@ -112,7 +119,7 @@ impl SceneTables {
         let mut frame = Frame {
             triangle_count: self.posed.triangle_count() as u32,
             light_count: self.lights.len() as u32,
-            emissive_count: self.emissive_triangles.len() as u32,
+            emissive_count: if self.emissive_power > 0.0 { self.emissive_triangles.len() as u32 } else { 0 },
             environment_kind: self.environment.kind,
             environment_width: self.environment.width,
             environment_height: self.environment.height,

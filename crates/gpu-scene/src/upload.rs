@@ -1,12 +1,18 @@
 //! Tables on the device.
 
+use std::mem::offset_of;
+use std::ops::Range;
+
 use bytemuck::NoUninit;
 use rasray_ads::{Geometry, GeometryDesc, SceneBinding, Viewpoint};
-use rasray_gpu::{Buffer, BufferDesc, BufferUsage, Device, MemoryLocation};
+use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
 use rasray_shaders_glsl::constant_ids::scene as ids;
 use rasray_shaders_glsl::constants::{
     contract::DRAW_ALPHA_MASKED,
-    scene::{MATERIAL_ALPHA_BLEND, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS},
+    scene::{
+        MATERIAL_ALPHA_BLEND, SCENE_BINDING_DRAW_SHADINGS, SCENE_BINDING_EMISSIVE_TRIANGLES,
+        SCENE_BINDING_LIGHTS, SCENE_BINDING_POSED_ATTRIBUTES, SCENE_BINDING_TEXELS_3, SCENE_TEXEL_RUNS,
+    },
 };
 
 use crate::{
@@ -16,6 +22,12 @@ use crate::{
 
 /// Number of buffers in the scene's set.
 const BINDINGS: u32 = SCENE_BINDING_TEXELS_3 + 1;
+
+/// Bytes of the frame that a view decides.
+const VIEW_BYTES: Range<usize> = 0..offset_of!(Frame, triangle_count);
+
+/// Bytes of the frame that the sampling decides.
+const SAMPLING_BYTES: Range<usize> = offset_of!(Frame, sampling)..offset_of!(Frame, kind_shares);
 
 /// Which code the shading of a scene can reach at all. Kernels leave the rest out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,14 +58,25 @@ impl ShadingFeatures {
     }
 }
 
+/// Buffers that change from frame to frame, in addition to positions.
+#[derive(Clone, Debug)]
+pub(crate) struct PosedBuffers {
+    pub frame: Buffer,
+    pub draw_shadings: Buffer,
+    pub attributes: Buffer,
+    pub lights: Buffer,
+    pub emissive: Buffer,
+}
+
 /// A scene on the device: the geometry that structures build from, and the set that shading reads.
 ///
-/// Static: what is uploaded stays until the value is dropped. Only the view changes.
+/// What is uploaded stays until the value is dropped. The view changes by [`GpuScene::update_camera`] or
+/// [`GpuScene::record_frame`], what moves by a [`PosePass`](crate::PosePass).
 #[derive(Clone, Debug)]
 pub struct GpuScene {
     geometry: Geometry,
     binding: SceneBinding,
-    frame_buffer: Buffer,
+    posed_buffers: PosedBuffers,
     frame: Frame,
     frame_origin: glam::DVec3,
     features: ShadingFeatures,
@@ -99,11 +122,11 @@ impl GpuScene {
         )?;
         let mut frame = tables.frame(view);
         frame.texel_shift = runs.shift();
-        // The host writes the frame in place whenever the view changes.
+        // The host writes the frame in place, or commands do.
         let frame_buffer = device.create_buffer(&BufferDesc {
             name: "frame",
             size: size_of::<Frame>() as u64,
-            usage: BufferUsage::STORAGE,
+            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
             location: MemoryLocation::Upload,
         })?;
         frame_buffer.write(0, bytemuck::bytes_of(&frame))?;
@@ -123,17 +146,24 @@ impl GpuScene {
             upload.table("environment radiance", &tables.environment.radiance)?,
             upload.table("environment distribution", &tables.environment.distribution)?,
         ];
+        let posed_buffers = PosedBuffers {
+            frame: frame_buffer,
+            draw_shadings: buffers[SCENE_BINDING_DRAW_SHADINGS as usize].clone(),
+            attributes: buffers[SCENE_BINDING_POSED_ATTRIBUTES as usize].clone(),
+            lights: buffers[SCENE_BINDING_LIGHTS as usize].clone(),
+            emissive: buffers[SCENE_BINDING_EMISSIVE_TRIANGLES as usize].clone(),
+        };
         let layout = device.create_set_layout("scene", BINDINGS)?;
         let bound: Vec<&Buffer> = buffers.iter().chain(more_texels).collect();
         let set = device.create_binding_set(&layout, "scene", &bound)?;
         let features = features(tables, runs);
         let alpha_masked = tables.posed.draws.iter().any(|draw| draw.flags & DRAW_ALPHA_MASKED != 0);
         let mut bytes_by_part = upload.bytes_by_part;
-        bytes_by_part.push(("frame", frame_buffer.size()));
+        bytes_by_part.push(("frame", posed_buffers.frame.size()));
         Ok(Self {
             geometry,
             binding: SceneBinding { layout, set, alpha_masked, constants: features.constants().into() },
-            frame_buffer,
+            posed_buffers,
             frame,
             frame_origin: tables.frame_origin,
             features,
@@ -151,8 +181,7 @@ impl GpuScene {
     /// The buffer cannot be written.
     pub fn update_camera(&mut self, view: &View) -> Result<(), GpuSceneError> {
         view.write(&mut self.frame, self.frame_origin);
-        self.frame_buffer.write(0, bytemuck::bytes_of(&self.frame))?;
-        Ok(())
+        self.write_frame(VIEW_BYTES)
     }
 
     /// Changes how pixels are sampled; otherwise as [`GpuScene::update_camera`], which leaves this as it is.
@@ -161,8 +190,34 @@ impl GpuScene {
     /// The buffer cannot be written.
     pub fn set_sampling(&mut self, sampling: Sampling) -> Result<(), GpuSceneError> {
         sampling.write(&mut self.frame);
-        self.frame_buffer.write(0, bytemuck::bytes_of(&self.frame))?;
-        Ok(())
+        self.write_frame(SAMPLING_BYTES)
+    }
+
+    fn write_frame(&self, bytes: Range<usize>) -> Result<(), GpuSceneError> {
+        let frame = &bytemuck::bytes_of(&self.frame)[bytes.clone()];
+        Ok(self.posed_buffers.frame.write(bytes.start as u64, frame)?)
+    }
+
+    /// Records what [`GpuScene::update_camera`] and [`GpuScene::set_sampling`] write: the values are stored in the command
+    /// buffer, so that several recordings may be pending, each with a view of its own. Answers the frame as shaders will
+    /// see it, for [`viewpoint_of`](crate::layout::viewpoint_of); [`GpuScene::frame`] and what follows from it stay those
+    /// of the view that was written last. Visible to all that follows.
+    pub fn record_frame(&self, recorder: &mut Recorder<'_>, view: &View, sampling: Sampling) -> Frame {
+        let mut frame = self.frame;
+        view.write(&mut frame, self.frame_origin);
+        sampling.write(&mut frame);
+        recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+        for bytes in [VIEW_BYTES, SAMPLING_BYTES] {
+            let written = &bytemuck::bytes_of(&frame)[bytes.clone()];
+            recorder.update(&self.posed_buffers.frame, bytes.start as u64, written);
+        }
+        recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
+        frame
+    }
+
+    /// The buffers that a pose writes.
+    pub(crate) fn posed_buffers(&self) -> &PosedBuffers {
+        &self.posed_buffers
     }
 
     /// What structures build from.

@@ -262,7 +262,7 @@ fn cofactors(matrix: DMat3) -> DMat3 {
 
 /// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent where the node
 /// is degenerate.
-pub(crate) fn rigid(world: DAffine3) -> Option<DAffine3> {
+pub fn rigid(world: DAffine3) -> Option<DAffine3> {
     let back = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
     let up = back.cross(right);
@@ -341,7 +341,7 @@ impl Scene {
 }
 
 /// A mesh deformed, with the attributes brought into the state that [`Mesh`] promises; and where it is, if joints say so.
-fn posed_mesh(
+pub fn posed_mesh(
     at_rest: &Mesh,
     deformed: &DeformedMesh,
     weights: &[f64],
@@ -364,7 +364,8 @@ fn posed_mesh(
     (mesh, joints.map(|joints| joints.world_from_mesh()))
 }
 
-fn move_light(light: &mut Light, world: DAffine3) {
+/// Moves a light to where its node is; one whose node degenerates stays.
+pub fn move_light(light: &mut Light, world: DAffine3) {
     let (place, way) = (world.translation, light_direction(world));
     if !place.is_finite() {
         return;

@@ -1,0 +1,281 @@
+//! Poses what moves in a scene on the device, frame by frame.
+
+mod emitters;
+mod far_lights;
+mod frame_pose;
+mod moving;
+mod sources;
+
+use std::mem::offset_of;
+
+use bytemuck::{NoUninit, bytes_of, cast_slice};
+use glam::DVec3;
+use rasray_ads::{BoundsPass, Geometry, folded};
+use rasray_gpu::{
+    Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
+    MemoryLocation, Recorder,
+};
+use rasray_scene::{Moment, Scene, pose::Pose};
+use rasray_shaders_glsl::SCENE_POSE_VERTICES;
+use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
+
+pub use self::frame_pose::FramePose;
+
+use self::emitters::Emitters;
+use self::far_lights::FarLights;
+use self::frame_pose::Placer;
+use self::moving::Moving;
+use self::sources::{DrawPlace, SkinPlace, Sources};
+use crate::layout::{EmissiveTriangle, Frame};
+use crate::lights::pack_lights;
+use crate::upload::PosedBuffers;
+use crate::{GpuScene, GpuSceneError, SceneTables, kinds::kind_shares};
+
+/// Bytes that one command writes at most.
+const UPDATE_BYTES: usize = 65_536;
+
+/// What moves in a scene, on the device: shapes at rest, and the pass that writes positions, normals, tangents, lights and
+/// bounds of a [`GpuScene`] as they are in a frame.
+///
+/// Draws that no clip can move are left as the tables have them. `docs/motion.md` says what is evaluated where.
+#[derive(Debug)]
+pub struct PosePass {
+    /// One per draw of the geometry.
+    moving_draws: Vec<bool>,
+    places: Vec<DrawPlace>,
+    skins: Vec<SkinPlace>,
+    instance_count: usize,
+    joint_count: usize,
+    group_count: u64,
+    frame_origin: DVec3,
+    emitters: Emitters,
+    lights_move: bool,
+    /// Power of lights without extent, W, where none of them shines from far away.
+    punctual_power: Option<f64>,
+    vertices: ComputePipeline,
+    set: BindingSet,
+    placements: Buffer,
+    joints: Buffer,
+    targets: Buffer,
+    geometry: Geometry,
+    bounds: BoundsPass,
+    far_lights: Option<FarLights>,
+    posed: PosedBuffers,
+    bytes_by_part: Vec<(&'static str, u64)>,
+}
+
+impl PosePass {
+    /// Uploads the shapes of what moves and makes the pipelines. `tables` were made from `scene`, `gpu` from `tables`; the
+    /// images of the scene are not looked at.
+    ///
+    /// # Errors
+    /// Out of memory, more words than 32 bits number, a table larger than one binding can hold (the error names it), or a
+    /// lost device.
+    pub fn new(
+        device: &Device,
+        scene: &Scene,
+        tables: &SceneTables,
+        gpu: &GpuScene,
+    ) -> Result<Self, GpuSceneError> {
+        let rig = &scene.animation.rig;
+        let moving = Moving::of(rig);
+        // As `Scene::at` has it: a rig that does not fit its scene moves nothing.
+        let is_placed = rig.placements.len() == scene.instances.len();
+        let nothing = Moving::of(&Default::default());
+        let sources = Sources::new(scene, tables, if is_placed { &moving } else { &nothing })?;
+        let mut moving_draws = vec![false; tables.posed.draws.len()];
+        sources.places.iter().for_each(|place| moving_draws[place.draw] = true);
+        let posed = gpu.posed_buffers().clone();
+        let geometry = gpu.geometry().clone();
+        let emitters = Emitters::new(tables, &sources.places);
+        let lights_move = is_placed
+            && !tables.lights.is_empty()
+            && rig.lights.iter().take(scene.lights.len()).any(|&node| moving.node(node));
+        let may_change = !sources.places.is_empty();
+        let far_lights = if may_change { FarLights::new(device, scene, tables, gpu)? } else { None };
+        let (punctual_power, _) = pack_lights(&scene.lights, tables.frame_origin, 0.0);
+
+        let mut parts = Parts { device, bytes_by_part: Vec::new() };
+        let placements = parts.frame_buffer::<PosePlacement>("pose placements", sources.draws.len())?;
+        let joints = parts.frame_buffer::<PoseMatrix>("pose joints", sources.joint_count)?;
+        let targets = parts.frame_buffer::<PoseTarget>("pose targets", sources.target_count)?;
+        let buffers = [
+            parts.table("pose groups", &sources.groups)?,
+            parts.table("pose draws", &sources.draws)?,
+            placements.clone(),
+            joints.clone(),
+            targets.clone(),
+            parts.table("rest positions", &sources.rest_positions.into_vec())?,
+            parts.table("rest attributes", &sources.rest_attributes.into_vec())?,
+            parts.table("pose skins", &sources.skin_words)?,
+            parts.table("pose displacements", &sources.displacements.into_vec())?,
+            geometry.desc().positions.buffer.clone(),
+            posed.attributes.clone(),
+            posed.draw_shadings.clone(),
+        ];
+        let layout = device.create_set_layout("pose", buffers.len() as u32)?;
+        let set = device.create_binding_set(&layout, "pose", &buffers.each_ref())?;
+        let vertices = device.create_compute_pipeline(&ComputePipelineDesc {
+            name: SCENE_POSE_VERTICES.name,
+            spirv: SCENE_POSE_VERTICES.words(),
+            sets: &[&layout],
+            push_constant_bytes: 0,
+            constants: &[],
+        })?;
+        let mut bytes_by_part = parts.bytes_by_part;
+        bytes_by_part.extend(far_lights.iter().map(FarLights::bytes));
+        Ok(Self {
+            moving_draws,
+            places: sources.places,
+            skins: sources.skins,
+            instance_count: scene.instances.len(),
+            joint_count: sources.joint_count,
+            group_count: sources.groups.len() as u64,
+            frame_origin: tables.frame_origin,
+            emitters,
+            lights_move,
+            punctual_power: (!tables.lights.is_empty()).then_some(punctual_power),
+            vertices,
+            set,
+            placements,
+            joints,
+            targets,
+            geometry,
+            bounds: BoundsPass::new(device)?,
+            far_lights,
+            posed,
+            bytes_by_part,
+        })
+    }
+
+    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, and in the triangles of
+    /// those that emit. No device call. `scene` is the one that this was made from, or that at another moment.
+    ///
+    /// # Errors
+    /// `Malformed` where the scene has fewer instances.
+    pub fn frame(&self, scene: &Scene, moment: &Moment) -> Result<FramePose, GpuSceneError> {
+        let rig = &scene.animation.rig;
+        let is_placed = rig.placements.len() == scene.instances.len();
+        let is_same = scene.instances.len() == self.instance_count && (is_placed || self.places.is_empty());
+        if !is_same {
+            let what = format!("a pose of {} instances was asked for", self.instance_count);
+            return Err(GpuSceneError::Malformed { what, limit: scene.instances.len() });
+        }
+        let pose = Pose::new(rig, moment);
+        let placer = Placer { rig, pose: &pose, frame_origin: self.frame_origin };
+        let (mut joints, mut targets) = (Vec::with_capacity(self.joint_count), Vec::new());
+        let anchors: Vec<DVec3> = self.skins.iter().map(|skin| placer.joints(skin, &mut joints)).collect();
+        let placements = self.places.iter().map(|place| placer.draw(place, &anchors, &mut targets)).collect();
+        let lights = if self.lights_move {
+            let disk = crate::kinds::disk_of(self.geometry.bounds()[0], self.geometry.bounds()[1]);
+            pack_lights(&placer.lights(scene), self.frame_origin, disk).1
+        } else {
+            Vec::new()
+        };
+        let (emissive_power, emissive) = match self.emitters.moves() {
+            true => self.emitters.at(scene, &pose, &placer),
+            false => (self.emitters.power_at_rest(), Vec::new()),
+        };
+        let cameras = placer.cameras(scene);
+        Ok(FramePose { placements, joints, targets, lights, emissive, emissive_power, cameras })
+    }
+
+    /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be pending, and
+    /// written to the device in order; one dispatch poses all vertices that move, [`BoundsPass`] measures the bounds. All
+    /// that follows sees the results. Nothing where nothing moves.
+    pub fn record(&self, recorder: &mut Recorder<'_>, pose: &FramePose) {
+        let is_own = pose.placements.len() == self.places.len() && pose.joints.len() == self.joint_count;
+        if !is_own {
+            return recorder.refuse("the pose of a frame was made for another scene");
+        }
+        if !self.moves() {
+            return;
+        }
+        recorder.begin_pass(SCENE_POSE_VERTICES.name);
+        recorder.barrier(Access::ALL, Access::TRANSFER_WRITE);
+        update(recorder, &self.placements, 0, cast_slice(&pose.placements));
+        update(recorder, &self.joints, 0, cast_slice(&pose.joints));
+        update(recorder, &self.targets, 0, cast_slice(&pose.targets));
+        self.update_lights(recorder, pose);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
+        if let Some(groups) = folded(self.group_count) {
+            recorder.bind_compute(&self.vertices);
+            recorder.bind_sets(0, &[&self.set]);
+            recorder.dispatch(groups);
+            recorder.barrier(Access::COMPUTE, Access::ALL);
+        }
+        recorder.end_pass();
+        if self.group_count > 0 {
+            self.bounds.record(recorder, &self.geometry);
+        }
+        if let Some(far_lights) = &self.far_lights {
+            far_lights.record(recorder, &self.geometry, pose.emissive_power);
+        }
+    }
+
+    /// Lights without extent, emissive triangles, and of the frame what depends on them alone.
+    fn update_lights(&self, recorder: &mut Recorder<'_>, pose: &FramePose) {
+        let PosedBuffers { lights, emissive, frame, .. } = &self.posed;
+        update(recorder, lights, 0, cast_slice(&pose.lights));
+        if pose.emissive.is_empty() {
+            return;
+        }
+        update(recorder, emissive, 0, cast_slice::<EmissiveTriangle, u8>(&pose.emissive));
+        let is_lit = pose.emissive_power > 0.0;
+        let count = if is_lit { pose.emissive.len() as u32 } else { 0 };
+        update(recorder, frame, offset_of!(Frame, emissive_count), bytes_of(&count));
+        if self.far_lights.is_none() {
+            // Without light from far away no power depends on the bounds.
+            let shares = kind_shares([self.punctual_power, is_lit.then_some(pose.emissive_power), None]);
+            update(recorder, frame, offset_of!(Frame, kind_shares), bytes_of(&shares));
+        }
+    }
+
+    /// Whether anything moves: vertices or lights.
+    pub fn moves(&self) -> bool {
+        self.lights_move || !self.places.is_empty()
+    }
+
+    /// For each draw of the geometry whether any clip can move it. All others stay where the tables have them.
+    pub fn moving_draws(&self) -> &[bool] {
+        &self.moving_draws
+    }
+
+    /// Bytes of every buffer by its name.
+    pub fn bytes_by_part(&self) -> &[(&'static str, u64)] {
+        &self.bytes_by_part
+    }
+}
+
+/// Bytes into a buffer, in as many commands as it takes.
+fn update(recorder: &mut Recorder<'_>, buffer: &Buffer, offset: usize, bytes: &[u8]) {
+    for (chunk, bytes) in bytes.chunks(UPDATE_BYTES).enumerate() {
+        recorder.update(buffer, (offset + chunk * UPDATE_BYTES) as u64, bytes);
+    }
+}
+
+/// Buffers with the bytes of each.
+struct Parts<'a> {
+    device: &'a Device,
+    bytes_by_part: Vec<(&'static str, u64)>,
+}
+
+impl Parts<'_> {
+    fn table<T: NoUninit>(&mut self, name: &'static str, records: &[T]) -> Result<Buffer, GpuSceneError> {
+        let buffer = self.device.create_buffer_with(name, BufferUsage::STORAGE, records)?;
+        self.bytes_by_part.push((name, buffer.size()));
+        Ok(buffer)
+    }
+
+    /// Records that each frame writes.
+    fn frame_buffer<T>(&mut self, name: &'static str, count: usize) -> Result<Buffer, GpuSceneError> {
+        let buffer = self.device.create_buffer(&BufferDesc {
+            name,
+            size: (count * size_of::<T>()) as u64,
+            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_DST,
+            location: MemoryLocation::Device,
+        })?;
+        self.bytes_by_part.push((name, buffer.size()));
+        Ok(buffer)
+    }
+}

@@ -1,0 +1,74 @@
+//! Emissive triangles that move: their power follows their area.
+
+use rasray_scene::Scene;
+use rasray_scene::pose::{Pose, posed_mesh};
+
+use super::frame_pose::Placer;
+use super::sources::DrawPlace;
+use crate::emissive::{EmissiveSources, area};
+use crate::layout::EmissiveTriangle;
+use crate::pose::{is_usable, placed};
+use crate::{SceneTables, layout::DrawShading};
+use rasray_shaders_glsl::constants::scene::EMISSIVE_NONE;
+
+/// Emissive triangles with their areas where they do not move.
+#[derive(Clone, Debug)]
+pub struct Emitters {
+    sources: EmissiveSources,
+    /// At rest, m^2.
+    areas: Vec<f64>,
+    /// Of all at rest, W.
+    power: f64,
+    /// Draws that move, with their first entry.
+    moving: Vec<(DrawPlace, usize)>,
+}
+
+impl Emitters {
+    /// Of the draws of `tables`; `places` are those that move.
+    pub fn new(tables: &SceneTables, places: &[DrawPlace]) -> Self {
+        let sources = EmissiveSources {
+            primitives: tables.emissive_triangles.iter().map(|entry| entry.primitive).collect(),
+            radiosities: tables.emissive_radiosities.clone(),
+        };
+        let entry = |shading: &DrawShading| {
+            (shading.first_emissive != EMISSIVE_NONE).then_some(shading.first_emissive as usize)
+        };
+        let moving = places
+            .iter()
+            .filter_map(|place| Some((place.clone(), entry(&tables.draw_shadings[place.draw])?)))
+            .collect();
+        Self { areas: sources.areas(&tables.posed), power: tables.emissive_power, sources, moving }
+    }
+
+    /// Power of all where none moves, W.
+    pub fn power_at_rest(&self) -> f64 {
+        self.power
+    }
+
+    /// Whether any of them moves.
+    pub fn moves(&self) -> bool {
+        !self.moving.is_empty()
+    }
+
+    /// The table and the power of all, W, with moving draws posed as for fresh tables: on the host, in f64.
+    pub fn at(&self, scene: &Scene, pose: &Pose, placer: &Placer<'_>) -> (f64, Vec<EmissiveTriangle>) {
+        let mut areas = self.areas.clone();
+        for (place, first) in &self.moving {
+            let mesh = &scene.meshes[scene.instances[place.instance].mesh];
+            let deformed = place.deformed.map(|deformed| &placer.rig.deformed[deformed]);
+            let shown =
+                deformed.map(|deformed| posed_mesh(mesh, deformed, &placer.weights(place), placer.rig, pose));
+            let (positions, world) = match &shown {
+                Some((mesh, world)) => (&mesh.positions, *world),
+                None => (&mesh.positions, None),
+            };
+            let world = world.unwrap_or_else(|| placer.world_from_mesh(place.instance));
+            let corners: Vec<_> = placed(positions, world, placer.frame_origin).collect();
+            for (triangle, area_of) in mesh.indices.chunks_exact(3).zip(&mut areas[*first..]) {
+                let corners = [0, 1, 2].map(|corner| corners[triangle[corner] as usize]);
+                *area_of = if corners.iter().all(|&corner| is_usable(corner)) { area(corners) } else { 0.0 };
+            }
+        }
+        self.sources.pack(&areas)
+    }
+}

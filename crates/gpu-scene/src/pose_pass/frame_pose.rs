@@ -1,0 +1,153 @@
+//! The host's part of a pose: what the device is told of a frame.
+
+use glam::{DAffine3, DMat3, DVec3};
+use rasray_scene::Scene;
+use rasray_scene::animation::Rig;
+use rasray_scene::pose::{Pose, rigid};
+use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
+use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
+
+use super::sources::{DrawPlace, SkinPlace};
+use crate::attributes::normal_matrix;
+use crate::layout::{EmissiveTriangle, Light};
+
+/// Where everything that moves is in one frame: plain data, rounded to f32 once, for [`PosePass::record`](super::PosePass::record).
+#[derive(Clone, Debug, PartialEq)]
+pub struct FramePose {
+    pub(super) placements: Vec<PosePlacement>,
+    pub(super) joints: Vec<PoseMatrix>,
+    pub(super) targets: Vec<PoseTarget>,
+    pub(super) lights: Vec<Light>,
+    pub(super) emissive: Vec<EmissiveTriangle>,
+    /// W, by luminance.
+    pub(super) emissive_power: f64,
+    pub(super) cameras: Vec<DAffine3>,
+}
+
+impl FramePose {
+    /// Where the cameras of the scene are, in their order: world, metres, rigid.
+    pub fn cameras(&self) -> &[DAffine3] {
+        &self.cameras
+    }
+
+    /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer than 100.
+    pub fn bytes(&self) -> u64 {
+        let bytes = size_of_val(&self.placements[..])
+            + size_of_val(&self.joints[..])
+            + size_of_val(&self.targets[..])
+            + size_of_val(&self.lights[..])
+            + size_of_val(&self.emissive[..]);
+        bytes as u64
+    }
+}
+
+/// What places draws in a frame.
+pub(super) struct Placer<'a> {
+    pub rig: &'a Rig,
+    pub pose: &'a Pose,
+    /// World, metres.
+    pub frame_origin: DVec3,
+}
+
+impl Placer<'_> {
+    fn world(&self, node: usize) -> DAffine3 {
+        self.pose.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY)
+    }
+
+    /// Appends the matrices of the joints of a skin, which take the pivot to about zero, and answers where that is, world,
+    /// metres: the place of joint 0.
+    pub fn joints(&self, place: &SkinPlace, joints: &mut Vec<PoseMatrix>) -> DVec3 {
+        let skin = &self.rig.skins[place.skin];
+        let moves: Vec<DAffine3> = skin
+            .joints
+            .iter()
+            .zip(&skin.joint_from_mesh)
+            .map(|(&joint, &joint_from_mesh)| self.world(joint) * joint_from_mesh)
+            .collect();
+        let anchor = moves.first().map_or(DVec3::ZERO, |first| first.transform_point3(place.pivot));
+        joints.extend(
+            moves.iter().map(|step| matrix(step.matrix3, step.transform_point3(place.pivot) - anchor)),
+        );
+        anchor
+    }
+
+    /// The placement of a draw; `anchors` are those of the skins. Targets that count are appended.
+    pub fn draw(&self, place: &DrawPlace, anchors: &[DVec3], targets: &mut Vec<PoseTarget>) -> PosePlacement {
+        let first_target = targets.len() as u32;
+        targets.extend(
+            place.targets.iter().zip(self.weights(place)).filter(|(_, weight)| *weight != 0.0).map(
+                |(&[positions, normals, tangents], weight)| PoseTarget {
+                    positions,
+                    normals,
+                    tangents,
+                    weight: weight as f32,
+                },
+            ),
+        );
+        let target_count = targets.len() as u32 - first_target;
+        let placement = PosePlacement { first_target, target_count, ..PosePlacement::default() };
+        if let Some(skin) = place.skin {
+            let offset = anchors[skin] - self.frame_origin;
+            return PosePlacement { place: matrix(DMat3::IDENTITY, offset), ..placement };
+        }
+        let world_from_mesh = self.world_from_mesh(place.instance);
+        let linear = world_from_mesh.matrix3;
+        let offset = world_from_mesh.transform_point3(place.pivot) - self.frame_origin;
+        let normals = matrix(of_largest_one(normal_matrix(linear)), DVec3::ZERO);
+        PosePlacement {
+            place: matrix(linear, offset),
+            normal_x: normals.x,
+            normal_y: normals.y,
+            normal_z: normals.z,
+            flags: if linear.determinant() < 0.0 { DRAW_MIRRORED } else { 0 },
+            ..placement
+        }
+    }
+
+    /// Where an instance without joints is.
+    pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
+        let placement = self.rig.placements[instance];
+        self.world(placement.node) * placement.node_from_mesh
+    }
+
+    /// Weights of the morph targets of a draw.
+    pub fn weights(&self, place: &DrawPlace) -> Vec<f64> {
+        let Some(deformed) = place.deformed else { return Vec::new() };
+        let node = self.rig.placements[place.instance].node;
+        let animated = self.pose.weights.get(node).cloned().flatten();
+        animated
+            .unwrap_or_else(|| self.rig.deformed[deformed].weights.iter().copied().map(f64::from).collect())
+    }
+
+    /// Where the cameras of `scene` are.
+    pub fn cameras(&self, scene: &Scene) -> Vec<DAffine3> {
+        let nodes = self.rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
+        let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
+        scene
+            .cameras
+            .iter()
+            .zip(nodes)
+            .map(|(camera, node)| placed(node).unwrap_or(camera.world_from_camera))
+            .collect()
+    }
+
+    /// The lights of `scene` where they are.
+    pub fn lights(&self, scene: &Scene) -> Vec<rasray_scene::Light> {
+        let mut lights = scene.lights.clone();
+        for (light, &node) in lights.iter_mut().zip(&self.rig.lights) {
+            rasray_scene::pose::move_light(light, self.world(node));
+        }
+        lights
+    }
+}
+
+fn matrix(linear: DMat3, translation: DVec3) -> PoseMatrix {
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis].map(|column| column.as_vec3().to_array());
+    PoseMatrix { x, y, z, translation: translation.as_vec3().to_array() }
+}
+
+/// A map of directions, which have no length: what is very small would leave the range of f32.
+fn of_largest_one(linear: DMat3) -> DMat3 {
+    let largest = linear.to_cols_array().iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
+    if largest > 0.0 { linear * largest.recip() } else { linear }
+}

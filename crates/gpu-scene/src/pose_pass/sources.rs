@@ -1,0 +1,240 @@
+//! Shapes at rest of all that moves, packed as the device reads them.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+use rasray_scene::animation::{DeformedMesh, Rig, SkinBinding};
+use rasray_scene::{Mesh, Scene};
+use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
+use rasray_shaders_glsl::records::{PoseDraw, PoseGroup};
+
+use super::moving::Moving;
+use crate::{GpuSceneError, SceneTables, words::Words};
+
+/// Threads of a workgroup of `scene/pose_vertices`.
+const VERTICES_PER_GROUP: u32 = 64;
+
+/// Draws that move, and the tables that hold their shapes.
+pub struct Sources {
+    /// What the device reads of each draw.
+    pub draws: Vec<PoseDraw>,
+    /// What the host reads of each draw.
+    pub places: Vec<DrawPlace>,
+    /// Vertices of workgroups.
+    pub groups: Vec<PoseGroup>,
+    /// Skins with joints that move.
+    pub skins: Vec<SkinPlace>,
+    /// Joint matrices of a frame.
+    pub joint_count: usize,
+    /// Most morph targets that a frame can show.
+    pub target_count: usize,
+    pub rest_positions: Words,
+    pub rest_attributes: Words,
+    pub skin_words: Vec<u32>,
+    pub displacements: Words,
+}
+
+/// What places a draw.
+#[derive(Clone, Debug)]
+pub struct DrawPlace {
+    /// Index into the draws of the geometry.
+    pub draw: usize,
+    pub instance: usize,
+    /// Mesh space, metres: what positions at rest are relative to.
+    pub pivot: DVec3,
+    /// Index into the skins of the sources.
+    pub skin: Option<usize>,
+    /// Index into the deformed meshes of the rig.
+    pub deformed: Option<usize>,
+    /// Words of the displacements of each morph target: positions, normals, tangents.
+    pub targets: Vec<[u32; 3]>,
+}
+
+/// A skin and its place in the joint matrices.
+#[derive(Clone, Debug)]
+pub struct SkinPlace {
+    /// Index into the skins of the rig.
+    pub skin: usize,
+    /// Mesh space of all meshes bound to it, metres.
+    pub pivot: DVec3,
+    /// Of joint 0.
+    pub first_joint: u32,
+}
+
+/// Words of a mesh that several instances may show.
+#[derive(Clone)]
+struct MeshWords {
+    rest_positions: u32,
+    rest_normals: u32,
+    rest_tangents: u32,
+    skin: u32,
+    targets: Vec<[u32; 3]>,
+}
+
+impl Sources {
+    /// Packs what can move of the draws of `tables`, which were made from `scene`.
+    ///
+    /// # Errors
+    /// `TooManyVertices` where 32-bit word offsets do not reach.
+    pub fn new(scene: &Scene, tables: &SceneTables, moving: &Moving) -> Result<Self, GpuSceneError> {
+        let rig = &scene.animation.rig;
+        let mut sources = Self {
+            draws: Vec::new(),
+            places: Vec::new(),
+            groups: Vec::new(),
+            skins: Vec::new(),
+            joint_count: 0,
+            target_count: 0,
+            rest_positions: Words::stored(),
+            rest_attributes: Words::stored(),
+            skin_words: Vec::new(),
+            displacements: Words::stored(),
+        };
+        let mut deformed_of = vec![None; scene.meshes.len()];
+        for (index, deformed) in rig.deformed.iter().enumerate() {
+            deformed_of[deformed.mesh] = Some(index);
+        }
+        let mut packed: HashMap<usize, MeshWords> = HashMap::new();
+        for (draw, record) in tables.posed.draws.iter().enumerate() {
+            let instance = record.instance as usize;
+            let Some(placement) = rig.placements.get(instance) else { continue };
+            let mesh_index = scene.instances[instance].mesh;
+            let (mesh, deformed) = (&scene.meshes[mesh_index], deformed_of[mesh_index]);
+            let shape = deformed.map(|deformed| &rig.deformed[deformed]);
+            if !moving.instance(rig, placement.node, shape) {
+                continue;
+            }
+            let binding = shape.and_then(|shape| shape.skin.as_ref());
+            let skin = binding.filter(|binding| binding.skin < rig.skins.len());
+            let skin_index = skin.map(|binding| sources.skin(rig, binding.skin));
+            let pivot = match skin_index {
+                Some(skin) => sources.skins[skin].pivot,
+                None => centre([shape.map_or(&mesh.positions[..], |shape| &shape.positions)]),
+            };
+            let shading = &tables.draw_shadings[draw];
+            let is_shaded = [shading.normals, shading.tangents].map(|word| word != ATTRIBUTE_NONE);
+            let words = match packed.get(&mesh_index) {
+                Some(words) => words.clone(),
+                None => {
+                    let words = sources.mesh(mesh, shape, skin, pivot, is_shaded)?;
+                    packed.insert(mesh_index, words.clone());
+                    words
+                }
+            };
+            let vertex_count = mesh.positions.len() as u32;
+            let pose_draw = sources.draws.len() as u32;
+            let firsts = (0..vertex_count).step_by(VERTICES_PER_GROUP as usize);
+            sources.groups.extend(firsts.map(|first_vertex| PoseGroup { draw: pose_draw, first_vertex }));
+            let posed = |rest: u32, posed: u32| if rest == ATTRIBUTE_NONE { ATTRIBUTE_NONE } else { posed };
+            sources.draws.push(PoseDraw {
+                draw: draw as u32,
+                first_vertex: shading.first_vertex,
+                vertex_count,
+                rest_positions: words.rest_positions,
+                rest_normals: words.rest_normals,
+                rest_tangents: words.rest_tangents,
+                normals: posed(words.rest_normals, shading.normals),
+                tangents: posed(words.rest_tangents, shading.tangents),
+                skin: words.skin,
+                joints_per_vertex: skin.map_or(0, |binding| binding.per_vertex as u32),
+                first_joint: skin_index.map_or(0, |skin| sources.skins[skin].first_joint),
+            });
+            sources.target_count += words.targets.len();
+            sources.places.push(DrawPlace {
+                draw,
+                instance,
+                pivot,
+                skin: skin_index,
+                deformed,
+                targets: words.targets,
+            });
+        }
+        Ok(sources)
+    }
+
+    /// The place of a skin of the rig, which it gets when it is first asked for.
+    fn skin(&mut self, rig: &Rig, skin: usize) -> usize {
+        if let Some(known) = self.skins.iter().position(|place| place.skin == skin) {
+            return known;
+        }
+        let bound = |shape: &&DeformedMesh| shape.skin.as_ref().is_some_and(|binding| binding.skin == skin);
+        let pivot = centre(rig.deformed.iter().filter(bound).map(|shape| &shape.positions[..]));
+        self.skins.push(SkinPlace { skin, pivot, first_joint: self.joint_count as u32 });
+        self.joint_count += rig.skins[skin].joints.len();
+        self.skins.len() - 1
+    }
+
+    /// Packs a mesh; normals and tangents where `is_shaded` asks for them.
+    fn mesh(
+        &mut self,
+        mesh: &Mesh,
+        shape: Option<&DeformedMesh>,
+        skin: Option<&SkinBinding>,
+        pivot: DVec3,
+        is_shaded: [bool; 2],
+    ) -> Result<MeshWords, GpuSceneError> {
+        let (positions, normals, tangents) = match shape {
+            Some(shape) => (&shape.positions, &shape.normals, &shape.tangents),
+            None => (&mesh.positions, &mesh.normals, &mesh.tangents),
+        };
+        let relative =
+            |position: &[f32; 3]| (DVec3::from(position.map(f64::from)) - pivot).as_vec3().to_array();
+        let rest_positions = append(&mut self.rest_positions, Some(positions.iter().map(relative)))?;
+        let rest = &mut self.rest_attributes;
+        let normals = normals.as_ref().filter(|_| is_shaded[0]);
+        let rest_normals = append(rest, normals.map(|list| list.iter().copied()))?;
+        let tangents = tangents.as_ref().filter(|_| is_shaded[1]);
+        let signed = |&[x, y, z, w]: &[f32; 4]| [x, y, z, if w < 0.0 { -1.0 } else { 1.0 }];
+        let rest_tangents = append(rest, tangents.map(|list| list.iter().map(signed)))?;
+        let mut targets = Vec::new();
+        for target in shape.iter().flat_map(|shape| &shape.targets) {
+            let of = |list: &Option<Vec<[f32; 3]>>, is_used: bool, table: &mut Words| {
+                append(table, list.as_ref().filter(|_| is_used).map(|list| list.iter().copied()))
+            };
+            targets.push([
+                of(&target.positions, true, &mut self.displacements)?,
+                of(&target.normals, rest_normals != ATTRIBUTE_NONE, &mut self.displacements)?,
+                of(&target.tangents, rest_tangents != ATTRIBUTE_NONE, &mut self.displacements)?,
+            ]);
+        }
+        let skin = match skin {
+            Some(binding) => self.append_skin(binding)?,
+            None => ATTRIBUTE_NONE,
+        };
+        Ok(MeshWords { rest_positions, rest_normals, rest_tangents, skin, targets })
+    }
+
+    /// Of each vertex its joints, then their weights.
+    fn append_skin(&mut self, binding: &SkinBinding) -> Result<u32, GpuSceneError> {
+        let first = self.skin_words.len();
+        let (count, limit) = (first as u64 + 2 * binding.joints.len() as u64, u64::from(ATTRIBUTE_NONE));
+        if count >= limit {
+            return Err(GpuSceneError::TooManyVertices { count, limit });
+        }
+        let width = binding.per_vertex.max(1);
+        for (joints, weights) in binding.joints.chunks(width).zip(binding.weights.chunks(width)) {
+            self.skin_words.extend(joints);
+            self.skin_words.extend(weights.iter().map(|weight| weight.to_bits()));
+        }
+        Ok(first as u32)
+    }
+}
+
+fn append<const N: usize>(
+    table: &mut Words,
+    values: Option<impl ExactSizeIterator<Item = [f32; N]>>,
+) -> Result<u32, GpuSceneError> {
+    let Some(values) = values else { return Ok(ATTRIBUTE_NONE) };
+    table.append(values.len() * N, || values.flatten())
+}
+
+/// The centre of the box around positions, metres; zero where there are none.
+fn centre<'a>(lists: impl IntoIterator<Item = &'a [[f32; 3]]>) -> DVec3 {
+    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for position in lists.into_iter().flatten() {
+        let position = DVec3::from(position.map(f64::from));
+        (lower, upper) = (lower.min(position), upper.max(position));
+    }
+    let centre = 0.5 * (lower + upper);
+    if centre.is_finite() { centre } else { DVec3::ZERO }
+}
