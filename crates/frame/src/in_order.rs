@@ -50,7 +50,8 @@ fn in_order(
     let mut in_flight: VecDeque<(FrameInput, u32)> = VecDeque::new();
     loop {
         while renderer.has_free_slot() {
-            let Some((input, repeats)) = again.pop_front().or_else(|| inputs.next().map(|input| (input, 0))) else {
+            let Some((input, repeats)) = again.pop_front().or_else(|| inputs.next().map(|input| (input, 0)))
+            else {
                 break;
             };
             renderer.submit(&input)?;

@@ -9,8 +9,8 @@ use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
 use rasray_integrators::{Integrator, waves};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, TracerError};
 
-use crate::readback::{FilmCopy, Readback};
 use crate::FrameError;
+use crate::readback::{FilmCopy, Readback};
 
 /// What one frame shows.
 #[derive(Clone, Debug)]
@@ -200,7 +200,8 @@ impl FrameRenderer {
         self.film_is_right |= !self.continues.pop_front().unwrap_or(false);
         let (film, counters) = self.readbacks[ended.slot as usize].read()?;
         let structure = self.frames.structure().structure();
-        let sum = |of: fn(&QueueCounters) -> u32| counters.iter().map(|queue| u64::from(of(queue))).sum::<u64>();
+        let sum =
+            |of: fn(&QueueCounters) -> u32| counters.iter().map(|queue| u64::from(of(queue))).sum::<u64>();
         let entries = sum(|queue| queue.corrupted);
         if entries > 0 {
             return Err(FrameError::Corrupted { structure: structure.name(), frame: ended.number, entries });

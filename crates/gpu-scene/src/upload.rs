@@ -240,6 +240,13 @@ impl GpuScene {
         viewpoint_of(&self.frame)
     }
 
+    /// As [`GpuScene::viewpoint`], of a view that [`GpuScene::record_frame`] writes.
+    pub fn viewpoint_of(&self, view: &View) -> Viewpoint {
+        let mut frame = self.frame;
+        view.write(&mut frame, self.frame_origin);
+        viewpoint_of(&frame)
+    }
+
     /// World, metres.
     pub fn frame_origin(&self) -> glam::DVec3 {
         self.frame_origin

@@ -2,8 +2,8 @@
 //! frame in flight while the next is written.
 
 use rasray_ads::{
-    BoundsPass, Domain, Draw, Geometry, GeometryDesc, Hit, QueueCounters, QueueHeader, Ray, RayQueue, Structure,
-    TraceMode,
+    BoundsPass, Domain, Draw, Geometry, GeometryDesc, Hit, QueueCounters, QueueHeader, Ray, RayQueue,
+    Structure, TraceMode,
 };
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
 use rasray_tests::random::Random;

@@ -60,23 +60,24 @@ fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
             let ended = frames.take().expect("the device works").expect("a frame is in flight");
             let expected: Shown = in_flight.pop_front().expect("one for each frame");
             let (hits, counters) = crowd.read(ended.slot);
-            if ended.outcome == FrameOutcome::Incomplete {
-                // All or nothing: no ray of such a frame has an answer.
-                let unanswered = counters.not_ready as usize;
-                assert_eq!(unanswered, RAYS, "{name}, frame {}: {counters:?}", ended.number);
-                incomplete += 1;
-            } else {
-                assert_eq!((counters.not_ready, counters.unfinished, counters.corrupted), (0, 0, 0), "{name}");
+            // All or nothing: either no ray of a frame has an answer, or all have the right one.
+            assert_eq!((counters.unfinished, counters.corrupted), (0, 0), "{name}, frame {}", ended.number);
+            let is_answered = counters.not_ready == 0;
+            assert!(is_answered || counters.not_ready as usize == RAYS, "{name}, {counters:?}");
+            if is_answered {
                 ambiguous += check(bench, subject, &expected, &hits, ended.number);
-                right += 1;
             }
+            match ended.outcome {
+                FrameOutcome::Complete => assert!(is_answered, "{name}, frame {}", ended.number),
+                FrameOutcome::Incomplete => incomplete += 1,
+            }
+            right += usize::from(is_answered);
         }
         if is_over {
             continue;
         }
         // Two of three frames have other triangles, the third the same number elsewhere.
-        let triangles =
-            if frame % 3 == 2 { shown.triangles.len() } else { count(&mut random, frame) };
+        let triangles = if frame % 3 == 2 { shown.triangles.len() } else { count(&mut random, frame) };
         shown = Shown::random(&mut random, triangles, RAYS);
         if triangles as u32 == geometry.triangle_count() {
             frames.geometry_moved();
@@ -101,7 +102,7 @@ fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
         }
     }
     let counts = frames.structure().counts();
-    println!("{name}: {right} right, {incomplete} not shown, {ambiguous} rays ambiguous, {counts:?}");
+    println!("{name}: {right} answered, {incomplete} not shown, {ambiguous} rays ambiguous, {counts:?}");
     assert_eq!(counts.frames as usize, count_of_frames);
     assert_eq!(counts.incomplete as usize, incomplete);
     // Growth has headroom, so that pools soon suffice.
@@ -139,6 +140,10 @@ fn check(bench: &Bench, subject: &Subject, shown: &Shown, hits: &[rasray_ads::Hi
         .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
         .collect();
     let confusion = HitConfusion::measure(&verdicts, &found, 0.0).expect("one hit per ray");
-    assert!(confusion.is_clean(), "{name}, frame {frame}, {} triangles: {confusion:?}", shown.triangles.len());
+    assert!(
+        confusion.is_clean(),
+        "{name}, frame {frame}, {} triangles: {confusion:?}",
+        shown.triangles.len()
+    );
     confusion.ambiguous
 }

@@ -80,7 +80,8 @@ fn a_ring_is_used_in_turn() {
     let geometry = crowd.geometry(&shown);
     let subject = Subject::all().into_iter().find(|subject| subject.name() == "bricks robust");
     let structure = subject.expect("the registry has bricks").structure(&bench, &geometry);
-    let mut frames = Frames::new(device, structure, Keeping::default(), Timing::None).expect("the device works");
+    let mut frames =
+        Frames::new(device, structure, Keeping::default(), Timing::None).expect("the device works");
     assert!(frames.take().expect("nothing failed").is_none(), "none is in flight");
     let submit = |frames: &mut Frames, refuses: bool| {
         frames.submit(
