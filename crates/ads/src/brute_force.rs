@@ -112,7 +112,7 @@ impl Structure for BruteForce {
             let reason = format!("slot {slot} of {} was asked for", self.slots);
             return Err(GpuError::InvalidUse { name: self.name().to_owned(), reason });
         }
-        Ok(BuildStatus { complete: true, ..BuildStatus::default() })
+        Ok(BuildStatus { complete: true, was_complete: true, ..BuildStatus::default() })
     }
 
     fn check(&self, status: &BuildStatus, headroom: u32) -> Result<Check, AdsError> {

@@ -208,7 +208,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
-        let header = self.parts.pools.header(slot)?;
+        let header: D::Header = self.parts.pools.header(slot)?;
         *self.known.lock().unwrap_or_else(PoisonError::into_inner) = header;
         let Outcome { status, unsorted, corrupted } = D::outcome(&header);
         let mut pools = Vec::new();
@@ -219,11 +219,14 @@ impl<D: Design> Structure for Pooled<D> {
                 demand
             },
         );
+        let was_complete = status & STATUS_COMPLETE != 0;
+        let is_current = self.parts.pools.are_of(slot);
         Ok(BuildStatus {
-            complete: status & STATUS_COMPLETE != 0,
+            complete: was_complete && is_current,
+            was_complete,
             pools,
             unsorted: unsorted.into(),
-            outside: self.parts.pools.outside(slot)?,
+            outside: if is_current { self.parts.pools.outside(slot)? } else { 0 },
             corrupted: corrupted.into(),
         })
     }

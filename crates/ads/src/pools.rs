@@ -36,6 +36,10 @@ pub struct Pools {
     header_readback: Buffer,
     /// Builds whose outcome is kept apart: frames that the device works on at a time.
     slots: u32,
+    /// Times that the pools were replaced.
+    replaced: u32,
+    /// That number when the last build of each slot was recorded.
+    replaced_before: Vec<u32>,
     /// The slot of the build that is recorded.
     slot: u32,
     pools: Vec<Buffer>,
@@ -61,7 +65,8 @@ impl Pools {
             Addressing::Address => 0,
         };
         let layout = device.create_set_layout(structure, bindings)?;
-        Self::with_layout(device, structure, addressing, layout, sizes, 1)
+        let header_readback = readback(device, structure, bytes(sizes, HEADER), 1)?;
+        Self::with_layout(device, structure, addressing, layout, sizes, header_readback)
     }
 
     fn with_layout(
@@ -70,7 +75,7 @@ impl Pools {
         addressing: Addressing,
         layout: SetLayout,
         sizes: &Sizes,
-        slots: u32,
+        header_readback: Buffer,
     ) -> Result<Self, AdsError> {
         // Headers may hold the arguments of dispatches.
         let usage = BufferUsage::STORAGE
@@ -81,7 +86,6 @@ impl Pools {
             device.create_buffer(&BufferDesc { name: &format!("{structure} {name}"), size, usage, location })
         };
         let header_bytes = bytes(sizes, HEADER);
-        let header_readback = readback(device, structure, header_bytes, slots)?;
         // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
         let mut pools =
             vec![device.create_buffer_of_zeros(&format!("{structure} {HEADER}"), usage, header_bytes)?];
@@ -103,22 +107,32 @@ impl Pools {
             sizes,
             header: vec![0; header_bytes as usize],
             header_readback,
-            slots,
-            slot: slots,
+            slots: 1,
+            replaced: 0,
+            replaced_before: vec![0],
+            slot: 1,
             pools,
             set,
             rounds: AtomicU32::new(0),
         })
     }
 
-    /// Allocates again. What was built is lost.
+    /// Allocates again. What was built is lost, but not what the device has yet to say of builds that were recorded before.
     ///
     /// # Errors
     /// As for [`Pools::new`]; then the pools are as they were.
     pub fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        let layout = self.layout.clone();
-        *self = Self::with_layout(device, self.structure, self.addressing, layout, sizes, self.slots)?;
+        let (layout, readback) = (self.layout.clone(), self.header_readback.clone());
+        let pools = Self::with_layout(device, self.structure, self.addressing, layout, sizes, readback)?;
+        let replaced_before = std::mem::take(&mut self.replaced_before);
+        let (slots, slot, replaced) = (self.slots, self.slots, self.replaced + 1);
+        *self = Self { slots, slot, replaced, replaced_before, ..pools };
         Ok(())
+    }
+
+    /// Whether the pools are those that the last build of a slot was recorded for.
+    pub fn are_of(&self, slot: u32) -> bool {
+        self.replaced_before.get(slot as usize) == Some(&self.replaced)
     }
 
     /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are lost.
@@ -128,6 +142,7 @@ impl Pools {
     pub fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
         self.header_readback = readback(device, self.structure, self.header.len() as u64, slots.max(1))?;
         (self.slots, self.slot) = (slots.max(1), slots.max(1));
+        self.replaced_before = vec![self.replaced; self.slots as usize];
         Ok(())
     }
 
@@ -210,6 +225,7 @@ impl Pools {
         }
         self.set_header(header);
         self.slot = slot;
+        self.replaced_before[slot as usize] = self.replaced;
         Ok(())
     }
 

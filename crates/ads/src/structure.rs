@@ -111,6 +111,9 @@ pub struct PoolStatus {
 pub struct BuildStatus {
     /// Whether traces will answer.
     pub complete: bool,
+    /// Whether traces that were recorded after the build have answers. Differs from `complete` where the pools were
+    /// replaced since.
+    pub was_complete: bool,
     /// Pools whose demand the build counted.
     pub pools: Vec<PoolStatus>,
     /// Lists too long to be sorted; they are searched in full.
@@ -260,8 +263,8 @@ pub trait Structure {
     /// What is allocated now.
     fn sizes(&self) -> &Sizes;
 
-    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]. What was built is lost, with the
-    /// status of builds that the device has yet to finish: they count as incomplete, and what they use lives as long as
+    /// Reallocates to `sizes`, which come from planning or from [`Structure::check`]. What was built is lost. Builds that the
+    /// device has yet to finish keep their statuses ([`BuildStatus::was_complete`]), and what they use lives as long as
     /// the [`rasray_gpu::Recorded`] of their recording. Nothing happens where these are the sizes already.
     ///
     /// # Errors

@@ -155,7 +155,7 @@ impl Design for Tree {
 
     fn plan_for(parts: &Parts<Config>, geometry: &Geometry) -> Result<Option<Sizes>, AdsError> {
         let sizes = plan(&parts.config, geometry.triangle_count().into())?;
-        Ok((sizes != *parts.pools.sizes()).then_some(sizes))
+        Ok(sizes.exceed(parts.pools.sizes()).then_some(sizes))
     }
 
     fn make(

@@ -54,8 +54,8 @@ struct Built {
 struct Used {
     /// Number of the build.
     build: u64,
-    /// Of the pools, where this frame recorded the build itself.
-    made: Option<u64>,
+    /// Whether this frame recorded it.
+    made: bool,
 }
 
 /// A structure over frames in flight: it is built where its last build is stale, its status is read when a frame has
@@ -72,8 +72,6 @@ pub struct FrameStructure {
     built: Option<Built>,
     /// Builds recorded so far.
     builds: u64,
-    /// Times that pools were replaced: the outcome of builds into earlier ones is lost.
-    pools: u64,
     used: Vec<Option<Used>>,
     /// The last build whose frame has ended, and whether it was complete. Frames end in order, so that none traced
     /// through an earlier one is left.
@@ -98,7 +96,6 @@ impl FrameStructure {
             headroom: keeping.headroom,
             built: None,
             builds: 0,
-            pools: 0,
             used: vec![None; slots as usize],
             ended: None,
             counts: StructureCounts::default(),
@@ -128,7 +125,6 @@ impl FrameStructure {
         let sizes = self.structure.sizes().clone();
         self.structure.set_geometry(device, geometry)?;
         if *self.structure.sizes() != sizes {
-            self.pools += 1;
             self.counts.growths += 1;
         }
         self.built = None;
@@ -176,11 +172,11 @@ impl FrameStructure {
                 self.builds
             }
         };
-        let made = reused.is_none().then_some(self.pools);
+        let made = reused.is_none();
         self.used[slot as usize] = Some(Used { build, made });
         self.counts.frames += 1;
-        self.counts.builds += u64::from(made.is_some());
-        Ok(made.is_some())
+        self.counts.builds += u64::from(made);
+        Ok(made)
     }
 
     /// Says what became of the build that a slot's frame was traced through; the caller has waited for the frame. Grows
@@ -192,9 +188,8 @@ impl FrameStructure {
         let Some(used) = self.used.get_mut(slot as usize).and_then(Option::take) else {
             return Ok(FrameOutcome::Complete);
         };
-        if let Some(pools) = used.made {
-            // The outcome of a build into pools that were replaced meanwhile is lost with them.
-            let read = if pools == self.pools { self.read(device, slot) } else { Ok(false) };
+        if used.made {
+            let read = self.read(device, slot);
             let is_complete = matches!(read, Ok(true));
             self.ended = Some((used.build, is_complete));
             if !is_complete && self.built.is_some_and(|built| built.number == used.build) {
@@ -212,7 +207,7 @@ impl FrameStructure {
     /// The frame that was recorded last was not submitted: what it built does not exist.
     pub fn take_back(&mut self, slot: u32) {
         if let Some(used) = self.used.get_mut(slot as usize).and_then(Option::take)
-            && used.made.is_some()
+            && used.made
         {
             self.built = None;
         }
@@ -221,6 +216,9 @@ impl FrameStructure {
     /// Whether the build of a slot was complete; grows if not.
     fn read(&mut self, device: &Device, slot: u32) -> Result<bool, AdsError> {
         let status = self.structure.status(slot)?;
+        if status.was_complete {
+            return Ok(true);
+        }
         match self.structure.check(&status, self.headroom)? {
             Check::Complete => Ok(status.complete),
             Check::Grow(sizes) => {
@@ -231,7 +229,6 @@ impl FrameStructure {
                     "grows between frames"
                 );
                 self.structure.resize(device, &sizes)?;
-                self.pools += u64::from(grows);
                 self.counts.growths += u64::from(grows);
                 self.built = None;
                 Ok(false)

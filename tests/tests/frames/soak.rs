@@ -52,7 +52,7 @@ fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
     let structure = subject.structure(bench, &geometry);
     let mut frames = Frames::new(device, structure, keeping, Timing::None).expect("the device works");
     let mut in_flight = VecDeque::new();
-    let (mut right, mut ambiguous, mut incomplete) = (0, 0, 0);
+    let (mut right, mut found, mut ambiguous, mut incomplete) = (0, 0, 0, 0);
     let mut halfway = None;
     for frame in 0..count_of_frames + keeping.slots as usize {
         let is_over = frame >= count_of_frames;
@@ -69,9 +69,13 @@ fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
             }
             match ended.outcome {
                 FrameOutcome::Complete => assert!(is_answered, "{name}, frame {}", ended.number),
-                FrameOutcome::Incomplete => incomplete += 1,
+                FrameOutcome::Incomplete => {
+                    assert!(!is_answered, "{name}: frame {} is right", ended.number);
+                    incomplete += 1;
+                }
             }
             right += usize::from(is_answered);
+            found += hits.iter().filter(|hit| is_answered && hit.is_hit()).count();
         }
         if is_over {
             continue;
@@ -102,7 +106,10 @@ fn soak(bench: &Bench, subject: &Subject, count_of_frames: usize) {
         }
     }
     let counts = frames.structure().counts();
-    println!("{name}: {right} answered, {incomplete} not shown, {ambiguous} rays ambiguous, {counts:?}");
+    println!(
+        "{name}: {right} answered, {incomplete} not shown, {found} hits, {ambiguous} rays ambiguous, {counts:?}"
+    );
+    assert!(found > 2 * right, "{name}: {found} hits cannot tell right from wrong");
     assert_eq!(counts.frames as usize, count_of_frames);
     assert_eq!(counts.incomplete as usize, incomplete);
     // Growth has headroom, so that pools soon suffice.

@@ -1,0 +1,235 @@
+//! Pictures of a scene that moves, with frames in flight: those that one frame after the other gives.
+
+use std::ops::{ControlFlow, Range};
+
+use glam::{DAffine3, DQuat, DVec3};
+use rasray_frame::{FrameInput, FrameRenderer, Picture, Shown, render_in_order};
+use rasray_gpu::{Device, Timing};
+use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, waves};
+use rasray_metrics::{Image, ImageError};
+use rasray_scene::animation::{
+    Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
+};
+use rasray_scene::{Moment, Scene, builtin};
+use rasray_systems::Spec;
+use rasray_tests::harness::Bench;
+use rasray_tracer::{Keeping, build_until_complete};
+
+const SIZE: [u32; 2] = [24, 16];
+
+/// Every instance on a node of its own, of which the last one swings: right in one second, back in the next.
+fn swinging() -> Scene {
+    let mut scene = builtin::builtin("cornell").expect("it is built in").expect("it needs no parameter");
+    let at_rest =
+        NodeTransform::Parts { translation: DVec3::ZERO, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
+    let count = scene.instances.len();
+    let node = |index| RigNode { name: format!("node {index}"), parent: None, transform: at_rest };
+    let placed = |node: usize| Placement { node, node_from_mesh: scene.instances[node].world_from_mesh };
+    let channel = Channel {
+        node: count - 1,
+        interpolation: Interpolation::Linear,
+        times: vec![0.0, 1.0, 2.0],
+        values: ChannelValues::Translation(vec![[0.0; 3], [0.25, 0.125, 0.0], [0.0; 3]]),
+    };
+    let clip = Clip { name: "swing".to_owned(), duration: 2.0, channels: vec![channel] };
+    scene.animation.rig = Rig {
+        nodes: (0..count).map(node).collect(),
+        placements: (0..count).map(placed).collect(),
+        clips: vec![clip],
+        ..Rig::default()
+    };
+    scene.animation.clips = vec!["swing".to_owned()];
+    scene
+}
+
+/// What one way to render is made of.
+struct Set {
+    gpu: GpuScene,
+    pose: PosePass,
+    path: Path,
+}
+
+fn view(scene: &Scene, moved: f64) -> View {
+    let mut camera = scene.cameras[0].clone();
+    camera.world_from_camera = camera.world_from_camera * DAffine3::from_translation(DVec3::X * moved);
+    View { camera, width: SIZE[0], height: SIZE[1], seed: 7 }
+}
+
+fn sampling() -> Sampling {
+    Sampling { samples: 4, ..Sampling::default() }
+}
+
+fn set(device: &Device, scene: &Scene, tables: &SceneTables) -> Set {
+    let gpu = GpuScene::upload(device, tables, &view(scene, 0.0)).expect("it fits");
+    let pose = PosePass::new(device, scene, tables, &gpu).expect("it fits");
+    let film = Film::new(device, SIZE[0], SIZE[1]).expect("it fits");
+    let path = Path::new(&IntegratorDesc::new(device, &gpu, &film), 1).expect("it fits");
+    Set { gpu, pose, path }
+}
+
+fn tables(scene: &Scene) -> SceneTables {
+    SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole")
+}
+
+fn spec(system: &str, options: &[(&str, &str)]) -> Spec {
+    let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+    Spec::new(system, "robust", given).expect("the options are the system's")
+}
+
+/// Frames through a spec, with what each shows.
+fn renderer(device: &Device, scene: &Scene, spec: &Spec, slots: u32) -> FrameRenderer {
+    let Set { gpu, pose, path } = set(device, scene, &tables(scene));
+    let structure = spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("the options are valid");
+    let keeping = Keeping { slots, ..Keeping::default() };
+    FrameRenderer::new(device, (gpu, Some(pose)), structure, Box::new(path), (keeping, Timing::None, true))
+        .expect("the device works")
+}
+
+fn input(view: View, pose: Option<FramePose>, samples: Range<u32>, continues: bool) -> FrameInput {
+    FrameInput { view, sampling: sampling(), pose, samples, continues }
+}
+
+/// The inputs of frames a quarter of a second apart, with a camera that moves as well.
+fn inputs(renderer: &FrameRenderer, scene: &Scene, count: u32) -> Vec<FrameInput> {
+    let pass = renderer.pose().expect("it was made with one");
+    let frame = |number: u32| {
+        let moment = Moment { seconds: 0.25 * f64::from(number), clips: vec![0] };
+        let pose = pass.frame(scene, &moment).expect("it is the same scene");
+        input(view(scene, 0.01 * f64::from(number)), Some(pose), 0..2, false)
+    };
+    (0..count).map(frame).collect()
+}
+
+/// The picture of one frame, nothing in flight.
+fn still(
+    device: &Device,
+    scene: &Scene,
+    tables: &SceneTables,
+    spec: &Spec,
+    input: &FrameInput,
+) -> Vec<[f32; 3]> {
+    let Set { gpu, pose, path } = set(device, scene, tables);
+    let mut structure =
+        spec.create(device, gpu.geometry(), Some(gpu.binding())).expect("the options are valid");
+    device
+        .submit(|recorder| {
+            if let Some(at) = &input.pose {
+                pose.record(recorder, at);
+            }
+            gpu.record_frame(recorder, &input.view, input.sampling);
+            path.record_reset(recorder);
+        })
+        .expect("the device works");
+    let viewpoint = gpu.viewpoint_of(&input.view);
+    build_until_complete(device, structure.as_mut(), viewpoint, Timing::None).expect("it is built");
+    for wave in waves(SIZE[0] * SIZE[1], input.samples.end, path.wave_capacity()) {
+        let submitted = device.submit(|recorder| path.record_wave(recorder, (&*structure).into(), wave));
+        submitted.expect("the device works").value.expect("the wave fits");
+    }
+    path.film().read(device).expect("the device works")
+}
+
+fn pictures(renderer: &mut FrameRenderer, inputs: Vec<FrameInput>) -> (Vec<Picture>, u64) {
+    let mut pictures = Vec::new();
+    let done = render_in_order(renderer, inputs, |picture| {
+        pictures.push(picture);
+        ControlFlow::Continue(())
+    });
+    let done = done.expect("all frames have pictures");
+    assert_eq!(done.pictures as usize, pictures.len());
+    (pictures, done.repeated)
+}
+
+#[test]
+fn frames_in_flight_are_the_pictures_of_single_frames() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    for spec in [spec("bricks", &[]), spec("bvh", &[("builder", "sah")])] {
+        let mut renderer = renderer(device, &scene, &spec, 3);
+        let inputs = inputs(&renderer, &scene, 6);
+        let (found, _) = pictures(&mut renderer, inputs.clone());
+        assert_eq!(found.len(), 6);
+        let mut different = 0;
+        for (number, (picture, input)) in found.iter().zip(&inputs).enumerate() {
+            let means = picture.film.means();
+            assert_eq!(means, still(device, &scene, &tables(&scene), &spec, input), "frame {number}");
+            assert!(picture.built, "frame {number}: the block moved");
+            // Posed by the host, positions differ in their last bits.
+            let moment = Moment { seconds: 0.25 * number as f64, clips: vec![0] };
+            let posed = scene.at(&moment);
+            let on_host =
+                still(device, &posed, &tables(&posed), &spec, &FrameInput { pose: None, ..input.clone() });
+            let image =
+                |pixels| Image::new(SIZE[0] as usize, SIZE[1] as usize, pixels).expect("pixels of the size");
+            let error = ImageError::measure(&image(&means), &image(&on_host)).expect("images of one size");
+            assert!(error.rmse < 1.0e-3, "frame {number}: {error:?}");
+            different += usize::from(means != found[0].film.means());
+        }
+        assert_eq!(different, 5, "frames differ, or nothing could go wrong");
+    }
+}
+
+#[test]
+fn a_camera_that_moves_alone_builds_nothing_that_does_not_depend_on_it() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    let spec = spec("bvh", &[("builder", "lbvh")]);
+    let mut renderer = renderer(device, &scene, &spec, 2);
+    let mut all = inputs(&renderer, &scene, 5);
+    let pose = all[3].pose.clone();
+    all.iter_mut().for_each(|input| input.pose = pose.clone());
+    let (found, repeated) = pictures(&mut renderer, all.clone());
+    assert_eq!(repeated, 0, "a tree knows what it takes");
+    let built: Vec<bool> = found.iter().map(|picture| picture.built).collect();
+    assert_eq!(built, [true, false, false, false, false]);
+    for (picture, input) in found.iter().zip(&all) {
+        assert_eq!(picture.film.means(), still(device, &scene, &tables(&scene), &spec, input));
+    }
+}
+
+#[test]
+fn what_continues_adds_its_samples() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    let mut renderer = renderer(device, &scene, &spec("bvh", &[("builder", "lbvh")]), 2);
+    let at = inputs(&renderer, &scene, 1).remove(0);
+    let mut submit = |samples: Range<u32>, continues: bool| {
+        renderer
+            .submit(&input(at.view.clone(), at.pose.clone(), samples, continues))
+            .expect("a slot is free");
+        match renderer.take().expect("the device works").expect("one is in flight") {
+            Shown::Picture(picture) => picture.film.pixels,
+            Shown::Nothing => panic!("a tree is complete at once"),
+        }
+    };
+    let whole = submit(0..4, false);
+    let parts = [submit(0..1, false), submit(1..3, true), submit(3..4, true)];
+    let key = |pixels: &[rasray_integrators::FilmPixel]| {
+        pixels.iter().map(|pixel| (pixel.sum.map(f32::to_bits), pixel.samples)).collect::<Vec<_>>()
+    };
+    assert_eq!(key(&parts[2]), key(&whole));
+    assert!(parts[1].iter().all(|pixel| pixel.samples == 3));
+}
+
+#[test]
+fn a_frame_that_is_not_complete_is_no_picture() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    let spec = spec("mmrt", &[("resolution", "24"), ("capacity", "100")]);
+    let mut renderer = renderer(device, &scene, &spec, 2);
+    let all = inputs(&renderer, &scene, 2);
+    renderer.submit(&all[0]).expect("a slot is free");
+    let continued = FrameInput { samples: 2..3, continues: true, ..all[0].clone() };
+    renderer.submit(&continued).expect("a slot is free");
+    let mut shown = 0;
+    while let Some(one) = renderer.take().expect("the device works") {
+        shown += usize::from(matches!(one, Shown::Picture(_)));
+    }
+    assert_eq!(shown, 0, "100 fragments are not enough, and nothing can be added to what is not there");
+    // The film still is what an incomplete build left, although the pools suffice now.
+    renderer.submit(&continued).expect("a slot is free");
+    assert!(matches!(renderer.take(), Ok(Some(Shown::Nothing))));
+    let (found, _) = pictures(&mut renderer, all);
+    assert_eq!(found.len(), 2);
+}
