@@ -123,7 +123,7 @@ impl Build {
             pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }
         if let Some(reorder) = &self.reorder {
-            // Of pages each is sorted by itself.
+            // Each page is sorted separately.
             let (sorted, linked) = match config.storage {
                 Storage::Paged => (target.pools.sizes().elements_of(Pool::Nodes), false),
                 Storage::Sb => (lists, false),

@@ -1,8 +1,8 @@
-//! What the configurations and the contents of all structures say alike.
+//! What the configurations and the contents of all structures have in common.
 
 use crate::{Addressing, Counters};
 
-/// What every configuration says.
+/// What every configuration has.
 #[derive(Clone, Copy, Debug)]
 pub struct Common {
     /// How shaders reach the pools.
@@ -15,7 +15,7 @@ pub struct Common {
 
 /// A configuration of a structure; [`configured!`](crate::configured) makes one of a struct.
 pub trait Configured {
-    /// What every configuration says.
+    /// What every configuration has.
     fn common(&self) -> Common;
 }
 

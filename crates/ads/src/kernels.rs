@@ -29,7 +29,7 @@ impl SceneBinding {
         scene.ok_or(AdsError::Option {
             option: "payload",
             value: payload.to_owned(),
-            expected: "what fragments are shaded by is read from a scene; without one use `index`",
+            expected: "surface attributes of fragments are read from a scene; without one use `index`",
         })
     }
 }

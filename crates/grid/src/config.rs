@@ -3,13 +3,13 @@
 use rasray_ads::{Addressing, AdsError, Counters, Geometry};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
-/// Cells per triangle where their number is left to the rule.
+/// Cells per triangle where the rule chooses their number.
 const DENSITY: f64 = 5.0;
 
-/// Fewest cells along the longest side where their number is left to the rule.
+/// Minimum number of cells along the longest side where the rule chooses it.
 const FEWEST_ALONG: f64 = 4.0;
 
-/// Everything that may be chosen. Nothing changes a hit.
+/// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Config {
     /// Cells along the longest side of the geometry's bounds, 1 to 1024. Absent: five cells per triangle.
@@ -65,7 +65,7 @@ impl Config {
     }
 }
 
-/// Cells along each axis for bounds (lower, upper) in metres: cubes, but where a side is not a whole number of them,
+/// Cells along each axis for bounds (lower, upper) in metres: cubes, except where a side is not a whole number of them,
 /// with `along` on the longest side, or [`DENSITY`] per triangle.
 fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));

@@ -33,7 +33,7 @@ enum Layers {
         store: Visit,
         sort: ListSort,
     },
-    /// The last draw lets lists grow from where they begin to where they end.
+    /// The last draw, which advances lists from their first place to their end.
     Peel {
         peel: RasterPipeline,
         grow: RasterPipeline,
@@ -84,7 +84,7 @@ impl Build {
         let side = config.resolution + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Depths that share a word are put into it one after the other; layers that are peeled are counted.
+        // Words that two depths share are filled one depth after the other; peeled layers are counted.
         let cleared: &[Pool] = match (config.making, config.depth) {
             (Making::Single, Depth::Bits16) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Depths],
             (Making::Single, Depth::Bits32) => &[Pool::Lists, Pool::Blocks, Pool::Heads],
@@ -107,7 +107,7 @@ impl Build {
         if let Some(conservative) = &self.conservative {
             conservative.record(recorder, target, &views);
         }
-        // Long lists are named where triangles with many cells were, so all triangles are visited before.
+        // Long lists are stored where the large-triangle queue was, so all triangles are visited before.
         if let Layers::Single { sort, .. } = &self.layers {
             let long = long_capacity(config, target.pools.sizes());
             sort.record(recorder, target, cells, false, long, shaders);
@@ -120,7 +120,7 @@ impl Build {
     }
 }
 
-/// Two draws a layer, and one in which lists grow to where they end.
+/// Two draws per layer, and one that advances lists to their ends.
 fn record_peeling(
     recorder: &mut Recorder<'_>,
     peel: &RasterPipeline,
