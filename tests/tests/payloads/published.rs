@@ -381,8 +381,7 @@ fn ids_name_triangles_and_change_nothing_else() {
             }
         }
         println!("{name}: {} of {} hit the wall, {diagnostic} bytes", compared.1, compared.0);
-        // Where walls touch, a fragment may be a neighbour's; more often where fragments are as thick as cells are
-        // wide.
+        // Where walls touch, a fragment may be a neighbour's; more often where fragments are as thick as cells.
         let thick = *system == "mmrt" && !options.contains(&("accept", "plane"));
         let least = if thick { 0.9 } else { 0.95 };
         assert!(compared.0 > 500 && compared.1 as f64 >= least * compared.0 as f64, "{name}: {compared:?}");
