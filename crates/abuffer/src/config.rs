@@ -1,6 +1,6 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
 use crate::{Accept, Coverage, March, Payload, Storage, Views};
@@ -117,19 +117,12 @@ impl Config {
     /// # Errors
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         for side in self.camera_resolution {
-            range("camera-resolution", side, 1, 8192, "1 to 8192 columns and rows")?;
+            check_range("camera-resolution", side, 1..=8192, "1 to 8192 columns and rows")?;
         }
-        range("buckets", self.buckets, 1, 32, "1 to 32 buckets per cell")?;
-        range("samples", self.samples, 1, 65535, "1 to 65535 samples per face")?;
+        check_range("buckets", self.buckets, 1..=32, "1 to 32 buckets per cell")?;
+        check_range("samples", self.samples, 1..=65535, "1 to 65535 samples per face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
             return Err(AdsError::Option {
                 option: "page",
@@ -137,9 +130,7 @@ impl Config {
                 expected: "1, 2, 4 or 8 fragments per page",
             });
         }
-        // A dispatch that resumes a search counts its cell before it reads an entry.
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 2, u32::MAX, "2 units or more per dispatch, or rays make no progress")?;
+        check_work_budget(self.work_budget, true)?;
         let thickness = self.thickness.unwrap_or(0.0);
         if !(thickness >= 0.0 && thickness.is_finite()) {
             return Err(AdsError::Option {

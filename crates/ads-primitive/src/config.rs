@@ -1,6 +1,6 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::primitive as ids;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
@@ -139,22 +139,14 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels along a side")?;
-        range("tile", self.tile, 1, 64, "1 to 64 pixels along a side")?;
-        range("buckets", self.buckets, 1, 64, "1 to 64 buckets per tile")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 pixels along a side")?;
+        check_range("tile", self.tile, 1..=64, "1 to 64 pixels along a side")?;
+        check_range("buckets", self.buckets, 1..=64, "1 to 64 buckets per tile")?;
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             let expected = "the binning builder does not draw: use builder `raster`";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
         }
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more per dispatch, or rays make no progress")
+        check_work_budget(self.work_budget, false)
     }
 
     /// Specialisation constants: id and bits.

@@ -75,6 +75,11 @@ impl<C> Parts<C> {
         usual_rounds(self.work_budget)
     }
 
+    /// The same for structures of triangles in cells, which test rays from far outside against every triangle.
+    pub fn rounds_with_distant_rays(&self) -> u32 {
+        self.usual_rounds() + 2 * self.rounds(self.geometry.triangle_count())
+    }
+
     /// What passes work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, header_pass: &self.header_pass, scene }

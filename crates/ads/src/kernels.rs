@@ -32,6 +32,11 @@ impl SceneBinding {
             expected: "surface attributes of fragments are read from a scene; without one use `index`",
         })
     }
+
+    /// The suffix of modules that test alpha masks: `.alpha` where a draw is masked, else nothing.
+    pub fn mask_suffix(scene: Option<&Self>) -> &'static str {
+        if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
+    }
 }
 
 /// What the kernels of a structure are made from.

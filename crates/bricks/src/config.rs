@@ -1,6 +1,6 @@
 //! Options of bricks.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 
@@ -80,21 +80,13 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("grid", self.grid.unwrap_or(1), 1, SIDE_LIMIT, "1 to 1024 cells along a side")?;
-        range("slices", self.slices.unwrap_or(1), 1, SLICE_LIMIT, "1 to 1024 depth slices")?;
+        check_range("grid", self.grid.unwrap_or(1), 1..=SIDE_LIMIT, "1 to 1024 cells along a side")?;
+        check_range("slices", self.slices.unwrap_or(1), 1..=SLICE_LIMIT, "1 to 1024 depth slices")?;
         if let (Views::Axes, Some(slices)) = (self.views, self.slices) {
             let expected = "views along axes have cells of one size: use `grid`, or views `cube`";
             return Err(AdsError::Option { option: "slices", value: slices.to_string(), expected });
         }
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more per dispatch, or rays make no progress")
+        check_work_budget(self.work_budget, false)
     }
 
     /// Specialisation constants: id and bits.

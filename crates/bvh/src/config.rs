@@ -1,6 +1,6 @@
 //! Options of the BVH.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
 
 /// What builds the tree.
@@ -57,16 +57,8 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let refuse = |option, value: u32, expected| {
-            Err(AdsError::Option { option, value: value.to_string(), expected })
-        };
-        if !(1..=BVH_LEAF_LIMIT).contains(&self.leaf) {
-            return refuse("leaf", self.leaf, "1 to 16 triangles per leaf");
-        }
-        match self.work_budget {
-            Some(0) => refuse("work budget", 0, "1 unit or more per dispatch, or rays make no progress"),
-            _ => Ok(()),
-        }
+        check_range("leaf", self.leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
+        check_work_budget(self.work_budget, false)
     }
 
     /// Options as name and value, for reports.

@@ -1,6 +1,6 @@
 //! Options of a grid.
 
-use rasray_ads::{Addressing, AdsError, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Counters, Geometry, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
 /// Cells per triangle where the rule chooses their number.
@@ -42,16 +42,9 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let check = |option, value: u32, highest, expected| {
-            if (1..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        check("grid", self.cells.unwrap_or(1), GRID_SIDE_LIMIT, "1 to 1024 cells along the longest side")?;
-        let expected = "1 unit or more per dispatch, or rays make no progress";
-        check("work budget", self.work_budget.unwrap_or(1), u32::MAX, expected)
+        let expected = "1 to 1024 cells along the longest side";
+        check_range("grid", self.cells.unwrap_or(1), 1..=GRID_SIDE_LIMIT, expected)?;
+        check_work_budget(self.work_budget, false)
     }
 
     /// Options as name and value, for reports.

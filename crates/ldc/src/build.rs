@@ -3,7 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
+    Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
@@ -18,8 +19,7 @@ const DRAWS: u32 = 1;
 #[derive(Debug)]
 pub struct Build {
     large: Option<LargePass>,
-    count: Visit,
-    scan: Scan,
+    lengths: Lengths,
     layers: Layers,
     conservative: Option<Visit>,
     attributes: Option<ComputePipeline>,
@@ -48,12 +48,11 @@ impl Build {
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload == Payload::Attributes;
         if stored {
             SceneBinding::for_payload(scene, "attributes")?;
         }
-        let masked = if alpha { ".alpha" } else { "" };
+        let masked = SceneBinding::mask_suffix(scene);
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let covered = |name| visits.visit("build_raster", name, masked);
         let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
@@ -67,8 +66,7 @@ impl Build {
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
             large: visits.large("build_1_large")?,
-            count: covered("build_2_count")?,
-            scan: Scan::new(pipelines, "build_3_scan")?,
+            lengths: Lengths::new(pipelines, covered("build_2_count")?, "build_3_scan")?,
             layers,
             conservative: kept
                 .then(|| visits.visit("build_raster.conservative", "build_6_conservative", ""))
@@ -95,8 +93,7 @@ impl Build {
             large.record(recorder, target);
         }
         let views = [ViewDraw { side, views: DRAWS, first: 0 }];
-        self.count.record(recorder, target, &views);
-        self.scan.record(recorder, target, "ldc/build_3_scan", cells, 0, shaders);
+        self.lengths.record(recorder, target, &views, cells, shaders);
         match &self.layers {
             Layers::Single { store, .. } => store.record(recorder, target, &views),
             Layers::Peel { peel, grow } => {

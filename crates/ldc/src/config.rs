@@ -1,6 +1,6 @@
 //! Options of the layered depth cube and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 
@@ -153,18 +153,12 @@ impl Config {
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
-        if !(1..=8192).contains(&self.resolution) {
-            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells along a side");
-        }
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
             return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells along a side");
         }
-        if !(1..=2).contains(&self.levels) {
-            return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");
-        }
-        if !(1..=1024).contains(&self.layers) {
-            return refused("layers", self.layers.to_string(), "1 to 1024 layers");
-        }
+        check_range("levels", self.levels, 1..=2, "1 or 2 levels of blocks")?;
+        check_range("layers", self.layers, 1..=1024, "1 to 1024 layers")?;
         if !(0.0..=1.0).contains(&self.tolerance) {
             return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
         }
@@ -185,15 +179,7 @@ impl Config {
             let expected = "coverage `hardware` and peeled layers need builder `raster`: the binning builder does not draw";
             return refused("builder", self.builder.name().to_owned(), expected);
         }
-        match self.work_budget {
-            // A dispatch that resumes a search counts its cell before it reads an entry.
-            Some(budget @ 0..2) => refused(
-                "work budget",
-                budget.to_string(),
-                "2 units or more per dispatch, or rays make no progress",
-            ),
-            _ => Ok(()),
-        }
+        check_work_budget(self.work_budget, true)
     }
 
     /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.

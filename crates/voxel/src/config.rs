@@ -1,6 +1,6 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 
@@ -220,19 +220,16 @@ impl Config {
     /// # Errors
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
-        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels along a side")?;
-        range("samples", self.samples, 1, 64, "1 to 64 steps per voxel")?;
-        range("page", self.page, 1, 8, "1 to 8 fragments per page")?;
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more per dispatch, or rays make no progress")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
+        check_range(
+            "grid",
+            self.grid.unwrap_or(1),
+            1..=numbers::VOXEL_GRID_LIMIT,
+            "1 to 1024 voxels along a side",
+        )?;
+        check_range("samples", self.samples, 1..=64, "1 to 64 steps per voxel")?;
+        check_range("page", self.page, 1..=8, "1 to 8 fragments per page")?;
+        check_work_budget(self.work_budget, false)?;
         if self.accept == Accept::Plane && self.march == March::Samples {
             return Err(AdsError::Option {
                 option: "accept",
