@@ -2,8 +2,8 @@
 //! GLSL itself, and what Rust has from its text, whatever features are on: numbers, records, ids of specialisation
 //! constants.
 //!
-//! Modules come from the folder `prebuilt` where it is, as in packages (`tools/package` makes it), so that whoever
-//! depends on a package needs no C++ toolchain. Without it they are compiled, with the feature `compile`.
+//! Modules come from the folder `prebuilt` where it is, as in packages (`tools/package` makes it), so that users of
+//! a package need no C++ toolchain. Without it they are compiled, with the feature `compile`.
 //! `RASRAY_PREBUILT` names a folder to make such a folder of what was compiled.
 
 use std::collections::BTreeMap;

@@ -39,7 +39,7 @@ layout(set = STRUCTURE_SET, binding = 7,
 const bool ABUFFER_BUCKETED = ABUFFER_STORAGE == ABUFFER_STORAGE_LLB || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB
     || ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 
-// Whether a cell has several lists: where the nearest fragments alone are kept it has one, whatever the storage.
+// Whether a cell has several lists: where only the nearest fragments are kept it has one, whatever the storage.
 const bool ABUFFER_HAS_BUCKETS = ABUFFER_BUCKETED && ABUFFER_SINGLE_LAYER == 0u;
 
 // Whether cells know the smallest and largest depth of their fragments.
@@ -51,7 +51,7 @@ const bool ABUFFER_PAGED = ABUFFER_STORAGE == ABUFFER_STORAGE_PAGED;
 // Nodes that link both ways.
 const bool ABUFFER_DOUBLY = ABUFFER_STORAGE == ABUFFER_STORAGE_DLL || ABUFFER_STORAGE == ABUFFER_STORAGE_DLLB;
 
-// Nodes of a list one behind the other, without links.
+// Contiguous nodes of a list, without links.
 const bool ABUFFER_CONTIGUOUS = ABUFFER_STORAGE == ABUFFER_STORAGE_SB;
 
 // Whether lists can be read from their far end.
@@ -60,7 +60,7 @@ const bool ABUFFER_HAS_FAR_END = ABUFFER_DOUBLY || ABUFFER_CONTIGUOUS;
 // Whether cells store how far triangles reach in depth from their fragments.
 const bool ABUFFER_HAS_EXTENT = ABUFFER_TEST != ABUFFER_TEST_DEPTHS || ABUFFER_ACCEPT == ABUFFER_ACCEPT_SLOPE;
 
-// Words of bounds a cell: ends, the extent, where there are buckets as well as an extent the scale, and the
+// Words of bounds per cell: ends, the extent, where there are buckets as well as an extent the scale, and the
 // head of its conservative list.
 const uint ABUFFER_BOUNDS_STRIDE = (ABUFFER_HAS_ENDS ? 2u : 0u)
     + (ABUFFER_HAS_EXTENT ? (ABUFFER_HAS_BUCKETS ? 2u : 1u) : 0u) + (ABUFFER_HAS_CONSERVATIVE ? 1u : 0u);
@@ -78,7 +78,7 @@ const uint ABUFFER_DATA_STRIDE = ABUFFER_PAYLOAD_WORDS + ABUFFER_IDS;
 // Word of a node's first link: behind the depth, and behind the payload where that is inline.
 const uint ABUFFER_LINK_WORD = ABUFFER_INLINE != 0u ? 1u + ABUFFER_DATA_STRIDE : 1u;
 
-// Words of a node's links. Nodes in pages and contiguous ones have none; decoupled contiguous ones name their
+// Words of a node's links. Nodes in pages and contiguous ones have none; decoupled contiguous ones refer to their
 // payload instead, because sorting moves them.
 const uint ABUFFER_LINK_WORDS = ABUFFER_PAGED ? 0u
     : (ABUFFER_CONTIGUOUS ? (ABUFFER_INLINE != 0u ? 0u : 1u) : (ABUFFER_DOUBLY ? 2u : 1u));
@@ -101,8 +101,8 @@ void abuffer_widen_bounds(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[word + 1u], bits);
 }
 
-// The same for one end alone, where only the nearest fragments are kept: the near one is known before they
-// are stored, the far one is that of what is.
+// The same for one end only, where only the nearest fragments are kept: the near end is known before they
+// are stored, the far end is that of the stored fragments.
 void abuffer_widen_near(AbufferRef s, uint cell, float z) {
     atomicMax(ABUFFER_BOUNDS(s)[cell * ABUFFER_BOUNDS_STRIDE], ~floatBitsToUint(z));
 }
@@ -135,8 +135,8 @@ void abuffer_store_scale(AbufferRef s, uint cell) {
     ABUFFER_BOUNDS(s)[word + 3u] = floatBitsToUint(scale);
 }
 
-// Sets of marks of triangles: those that have a fragment, and where that decides what conservative lists keep, those
-// that it does.
+// Sets of marks of triangles: those that have a fragment; and where that decides what conservative lists keep, also
+// those that conservative lists keep.
 uint abuffer_mark_sets() {
     return ABUFFER_COVERAGE == ABUFFER_COVERAGE_EDGE_ON ? 2u : 1u;
 }

@@ -13,7 +13,7 @@ uvec4 abuffer_pack_attributes(uint primitive, vec2 barycentrics) {
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_NORMAL) {
         return uvec4(stored_pack_normal(s.normal), 0u, 0u, 0u);
     }
-    // However thin, what bounds a volume is told from a thin wall.
+    // However thin a volume is, its boundary is distinguished from a thin wall.
     float thickness = s.thickness > 0.0 ? max(s.thickness, 1.0 / 65535.0) : 0.0;
     return uvec4(stored_pack(s), stored_pack_terms(s), packUnorm2x16(vec2(s.ior / 4.0, thickness)));
 }

@@ -1,6 +1,6 @@
 // What: the length of each list, contiguous storage only.
 // Reads: geometry, header, with ALPHA_SCENE the scene. Writes: lists.
-// Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored one behind the other.
+// Source: MMRT section 4, S-buffer: fragments are counted first, so that lists can be stored contiguously.
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/raster.glsl"

@@ -1,6 +1,6 @@
 // What: stores each fragment: a node in the list of its cell and bucket, its payload next to it.
 // Reads: geometry, bounds, with PAYLOAD_ATTRIBUTES the scene. Writes: lists, nodes, data, header.demand, marks; without
-// buckets and of a single layer the bounds.
+// buckets and with a single layer the bounds.
 // Source: MMRT section 3.3, second geometry pass.
 #version 460
 #include "contract/extensions.glsl"

@@ -1,5 +1,5 @@
 // What: keeps the triangle in cells that it reaches into without covering their centre, so that every cell
-// names all that a ray may hit in it.
+// lists all that a ray may hit in it.
 // Reads: geometry, header. Writes: bounds (heads, marks), conservative lists, header.conservative_demand. Conservative coverage only.
 // Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460

@@ -1,6 +1,6 @@
 // What: counts the triangles that rays cannot hit: those with an area that no cell of any view keeps.
 // Reads: header, bounds, geometry. Writes: header.lost. One invocation per word of marks.
-// Source: not in the paper, which names edge-on triangles as its open limit.
+// Source: not in the paper, which mentions edge-on triangles as a limitation.
 #version 460
 #include "contract/extensions.glsl"
 #include "ads/geometry.glsl"

@@ -1,4 +1,4 @@
-// What: tests one candidate that a cell lists by itself: a triangle, or the stored plane of a fragment.
+// What: tests one candidate that a cell lists: a triangle, or the stored plane of a fragment.
 // Reads: nodes, data, geometry (of triangles). Writes: nothing.
 #ifndef ABUFFER_CANDIDATES_GLSL
 #define ABUFFER_CANDIDATES_GLSL
@@ -9,7 +9,8 @@
 #include "abuffer/nodes.glsl"
 #include "abuffer/stored_plane.glsl"
 
-// Whether a fragment without an id replaces the best hit: nearer, or as near as another such and lower in its words.
+// Whether a fragment without an id replaces the best hit: it is nearer, or as near as another such one with lower
+// words.
 bool abuffer_is_better(AbufferRef s, Hit best, float t, uint link) {
     bool tie = t == best.t && best.primitive == PRIMITIVE_UNKNOWN;
     return t < best.t || (tie && abuffer_payload_is_lower(s, link, floatBitsToUint(best.a)));
@@ -38,7 +39,7 @@ void abuffer_accept_depth(AbufferRef s, Ray ray, uint primitive, uint link, floa
 }
 
 // Tests the stored plane of a fragment within [t_low, t_high], logs it, and lets it replace the best hit if
-// it may. Rays that leave a surface begin a cell off it, so that they need not be told from others. The
+// it may. Rays that leave a surface begin a cell off it, so that they need no special case. The
 // caller counts the test.
 void abuffer_test_stored_plane(AbufferRef s, Ray ray, uint link, float t_low, float t_high, inout Hit best) {
     precise vec3 origin = ray.origin - abuffer_eye(s);

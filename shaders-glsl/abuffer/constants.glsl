@@ -8,12 +8,12 @@
 #define ABUFFER_MARCH_DDA 2u
 #define ABUFFER_MARCH_PYRAMID 3u
 
-// How a ray steps, as modules tell it apart: from cell to cell, skipping blocks of them, or by samples.
+// How a ray steps, by which modules differ: from cell to cell, skipping blocks of them, or by samples.
 #define ABUFFER_STEP_CELLS 0u
 #define ABUFFER_STEP_SKIPS 1u
 #define ABUFFER_STEP_SAMPLES 2u
 
-// What a ray tests, as modules tell it apart: triangles alone, the planes of fragments, or their depths.
+// What a ray tests, by which modules differ: triangles only, the planes of fragments, or their depths.
 #define ABUFFER_TEST_TRIANGLES 0u
 #define ABUFFER_TEST_PLANES 1u
 #define ABUFFER_TEST_DEPTHS 2u
@@ -38,8 +38,8 @@
 #define ABUFFER_PAYLOAD_PLANE 3u
 
 // What decides that a cell is covered; conservative: exact, and triangles that reach into a cell outside of its
-// centre are kept, so that triangles can be tested in place of planes; edge-on: of these only such as no cell
-// keeps or as are seen edge-on.
+// centre are kept, so that triangles can be tested in place of planes; edge-on: of these only triangles that no cell
+// keeps or that are seen edge-on.
 #define ABUFFER_COVERAGE_HARDWARE 0u
 #define ABUFFER_COVERAGE_EXACT 1u
 #define ABUFFER_COVERAGE_CONSERVATIVE 2u
@@ -57,7 +57,7 @@
 #define ABUFFER_STORAGE_SB 4u
 #define ABUFFER_STORAGE_PAGED 5u
 
-// A contiguous list of more nodes than this is searched for the depth to begin at.
+// A contiguous list of more nodes than this is bisected for the depth to begin at.
 #define ABUFFER_SEEK_LENGTH 16u
 
 // How far a fragment's plane reaches beyond its triangle, in widths of a cell at that depth. More closes
@@ -67,8 +67,8 @@
 // Threads in a workgroup of the build's compute passes.
 #define ABUFFER_GROUP_SIZE 64u
 
-// Half side of the near region over cells a side times the distance of the geometry: closer to the eye a point's cell is lost
-// in rounding. NEAR_REGION where no triangle may be lost.
+// Half side of the near region over the number of cells along a side times the distance of the geometry: closer to the
+// eye, the cell of a point is lost in rounding. NEAR_REGION where no triangle may be lost.
 #define ABUFFER_NEAR_BOX 4.8e-7
 
 // Margin for the rounding of what is subtracted from the eye, over the distance of the geometry and the eye's own.

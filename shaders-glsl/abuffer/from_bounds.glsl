@@ -17,8 +17,8 @@ void abuffer_from_bounds(AbufferRef s, vec3 lower, vec3 upper) {
     // The subtraction above rounds, and so does the one of the passes.
     float rounding = ABUFFER_ROUNDING * (reach + largest_axis(abs(eye)));
     float triangle_rounding = ABUFFER_HEADER(s).rounding_per_reach * reach;
-    // Planes and depths stand for all that is in their cell, so rays hit them up to a cell beyond the geometry. A ray that
-    // ended at the bounds would not come behind what lies on them.
+    // Planes and depths represent all that is in their cell, so rays hit them up to a cell beyond the geometry. A ray
+    // that ended at the bounds would miss surfaces that lie on them.
     float margin = ABUFFER_CONSERVATIVE ? triangle_rounding : rounding + widest * reach;
     // Closer to the eye than this a point's cell is lost in rounding. Where nothing may be lost the march needs more, and
     // what a ray hits outside of the near region is not behind the eye.

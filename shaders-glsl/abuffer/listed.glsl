@@ -1,7 +1,7 @@
-// What: tests the triangles that are listed by themselves, one by one: those of the near region, those of a cell's
+// What: tests listed triangles one by one: those of the near region, those of a cell's
 // conservative list, or all.
 // Reads: near-region list, conservative lists, geometry. Writes: header.corrupted.
-// Source: not in the paper, which keeps fragments alone.
+// Source: not in the paper, which keeps only fragments.
 #ifndef ABUFFER_LISTED_GLSL
 #define ABUFFER_LISTED_GLSL
 
@@ -32,7 +32,8 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
         count = source == ABUFFER_LISTED_ALL ? geometry_triangle_count()
             : min(ABUFFER_HEADER(s).near_demand, ABUFFER_HEADER(s).near_capacity);
     }
-    // Triangles of a conservative list count wherever they are hit, and so do all where nothing else is tested.
+    // Triangles of a conservative list count wherever they are hit, and so do all triangles where nothing else is
+    // tested.
     bool anywhere = in_conservative || ABUFFER_CONSERVATIVE;
     float t_low = anywhere ? -ABUFFER_INFINITY : traversal.segment.t_begin - traversal.segment.t_error;
     float t_high = anywhere ? ABUFFER_INFINITY : traversal.segment.t_end + traversal.segment.t_error;
@@ -49,7 +50,7 @@ bool abuffer_test_listed(AbufferRef s, Ray ray, uint source, inout AbufferTraver
             ConservativeNode node = conservative_node(s, search.link);
             search.link = node.next;
             primitive = node.primitive;
-            // With planes it is the stay in the cell that counts, with or without skipping.
+            // With planes, only hits within the ray's interval in the cell count, with or without skipping.
             bool intersects = (ABUFFER_SKIP == 0u && ABUFFER_CONSERVATIVE) || conservative_intersects(node, depths.x,
                 depths.y);
             if (primitive != PRIMITIVE_NONE && !intersects) {

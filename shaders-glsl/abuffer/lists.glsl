@@ -1,5 +1,5 @@
-// What: the lists of a cell, behind which stands one of several storages: how a fragment is put into one, and
-// how one is read from either end.
+// What: the lists of a cell, in one of several storages: how a fragment is put into one, and how one is
+// read from either end.
 // Reads, writes: lists, nodes, header.demand, header.corrupted.
 // Source: MMRT section 3.3 and table 2. Linked: a head, doubly linked also a tail, of each bucket. Contiguous: a
 // first place of each cell, and behind all of those the counts. Paged: the word that leads to the first page.
@@ -60,7 +60,7 @@ uint abuffer_allocate(AbufferRef s, uint list) {
         node = ABUFFER_LISTS(s)[list] + atomicAdd(ABUFFER_LISTS(s)[count + list], 1u);
         uint end = list + 1u < count ? ABUFFER_LISTS(s)[list + 1u] : ABUFFER_HEADER(s).demand;
         if (node >= end) {
-            // More than the count pass saw would land in another list.
+            // More fragments than the count pass found would overwrite another list.
             atomicAdd(ABUFFER_HEADER(s).corrupted, 1u);
             return 0u;
         }
@@ -71,8 +71,8 @@ uint abuffer_allocate(AbufferRef s, uint list) {
 }
 
 // Puts a node with its depth into its list. Linked: in front. Nodes start out zeroed, so `prev` of the newest
-// is 0. The only writer of the old head's `prev` is the one that took its place, and the only writer of the
-// tail is the one that found the list empty.
+// is 0. The only writer of the old head's `prev` is the thread that replaced it, and the only writer of the
+// tail is the thread that found the list empty.
 void abuffer_push(AbufferRef s, uint list, uint link, float z) {
     abuffer_set_z(s, link, z);
     if (ABUFFER_CONTIGUOUS || ABUFFER_PAGED) {
@@ -120,7 +120,7 @@ AbufferCursor abuffer_list_resume(AbufferRef s, uint list, bool backward, uint l
     return cursor;
 }
 
-// Whether a link names a node that was stored; one that does not is counted.
+// Whether a link points to a node that was stored; a link that does not is counted.
 bool abuffer_is_stored(AbufferRef s, uint link) {
     if (link - 1u < abuffer_stored(s)) {
         return true;
@@ -146,7 +146,7 @@ uint abuffer_list_next(AbufferRef s, inout AbufferCursor cursor) {
     return link;
 }
 
-// Skips what follows a node in its order: the rest of the list, or of the page, where pages alone are sorted.
+// Skips what follows a node in its order: the rest of the list, or of the page, where only pages are sorted.
 void abuffer_list_skip(AbufferRef s, uint link, inout AbufferCursor cursor) {
     cursor.link = ABUFFER_PAGED ? page_link_of_next(s, link) : 0u;
 }

@@ -1,4 +1,4 @@
-// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 names none. Nodes in
+// What: one fragment: the words of its node and of its payload. A link is a node's number + 1; 0 is none. Nodes in
 // pages are numbered over all slots.
 // Reads, writes: nodes, data, header.demand.
 // Source: MMRT section 3.3 and table 2. Decoupled payload lies in a pool of its own, inline payload between a
@@ -46,7 +46,7 @@ void abuffer_set_prev(AbufferRef s, uint link, uint prev) {
     ABUFFER_NODES(s)[abuffer_node_word(link) + ABUFFER_LINK_WORD + 1u] = prev;
 }
 
-// A word of a fragment's payload. A contiguous node that names a payload past the end is counted and gives 0.
+// A word of a fragment's payload. A contiguous node whose payload is past the end is counted and gives 0.
 uint abuffer_data(AbufferRef s, uint link, uint word) {
     if (ABUFFER_INLINE != 0u) {
         return ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word];
@@ -62,7 +62,7 @@ uint abuffer_data(AbufferRef s, uint link, uint word) {
     return ABUFFER_DATA(s)[place * ABUFFER_DATA_STRIDE + word];
 }
 
-// Stores a word of payload, before anything is sorted: until then payload and node have one number.
+// Stores a word of payload, before anything is sorted: until then payload and node have the same number.
 void abuffer_set_data(AbufferRef s, uint link, uint word, uint value) {
     if (ABUFFER_INLINE != 0u) {
         ABUFFER_NODES(s)[abuffer_node_word(link) + 1u + word] = value;

@@ -1,5 +1,5 @@
 // What: where the pyramids of an A-buffer are, the cube's and the camera's: behind the bounds of all cells
-// and the marks; and what a cell brings to them.
+// and the marks; and the depths of a cell in them.
 // Reads: header, bounds, conservative lists. Writes: bounds, of blocks.
 // Source: not in the paper; DIRT section 4.1.1 has the same over lists of triangles.
 #ifndef ABUFFER_PYRAMID_GLSL

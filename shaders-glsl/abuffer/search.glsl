@@ -31,7 +31,7 @@ struct AbufferSearch {
     bool in_conservative;       // the conservative list has been begun
 };
 
-// Whether the depths that a fragment stands for overlap those of the ray: [low, high] holds the depths looked for.
+// Whether the depths that a fragment represents overlap those of the ray: [low, high] is the interval searched.
 bool abuffer_intersects(AbufferRef s, AbufferSearch search, uint primitive, float z, float low, float high) {
     if (ABUFFER_TEST != ABUFFER_TEST_DEPTHS) {
         return z >= low && z <= high;
@@ -79,7 +79,7 @@ bool abuffer_search(AbufferRef s, Ray ray, float origin_z, float direction_z, bo
         first = bucket_of(low, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
         last = bucket_of(high, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     }
-    // Bounds that are no numbers must not lead beyond the lists of the cell.
+    // NaN bounds must not lead beyond the lists of the cell.
     first = min(first, ABUFFER_BUCKETS - 1u);
     last = clamp(last, first, ABUFFER_BUCKETS - 1u);
     bool backward = !away && ABUFFER_HAS_FAR_END;

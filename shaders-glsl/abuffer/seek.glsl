@@ -1,6 +1,6 @@
-// What: moves the begin of a sorted list towards the depths that are looked for, where the storage allows it.
+// What: moves the begin of a sorted list towards the depths that are searched, where the storage allows it.
 // Reads: lists, nodes. Writes: nothing.
-// Source: MMRT section 4, comparison of storages: long contiguous lists are searched by halves, and all
+// Source: MMRT section 4, comparison of storages: long contiguous lists are bisected, and all
 // storages but singly linked lists are skipped where they end before the ray's depths begin.
 #ifndef ABUFFER_SEEK_GLSL
 #define ABUFFER_SEEK_GLSL
@@ -43,7 +43,7 @@ uint abuffer_halve(AbufferRef s, AbufferCursor cursor, float low, float high, in
 // Moves the begin of a sorted list. Only nodes outside [low, high] are skipped.
 void abuffer_seek(AbufferRef s, uint list, float low, float high, inout AbufferCursor cursor, inout TraceState state,
     inout uint work) {
-    // Where there are buckets, the cell's bounds have told already.
+    // Where there are buckets, the cell's bounds were tested before.
     if (cursor.link == 0u || ABUFFER_BUCKETED || !ABUFFER_HAS_FAR_END) {
         return;
     }

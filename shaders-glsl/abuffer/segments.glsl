@@ -1,7 +1,7 @@
-// What: the segments of a ray, one after the other: what the camera sees of it, then those in the faces of the cube.
+// What: the segments of a ray, in order: those in the camera's view, then those in the faces of the cube.
 // Reads: header. Writes: nothing.
 // Source: MMRT section 3.4. Every view that sees a segment is marched and the nearest hit counts. The camera
-// comes first: what it finds ends the faces early.
+// comes first: a hit there ends the traversal of the faces early.
 #ifndef ABUFFER_SEGMENTS_GLSL
 #define ABUFFER_SEGMENTS_GLSL
 
@@ -20,7 +20,7 @@
 
 #define ABUFFER_SEGMENT_LIMIT (SEGMENT_LIMIT + ABUFFER_STAGE_FACES)
 
-// How far the segments of a ray have been followed.
+// How far the segments of a ray have been traversed.
 struct AbufferProgress {
     uint stage;           // the next one
     float t;              // where the next segment in a face begins

@@ -1,9 +1,9 @@
 // What: skips blocks of cells that hold nothing at a ray's depths, in the exact march.
 // Reads: header, bounds. Writes: nothing.
 // Source: not in the paper; DIRT section 4.2.1 skips tiles.
-// What a fragment's plane stands for ends with the ray's stay in its cell, so cells that are searched must be
-// the same, with the same stays, with skipping and without. Left out are only cells whose fragments the search
-// would refuse one by one.
+// A fragment's plane represents the surface only within the ray's interval in its cell, so the searched cells and the
+// intervals must be the same with skipping and without. Only cells are skipped whose fragments the search would
+// refuse one by one.
 #ifndef ABUFFER_SKIP_GLSL
 #define ABUFFER_SKIP_GLSL
 
@@ -15,7 +15,7 @@
 vec2 abuffer_skip_depths(float origin_z, float direction_z, float t_low, float t_high) {
     vec2 z = origin_z + vec2(t_low, t_high) * direction_z;
     float rounding = 9.6e-7 * (abs(origin_z) + max(abs(t_low), abs(t_high)) * abs(direction_z));
-    // What lies before the eye counts as at the eye.
+    // Negative depths count as zero.
     return vec2(min(z.x, z.y) - rounding, max(max(z.x, z.y) + rounding, 0.0));
 }
 
@@ -43,7 +43,7 @@ bool abuffer_skip(AbufferRef s, inout AbufferTraversal traversal, AbufferSearch 
         if ((over.step_x || over.step_y) && over.t_out > best) {
             break;
         }
-        // Stays in cells are widened by the errors of their ends, of which only the block's are known here.
+        // Intervals in cells are widened by the errors of their ends, of which only the block's are known here.
         float widening = 1.6e-5 * (max(abs(traversal.cells.t_in), abs(over.t_out)) + reach) + over.error_out
             + traversal.cells.error_in;
         vec2 depths = abuffer_skip_depths(traversal.origin.z, traversal.direction.z, traversal.cells.t_in - widening,

@@ -96,7 +96,7 @@ void abuffer_restore_progress(TraceState state, vec2 clip, out AbufferProgress p
     uint flags = state.cursor[0];
     view = bits_get(flags, ABUFFER_CURSOR_VIEW);
     ends = vec2(uintBitsToFloat(state.cursor[1]), uintBitsToFloat(state.cursor[2]));
-    // Before the faces none of them has been followed.
+    // Before the faces, none of them has been traversed.
     bool in_faces = view != ABUFFER_CAMERA && ABUFFER_HAS_CUBE;
     progress = AbufferProgress(bits_get(flags, ABUFFER_CURSOR_STAGE), in_faces ? ends.y : clip.x);
 }

@@ -22,11 +22,11 @@ layout(constant_id = 20) const uint ABUFFER_VIEWS = ABUFFER_VIEWS_CUBE;
 layout(constant_id = 21) const uint ABUFFER_SINGLE_LAYER = 0u;
 // Whether fragments keep their triangle behind a payload without it.
 layout(constant_id = 22) const uint ABUFFER_IDS = 0u;
-// Whether samples look at a place in their steps that is the ray's own.
+// Whether each ray places its samples at an offset of its own within their steps.
 layout(constant_id = 23) const uint ABUFFER_JITTER = 0u;
 
 // How rays step and what they test, ABUFFER_STEP_* and ABUFFER_TEST_*. Each is most of a trace's code, so modules that
-// trace are compiled once for each (permutations.txt) and hold one alone; elsewhere the options decide.
+// trace are compiled once for each (permutations.txt); elsewhere the options decide.
 #ifdef ABUFFER_STEPS
 const uint ABUFFER_STEP = ABUFFER_STEPS;
 #else
@@ -62,7 +62,7 @@ struct AbufferHeader {
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
     uint unsorted;        // lists longer than the reorder passes sort
-    uint corrupted;       // list entries that name no node
+    uint corrupted;       // list entries with an invalid index
     uint resolution;      // cells along a side of a face, border not counted
     uint samples;         // marching samples per face, ABUFFER_MARCH_SAMPLES only
     float thickness;      // metres, ABUFFER_ACCEPT_THICKNESS only
@@ -85,14 +85,14 @@ struct AbufferHeader {
     vec3 camera_z;        // third row of that matrix: depth
     uint lost;            // triangles with an area that no cell of any view keeps
     uint triangles;       // triangles of the geometry that there are marks for
-    // triangles kept outside of centres, also those beyond the capacity; only with conservative lists
+    // triangles that conservative lists keep, also those beyond the capacity
     uint conservative_demand;
     uint conservative_capacity; // triangles that the conservative lists hold
     float reach;          // metres: largest coordinate of the geometry relative to the eye
     float rounding;       // metres: how far rounding moves a triangle against a ray; only with conservative lists
     uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
-    uint large_capacity;   // triangles that their queue holds
-    uint groups[3];       // workgroups for them
+    uint large_capacity;   // triangles that the large-triangle queue holds
+    uint groups[3];       // workgroups for those triangles
     uvec2 bounds_address; // device address of the bounds; zero with descriptors, as all that follow
     uvec2 lists_address;  // device address of the heads and tails of lists
     uvec2 nodes_address;  // device address of the nodes
@@ -107,7 +107,7 @@ struct AbufferBounds {
     bool empty;
     float z_min;
     float z_max;
-    float scale;          // buckets a metre
+    float scale;          // buckets per metre
     float extent;         // largest |depth - z| of the fragments' planes within the cell
 };
 

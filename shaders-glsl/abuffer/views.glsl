@@ -57,12 +57,12 @@ vec3 abuffer_view_from_world(AbufferRef s, vec3 p, uint view) {
         abuffer_along(ABUFFER_HEADER(s).camera_z, p));
 }
 
-// Width of a cell a metre of distance from the eye along the largest axis of its view, in the world.
+// Width of a cell per metre of distance from the eye along the largest axis of its view, in the world.
 float abuffer_cell_slope(AbufferRef s, uint view) {
     if (view != ABUFFER_CAMERA) {
         return 2.0 / float(ABUFFER_HEADER(s).resolution);
     }
-    // Rows are as long as the pyramid is narrow.
+    // Rows are scaled by one over the half width of the pyramid.
     float narrowest = min(length(ABUFFER_HEADER(s).camera_x), length(ABUFFER_HEADER(s).camera_y));
     return 2.0 / (narrowest * float(abuffer_resolution(s, view)));
 }

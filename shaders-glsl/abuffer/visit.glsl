@@ -12,9 +12,9 @@
 #include "abuffer/attributes.glsl"
 #endif
 
-// How much farther than the nearest a fragment may be that counts as of the same layer, as a share of its
-// depth: a few roundings, by which triangles that touch in a centre differ there. All passes find the same
-// depths, but for the hardware's, which may differ as little.
+// How much farther than the nearest a fragment may be to count as part of the same layer, as a share of its
+// depth: a few roundings, by which triangles that touch at a centre differ there. All passes find the same
+// depths, except those of the hardware, which may differ as little.
 #define ABUFFER_LAYER_SHARE 4.8e-7
 
 // Whether a triangle is not behind the layer that is kept of a cell, whether or not a mask cuts it out there.

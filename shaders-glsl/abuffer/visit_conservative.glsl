@@ -40,7 +40,7 @@ void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
     if (abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths)
         && !coverage_at_center(a, b, c, place, resolution, coverage)
         && abuffer_conservative_keeps(primitive, a, b, c, place, resolution)) {
-        // In a set of its own where the first one is being read.
+        // In a set of its own where other invocations read the first set.
         abuffer_mark(abuffer_built, primitive, abuffer_mark_sets() - 1u);
         conservative_add(abuffer_built, cell, primitive, depths);
     }

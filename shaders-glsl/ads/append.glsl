@@ -1,5 +1,5 @@
-// What: appends to a list whose length the device counts. What does not fit is counted alone, so that the host learns how
-// much was asked for.
+// What: appends to a list whose length the device counts. Values beyond the capacity are only counted, so that the host
+// learns the demand.
 // Reads, writes: the length and the list.
 #ifndef ADS_APPEND_GLSL
 #define ADS_APPEND_GLSL

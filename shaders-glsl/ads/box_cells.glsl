@@ -19,7 +19,7 @@ struct BoxCells {
 struct BoxLine {
     vec3 origin;
     vec3 direction;       // cells for each unit of t
-    vec3 inverse;         // of the direction, 0 where it is none
+    vec3 inverse;         // of the direction, 0 where a component is 0 or subnormal
 };
 
 BoxLine box_line(BoxCells axes, vec3 origin, vec3 direction) {
@@ -38,7 +38,7 @@ vec3 box_line_exits(BoxLine line, ivec3 planes) {
 
 // The cell that the ray is in at t; outside of the grid, the nearest of its `size` cells.
 ivec3 box_line_cell_at(BoxLine line, float t, ivec3 cells) {
-    // Clamped before it becomes an integer, which holds no more than 2^31.
+    // Clamped before it becomes an integer, which holds less than 2^31.
     return ivec3(clamp(line.origin + t * line.direction, vec3(0.0), vec3(cells) - 0.5));
 }
 

@@ -6,7 +6,7 @@
 #ifndef ADS_BUCKET_GLSL
 #define ADS_BUCKET_GLSL
 
-// Buckets a metre. 0 where all depths are (nearly) the same: everything is in bucket 0.
+// Buckets per metre. 0 where all depths are (nearly) the same: everything is in bucket 0.
 // Division may differ between two stages of one device, so the reciprocal is that of whole numbers: the upper 16
 // bits of the range, rounded up, divide 2^32. The scale is at most 2^-14 too small, and never too large, so the
 // largest depth is in the last bucket. Ranges from 2^110 on take the scale of the largest below.

@@ -2,7 +2,7 @@
 #ifndef ADS_CONSTANTS_GLSL
 #define ADS_CONSTANTS_GLSL
 
-// Views onto which one draw of all triangles goes at most: the faces of a cube.
+// Maximum number of views onto which one draw of all triangles goes: the faces of a cube.
 #define GEOMETRY_DRAW_VIEWS 6u
 
 // Numbers that one workgroup of a scan adds up, and its threads.
@@ -12,7 +12,7 @@
 // Threads in a workgroup of the passes that sort lists.
 #define SORT_GROUP_SIZE 64u
 
-// Longest list that is sorted in one dispatch: a heap of so many takes 27,000 steps at most.
+// Longest list that is sorted in one dispatch: a heap of that many takes at most 27,000 steps.
 #define SHORT_LIST_LIMIT 2048u
 
 // Dispatches that sort longer lists, and the steps of a list in each: drivers may end all loops of an invocation after
@@ -70,8 +70,8 @@
 // Share of the bounds, on each side, that a centre keeps away from their sides: about a quarter, and no fraction at which a
 // scene is likely to have a wall.
 #define PLACEMENT_MARGIN 0.2718
-// Flatter bounds than this, shortest over longest side, have no inside: a centre among their triangles would see them all
-// edge-on and across many tiles.
+// Bounds flatter than this, shortest over longest side, have no inside: a centre among their triangles would see them
+// all edge-on and across many tiles.
 #define PLACEMENT_FLATTEST 0.25
 // Margins of cells along axes for a distant eye are no wider than this share of a cell.
 #define PLACEMENT_WIDEST_MARGIN 0.125
@@ -79,20 +79,20 @@
 #define PLACEMENT_WIDENING 4.0
 // Side of a cube over the longest side of the geometry in it.
 #define PLACEMENT_WIDENED 1.0039063
-// Sizes of what has none, metres: all that follows from them stays within the range of numbers.
+// Size of geometry without extent, metres: all that follows from it stays within the range of floats.
 #define PLACEMENT_SMALLEST 1.0e-30
-// The largest number.
+// The largest finite float.
 #define PLACEMENT_LONGEST 3.4028235e+38
 
-// Pages that the word of a list can name beside how many of their slots are used.
+// Pages that the word of a list can address next to the number of their used slots.
 #define PAGE_LIMIT 0x0FFFFFFEu
 
 // Maximum number of cells per view that one invocation of a binning builder visits; triangles with more are large.
 #define BIN_CELLS 64
-// Columns along a side of the blocks that an invocation of those looks at in turn, where a structure can tell whether a
+// Columns along a side of the blocks that an invocation for those visits in turn, where a structure can test whether a
 // triangle reaches into one.
 #define BIN_BLOCK 4
-// Threads of those, and how often the loops of one turn at most.
+// Threads of those, and the maximum number of iterations of the loops of one.
 #define BIN_GROUP_SIZE 64u
 #define BIN_TURNS 30000
 // Workgroups per row of their dispatch.

@@ -61,7 +61,7 @@ vec3 coverage_edge(vec3 p, vec3 q, float s, float margin) {
     return edge;
 }
 
-// Bounds in x/z and y/z (lower, upper) of what of the triangle lies in front of the eye, cut to the
+// Bounds in x/z and y/z (lower, upper) of the part of the triangle in front of the eye, clipped to the
 // face with its border. False where nothing does.
 bool coverage_bounds(vec3 a, vec3 b, vec3 c, uint resolution, out vec4 bounds) {
     float limit = 1.0 + 2.0 / float(resolution);

@@ -17,15 +17,15 @@ struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles
     uint draw_count;     // draws
-    // triangles that the last check found outside of the bounds, with a vertex that there is not, or beyond the maximum
+    // triangles that the last check found outside of the bounds, with an invalid vertex, or beyond the maximum
     uint outside;
     vec3 lower;          // lower corner of all positions, metres
     vec3 upper;          // upper corner of all positions, metres
     uint position_word;  // word of the first position in its binding
     uint position_words; // words from one position to the next
     uint index_word;     // word of the first index in its binding
-    uint lower_keys[3];  // lower corner while it is measured: numbers in the order of the floats they stand for
-    uint upper_keys[3];  // upper corner while it is measured
+    uint lower_keys[3];  // lower corner while it is computed: integers in the order of the floats
+    uint upper_keys[3];  // upper corner while it is computed
 };
 
 #ifdef GEOMETRY_WRITTEN
@@ -55,7 +55,7 @@ uint geometry_triangle_count() {
     return geometry_header.triangle_count;
 }
 
-// Whether the build may be called complete: what it stored is true of the triangles only then.
+// Whether the build may be complete: only then does what it stored represent the triangles.
 bool geometry_is_sound() {
     return geometry_header.outside == 0u;
 }

@@ -1,4 +1,4 @@
-// What: measures the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
+// What: computes the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
 // Reads: positions and indices of GEOMETRY_SET. Writes: keys of its header, which were filled before: all bits for the lower
 // ones, none for the upper ones.
 #version 460
@@ -11,14 +11,14 @@ layout(local_size_x = 64) in;
 
 shared uint shared_keys[6];
 
-// Numbers in the order of floats: -0 comes just before 0.
+// Integers in the order of floats: -0 comes just before 0.
 uint key_of(float x) {
     uint bits = floatBitsToUint(x);
     return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
 }
 
 void include_corner(vec3 corner) {
-    // Corners that are no numbers bound nothing; the check finds those that no bounds hold.
+    // NaN corners are ignored; the check finds those that no bounds hold.
     if (any(isnan(corner)) || any(isinf(corner))) {
         return;
     }

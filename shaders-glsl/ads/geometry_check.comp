@@ -1,5 +1,6 @@
 // What: counts the triangles that reach out of the bounds their geometry states, or have a vertex number that does not
-// exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without a word.
+// exist: one invocation per triangle. Structures place cells by the bounds, so such triangles would be lost without
+// notice.
 // Reads: positions and indices of GEOMETRY_SET. Writes: adds to its header's count.
 #version 460
 #include "contract/extensions.glsl"
@@ -9,7 +10,7 @@ layout(local_size_x = 64) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
-// Corners that are not numbers are outside of nothing: no ray hits their triangles.
+// NaN corners are never outside: no ray hits their triangles.
 bool is_outside(vec3 corner) {
     return any(lessThan(corner, geometry_header.lower)) || any(greaterThan(corner, geometry_header.upper));
 }

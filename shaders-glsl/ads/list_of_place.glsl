@@ -1,10 +1,10 @@
-// What: the list that contains an element of a pool, where lists are stored one behind the other and each has a word
-// with its end.
+// What: the list that contains an element of a pool, where lists are contiguous and each has a word with
+// its end.
 // Reads: what `list_end(list)` reads, which the including file defines. Writes: nothing.
 #ifndef ADS_LIST_OF_PLACE_GLSL
 #define ADS_LIST_OF_PLACE_GLSL
 
-// The first of `count` lists that ends past the place: the one that contains it, or the next one where none does.
+// The first of `count` lists that ends past the place: the list that contains it, or the next one where none does.
 uint list_of_place(uint count, uint place) {
     uint begin = 0u;
     uint end = count - 1u;

@@ -11,18 +11,18 @@ float largest_axis(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
-// Farthest that a box is from the origin along an axis.
+// Maximum distance of a box from the origin along an axis.
 float box_reach(vec3 lower, vec3 upper) {
     return max(largest_axis(abs(lower)), largest_axis(abs(upper)));
 }
 
 // The centre of faces for an eye and geometry within bounds: the eye itself within them, or where they are flat; else the
 // point of about their inner half that is nearest to it, as far back towards the eye as rays from there need.
-// From an eye outside all geometry lies in a part of the faces, in as few tiles as it is far away.
+// From an eye outside, all geometry lies in a part of the faces: the farther away the eye, the fewer tiles.
 vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     precise vec3 extent = upper - lower;
     float longest = largest_axis(extent);
-    // Longer sides than there are numbers for leave the eye where it is.
+    // Sides whose length overflows leave the eye where it is.
     bool has_inside = all(greaterThan(extent, vec3(PLACEMENT_FLATTEST * longest))) && longest <= PLACEMENT_LONGEST;
     bool is_inside = all(lessThanEqual(lower, eye)) && all(lessThanEqual(eye, upper));
     if (is_inside || !has_inside) {
@@ -34,14 +34,14 @@ vec3 centre_within(vec3 eye, vec3 lower, vec3 upper) {
     precise vec3 to_sides = max(upper - within, within - lower);
     float away = largest_axis(abs(from_eye));
     float reach = largest_axis(to_sides);
-    // The geometry is at least as far from the centre as that is from where it came, and as `reach`.
+    // The geometry is at least as far from the centre as the centre was moved, and as `reach`.
     precise float back = max(min(away - PLACEMENT_EYE_LIMIT * reach, away / (PLACEMENT_EYE_LIMIT + 1.0)), 0.0);
     precise vec3 centre = within + from_eye * (back / away);
     return centre;
 }
 
 // Lower corner (xyz) and side (w) of a cube that holds the bounds, a little wider than their longest side, so that no side
-// of the geometry lies on one of its own.
+// of the geometry lies on a side of the cube.
 vec4 cube_placement(vec3 lower, vec3 upper) {
     precise float widened = max(largest_axis(upper - lower) * PLACEMENT_WIDENED, PLACEMENT_SMALLEST);
     // Rounding must not move the corner into the geometry, and may move it away from the far end.
@@ -59,7 +59,7 @@ struct BoxPlacement {
     vec3 per_metre;       // cells
 };
 
-// So many cells along each axis, 1 or more, over the bounds, for rays from around the eye.
+// This number of cells along each axis, 1 or more, over the bounds, for rays from around the eye.
 // The cells reach PLACEMENT_WIDENING margins below the bounds and twice as many above: sides lie well within a cell then,
 // and so does the middle.
 BoxPlacement box_placement(vec3 lower, vec3 upper, uvec3 cells, vec3 eye) {

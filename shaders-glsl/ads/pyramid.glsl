@@ -12,7 +12,8 @@
 #ifndef ADS_PYRAMID_GLSL
 #define ADS_PYRAMID_GLSL
 
-// Words of a block: the complement of the smallest depth's bits, and those of the largest; both 0 where nothing is.
+// Words of a block: the complement of the smallest depth's bits, and those of the largest; both 0 where the block is
+// empty.
 #define PYRAMID_WORDS 2u
 
 // Level k has blocks of 2^k cells along a side, the border included.

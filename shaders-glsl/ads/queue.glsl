@@ -23,7 +23,7 @@ struct QueueHeader {
     uint listed;          // rays to trace in this round (from round 1 on)
     uint paused;          // rays that paused in this round
     uint unfinished;      // rays that were still paused after their last round, over all traces since the reset
-    uint not_ready;       // rays that met a structure that was not complete, over all traces since the reset
+    uint not_ready;       // rays traced through a structure that was not complete, over all traces since the reset
     uint selecting;       // slots selected for the passes after the next take
     uint cells_low;       // cells visited, low word; work is summed where counters are enabled
     uint cells_high;      // cells visited, high word
@@ -74,7 +74,7 @@ layout(set = QUEUE_SET, binding = 5, scalar) buffer QueueSurfaceBuffer {
 layout(set = QUEUE_SET, binding = 6, scalar) buffer QueueWorkBuffer {
     RayWork queue_work[];
 };
-// The steps of one slot; a placeholder with capacity 0 unless asked for.
+// The steps of one slot; a placeholder with capacity 0 unless requested.
 layout(set = QUEUE_SET, binding = 7, scalar) buffer QueueStepBuffer {
     uint queue_logged_slot;
     uint queue_step_demand;   // steps taken, also those that did not fit

@@ -1,7 +1,7 @@
-// What: sorts a linked list in place by merging the ascending runs it consists of, two and two, until one is left.
+// What: sorts a linked list in place by merging the ascending runs it consists of, two at a time, until one is left.
 // Reads, writes: through what the including file defines before; links are numbers of nodes, 0 ends a list:
 //   SortRef                                                         reference type of the structure
-//   LINKED_DOUBLY                                                   whether nodes know the one before
+//   LINKED_DOUBLY                                                   whether nodes link to the one before
 //   uint linked_next(SortRef s, uint link)
 //   void linked_set_next(SortRef s, uint link, uint next)
 //   void linked_set_prev(SortRef s, uint link, uint prev)           with LINKED_DOUBLY
@@ -11,13 +11,14 @@
 // Source: MMRT section 3.3, reorder pass, and Hu et al. section 3.1, sort pass; Knuth 1998, section 5.2.4, natural
 // merges. The papers' private array, whose length cuts longer lists short, is not needed: only links change.
 // Everything is one loop of bounded length: drivers may end all loops of an invocation after 65,535 iterations,
-// and invocations that run side by side pay for the longest of each loop.
+// and invocations that run in lockstep pay for the longest of each loop.
 #ifndef ADS_SORT_LINKED_GLSL
 #define ADS_SORT_LINKED_GLSL
 
 #include "ads/constants.glsl"
 
-// What a step says of the sorting of a list: it is done, it goes on, or a pass over the list has ended and another is needed.
+// Result of a step of the sorting of a list: it is done, it goes on, or a pass over the list has ended and another is
+// needed.
 #define SORT_DONE 0u
 #define SORT_MORE 1u
 #define SORT_PASSED 2u
@@ -31,7 +32,7 @@ struct LinkedMerge {
     uint head;            // of what has been merged
     uint tail;
     uint runs;            // pairs begun
-    bool finding;         // where the left run ends is still being looked for
+    bool finding;         // the end of the left run is still being searched
     uint at;              // its last node so far
 };
 
@@ -112,7 +113,7 @@ uint linked_sort_step(SortRef s, uint list, inout LinkedMerge merge) {
     if (!merge.left_ended || !merge.right_ended) {
         return SORT_MORE;
     }
-    // What follows both runs stands behind the right one, or nothing where there was none.
+    // `right` is the begin of the next run; 0 at the end of the list.
     if (merge.right != 0u) {
         linked_merge_pair(merge.right, merge);
         return SORT_MORE;
@@ -151,7 +152,7 @@ bool linked_sort(SortRef s, uint list, uint limit, uint steps) {
 // Sorts the lists first, first + stride, ... that come before `end`, NODE_SORT_LISTS at most. The set of
 // those that stay as they are, by bits: they are longer than NODE_SORT_LIMIT, or NODE_SORT_STEPS do not
 // suffice for them in addition to those before. That follows from the numbers of nodes alone, in whatever order they
-// stand.
+// are.
 uint linked_sort_several(SortRef s, uint first, uint stride, uint end) {
     uint waiting = 0u;
     uint left_over = 0u;

@@ -11,7 +11,7 @@
 //   bool sort_is_possible(SortRef s)           whether everything was stored
 //   uint sort_list_count(SortRef s)
 //   uint sort_begin(SortRef s, uint list)      from now on elements are those of a list; its length
-// and, of a structure whose lists may be linked, SORT_LINKED, whether they are, with what ads/sort_linked.glsl asks for.
+// and, of a structure whose lists may be linked, SORT_LINKED, whether they are, with what ads/sort_linked.glsl needs.
 // Source: not in the papers, which cut lists that are longer than a private array.
 #ifndef ADS_SORT_LISTS_GLSL
 #define ADS_SORT_LISTS_GLSL

@@ -1,6 +1,6 @@
 // What: counts the iterations of a loop by the invocations of one workgroup, each with its own number of iterations;
-// with BARRIER a memory barrier ends each turn. For tests.
-// Reads: turns wanted. Writes: turns made.
+// with BARRIER a memory barrier ends each iteration. For tests.
+// Reads: iterations wanted. Writes: iterations made.
 #version 460
 #include "contract/extensions.glsl"
 

@@ -1,6 +1,6 @@
 // What: whether anything lies on each ray of a queue.
-// Reads: rays (and states of paused ones), the structure. Writes: hits; occluded rays carry some
-// primitive, free ones PRIMITIVE_NONE.
+// Reads: rays (and states of paused ones), the structure. Writes: hits; occluded rays have some
+// primitive, others PRIMITIVE_NONE.
 // Source: the wavefront queue of pbrt-v4, section 15.
 #version 460
 #include "contract/extensions.glsl"

@@ -26,7 +26,7 @@ uint face_of(vec3 p) {
     return p.z < 0.0 ? 5u : 4u;
 }
 
-// A face of `resolution` cells a side covers x/z and y/z in [-1, 1]; one more cell on every side is
+// A face of `resolution` cells along a side covers x/z and y/z in [-1, 1]; one more cell on every side is
 // its border, so that a point within a cell of a seam is found in both faces. Cell (i, j) counts
 // from -1 to resolution.
 

@@ -39,7 +39,7 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickTrianglesBuffer { v
 #define BRICK_CORNERS(s) brick_corners
 #endif
 
-// Distances are found where the sums of scans were.
+// Distances replace the sums of scans.
 #define BRICK_DISTANCES(s) BRICK_SUMS(s)
 
 // Fields of the second and of the third word of a record.
@@ -81,7 +81,7 @@ uint brick_total(BrickRef s) {
     return brick_view_count() * brick_count(brick_cells(s));
 }
 
-// Cells that list something and whose list fits.
+// Cells that list something and whose list fits into the pool.
 uint brick_listed_cells(BrickRef s) {
     return min(BRICK_HEADER(s).cell_demand, BRICK_HEADER(s).cell_capacity);
 }
@@ -90,7 +90,7 @@ uint brick_stored_records(BrickRef s) {
     return min(BRICK_HEADER(s).record_demand, BRICK_HEADER(s).record_capacity);
 }
 
-// Where the word of a brick stands, and where one of its mask.
+// Index of the word of a brick, and of a word of its mask.
 uint brick_at(uint brick) {
     return 3u * brick;
 }
@@ -139,7 +139,7 @@ BrickRecord brick_record(BrickRef s, uint place) {
         bits_get(column, BRICK_RECORD_FACE), bits_get(slices, BRICK_RECORD_FIRST), bits_get(slices, BRICK_RECORD_LAST));
 }
 
-// The words of a brick while its own is that of the scan.
+// The words of a brick, with the number that the scan wrote.
 struct BrickWords {
     uint before;          // cells that list something in all bricks before
     uvec2 mask;

@@ -10,7 +10,7 @@
 #include "ads/box_clip.glsl"
 #include "bricks/margin.glsl"
 
-// Where columns and slices are.
+// Positions of columns and slices.
 struct BrickSpace {
     BrickGrid grid;   // these two of the faces of a cube
     BrickSlices slices;

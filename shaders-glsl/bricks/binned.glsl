@@ -1,9 +1,9 @@
 // What: what the binning pass of bricks does with a triangle in a view: it stores it in the columns it reaches into.
-// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, pairs, header.large_demand,
-// header.groups.
+// Reads: geometry, header. Writes: records, bricks (masks), header.record_demand, header.demand, triangles
+// (large-triangle queue), header.large_demand, header.groups.
 // Source: DIRT section 3.2, by computing instead of drawing. The same functions decide as in the raster builder.
 // With BRICK_SIDE_LIMIT columns along a side one workgroup suffices for a large triangle: an invocation gets 1,024 blocks of
-// 16 columns, and its loops over them turn 17,408 times at most.
+// 16 columns, and its loops over them have at most 17,408 iterations.
 #ifndef BRICKS_BINNED_GLSL
 #define BRICKS_BINNED_GLSL
 
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform BrickBuildConstants {
     BrickRef brick_built;
 };
 
-// The large-triangle queue is where the corners of triangles will be.
+// The large-triangle queue is stored where the corners of triangles will be.
 #ifdef ADDRESSING_ADDRESS
 #define LARGE_WORD(s, place) BrickWordAddress(BRICK_HEADER(s).triangles_address).words[place]
 #else

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform BrickBuildConstants {
     BrickRef brick_built;
 };
 
-// The runs of four octants with what a brick reaches towards each.
+// The runs of four octants, and the reaches of a brick towards them.
 void lengthen(inout uint runs[4], uint reaches) {
     for (uint q = 0u; q < 4u; q++) {
         runs[q] = brick_runs_with(runs[q], reaches >> (4u * q) & 15u);
@@ -37,7 +37,7 @@ void main() {
         uint reaches = BRICK_DISTANCES(brick_built)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
-            // Until the way back, the reaches towards lower rows.
+            // Until the pass in the other direction, these are the reaches towards lower rows.
             BRICK_WORDS(brick_built)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
         }
     }

@@ -1,4 +1,4 @@
-// What: where slices begin and how thick they are, from how many triangles begin in each octave of depth.
+// What: begin and thickness of slices, from the number of triangles that begin in each octave of depth.
 // Reads: header.octaves. Writes: header.slice_first, header.slice_shift.
 // Source: not in the paper, whose buckets are those of a tile.
 #version 460
@@ -19,7 +19,7 @@ void main() {
     for (uint octave = 0u; octave < BRICK_OCTAVES; octave++) {
         triangles += BRICK_HEADER(brick_built).octaves[octave];
     }
-    // As few octaves as hold all but one triangle in BRICK_OCTAVE_SHARE; what is nearer is in the first slice.
+    // As few octaves as hold all but one triangle in BRICK_OCTAVE_SHARE; nearer depths are in the first slice.
     uint octaves = BRICK_OCTAVES;
     uint nearer = BRICK_HEADER(brick_built).octaves[BRICK_OCTAVES - 1u];
     while (octaves > 1u && nearer <= triangles / BRICK_OCTAVE_SHARE) {

@@ -1,4 +1,4 @@
-// What: what a ray finds in one cell of the bricks: how far around it nothing is, or the list to test.
+// What: the contents of a cell of the bricks for a ray: the empty cells around it, or the list to test.
 // Reads: bricks, lists, triangles, geometry. Writes: header.corrupted.
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks.
 #ifndef BRICKS_CELL_GLSL
@@ -7,15 +7,15 @@
 #include "bricks/accessors.glsl"
 #include "ads/evaluate.glsl"
 
-// What stays the same for a ray.
+// Values that are constant along a ray.
 struct BrickTraversal {
     ivec3 cells;          // columns, rows and slices
-    // What follows is of the faces of a cube.
+    // The following is for the faces of a cube only.
     BrickSlices slices;
     float half_side;      // half the columns of a face
     float column;         // width of one in x/z
-    float rounding;       // metres: how far from its place the ray may be found
-    // What lists hold.
+    float rounding;       // metres: bound of how far rounding moves the ray
+    // Sizes of the lists.
     uint stored;          // entries
     uint listed;          // cells with a list
 };
@@ -67,7 +67,7 @@ uvec2 brick_entries(BrickRef s, BrickTraversal traversal, uint list) {
     return uvec2(0u);
 }
 
-// Tests a candidate with the corners kept here, or with those of the geometry. One that names no triangle is counted.
+// Tests a candidate with the corners kept here, or with those of the geometry. An invalid index is counted.
 void brick_test(BrickRef s, uint primitive, Ray ray, inout TraceState state) {
     bool kept = BRICK_CORNERS_KEPT != 0u;
     if (primitive >= (kept ? BRICK_HEADER(s).triangle_capacity : geometry_triangle_count())) {

@@ -2,13 +2,13 @@
 #ifndef BRICKS_CONSTANTS_GLSL
 #define BRICKS_CONSTANTS_GLSL
 
-// What columns of bricks are: of the faces of a cube around a centre, or of one box along the axes of the world.
+// The views: faces of a cube around a centre, or one box along the axes of the world.
 #define BRICK_VIEWS_CUBE 0u
 #define BRICK_VIEWS_AXES 1u
 
-// In the word of a brick: it lists nothing.
+// In the word of a brick: no cell of it has a list.
 #define BRICK_EMPTY 0x80000000u
-// Bricks that one step over empty ones crosses at most, its own included.
+// Maximum number of empty bricks that one step crosses, its own included.
 #define BRICK_REACH 8u
 
 // How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
@@ -19,8 +19,8 @@
 #define BRICK_SIDE_LIMIT 1024u
 #define BRICK_SLICE_LIMIT 1024u
 
-// Octaves of depth in which triangles are counted, and the share of the triangles, one in so many, that may begin
-// nearer than the first slice that is cut finely.
+// Octaves of depth in which triangles are counted; and N where one triangle in N may begin nearer than the depths that
+// are divided into slices.
 #define BRICK_OCTAVES 32u
 #define BRICK_OCTAVE_SHARE 256u
 

@@ -1,8 +1,8 @@
 // What: the planes between cells of a cube's face, as bricks are marched: columns and rows are pyramids that
-// touch in the centre, slices are parallel. ads/box_cells.glsl has those of a view along an axis.
+// touch at the centre, slices are parallel. ads/box_cells.glsl has those of a view along an axis.
 // Reads, writes: nothing.
-// Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every place below is
-// right to 96 u R metres and to 32 u in x/z; cells list what lies within that.
+// Nothing here is exact. With R the largest distance of the geometry and u = 2^-24, every position below is
+// within 96 u R metres and 32 u in x/z of its exact value; cells list triangles within that distance.
 #ifndef BRICKS_CUBE_GLSL
 #define BRICKS_CUBE_GLSL
 
@@ -51,14 +51,14 @@ vec3 brick_exits(BrickRay ray, ivec3 planes, float column, BrickSlices slices) {
         brick_crossing(c.y, ray.origin.y, ray.direction.y, ray.origin.z, ray.direction.z, ray.heading.y), tz);
 }
 
-// The cell that the ray is in at t. Where rounding does not tell, the column and row that are visited first: a boundary
-// behind the ray is crossed at once, but one that is never crossed could not be stepped back over.
+// The cell that the ray is in at t. Where rounding does not decide, the column and row that are visited first: a
+// boundary behind the ray is crossed at once, but one that is never crossed could not be stepped back over.
 ivec3 brick_cell_at(BrickRay ray, float t, float half_side, float rounding, BrickSlices slices) {
     vec3 p = ray.origin + t * ray.direction;
     float inverse = 1.0 / max(p.z, 1.0e-37);
     vec2 place = p.xy * inverse - ray.heading.xy * (rounding * inverse + 1.0e-6);
     place = vec2(ray.heading.x == 0.0 ? ray.still.x : place.x, ray.heading.y == 0.0 ? ray.still.y : place.y);
-    // Clamped before it becomes an integer, which holds no more than 2^31.
+    // Clamped before it becomes an integer, which holds less than 2^31.
     vec2 cell = clamp(place * half_side + half_side, vec2(-1.0), vec2(2.0 * half_side));
     return ivec3(ivec2(floor(cell)), brick_slice_of(p.z, slices));
 }

@@ -9,12 +9,12 @@
 
 #include "bricks/words.glsl"
 
-// A line of bricks is gone through once in each direction, with the lengths of the runs that end at the
+// A line of bricks is traversed once in each direction, with the lengths of the runs that end at the
 // brick: nibble v - 1 counts bricks in a row that reach v or more, BRICK_REACH at most. Before the first
 // brick everything is empty.
 #define BRICK_RUNS_BEGIN 0x88888888u
 
-// The runs that end at a brick, from those that end before it and what it reaches along the axes so far.
+// The runs that end at a brick, from those that end before it and its reach along the axes so far.
 uint brick_runs_with(uint runs, uint reach) {
     uint longer = runs + 0x11111111u - (runs >> 3 & 0x11111111u);
     return reach < BRICK_REACH ? longer & ((1u << (4u * reach)) - 1u) : longer;

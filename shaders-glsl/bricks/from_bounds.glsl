@@ -28,8 +28,8 @@ void brick_from_bounds(BrickRef s, vec3 lower, vec3 upper) {
     BRICK_HEADER(s).cells_per_metre = at.per_metre;
     BRICK_HEADER(s).lower = lower - at.centre - at.rounding;
     BRICK_HEADER(s).upper = upper - at.centre + at.rounding;
-    // What a ray hits outside of the near region is not behind the centre, also where columns are few. Depths are positive,
-    // also where all geometry is at the centre.
+    // Hits of a ray outside of the near region are not behind the centre, also where columns are few. Depths are
+    // positive, also where all geometry is at the centre.
     float near = max(NEAR_REGION * float(cells.x) * at.reach, 2.0 * at.rounding);
     BRICK_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

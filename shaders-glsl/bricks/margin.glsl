@@ -5,8 +5,8 @@
 
 #include "bricks/header.glsl"
 
-// What of the header decides which columns of a face list a triangle. Precise expressions take values from here: with
-// addresses, glslang does not end where they follow a reference.
+// The values of the header that decide which columns of a face list a triangle. Precise expressions take values from
+// here: with addresses, glslang does not end where they follow a reference.
 struct BrickGrid {
     uint columns;
     float near_size;
@@ -18,7 +18,7 @@ BrickGrid brick_grid(BrickRef s) {
 }
 
 // How far in x/z a column reaches beyond its sides at that depth, so that neither the rounding of a test nor
-// that of the march takes a ray past a triangle it hits.
+// that of the march makes a ray miss a triangle that it hits.
 float brick_margin(BrickGrid grid, float depth) {
     precise float margin = grid.rounding / max(depth, grid.near_size) + 3.0e-6;
     return margin;

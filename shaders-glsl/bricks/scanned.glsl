@@ -1,5 +1,6 @@
 // What: the numbers that scans run over. Step 0, lists: lengths become places. Step 1, bricks: cells that list something
-// become such cells before the brick. Entries are counted with their records, of which all are known at once.
+// become such cells before the brick. Entries are counted with their records, so that the demand for both is known at
+// once.
 // Reads, writes: lists or bricks, sums, header.cell_demand.
 #ifndef BRICKS_SCANNED_GLSL
 #define BRICKS_SCANNED_GLSL

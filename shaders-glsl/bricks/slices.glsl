@@ -6,7 +6,7 @@
 #define BRICKS_SLICES_GLSL
 
 struct BrickSlices {
-    int count;            // what lies before the first slice counts to it, what lies behind the last one as well
+    int count;            // depths before the first slice belong to it, depths behind the last one to that
     int first;            // bits of the depth at which slice 0 begins
     int shift;            // 23 less the logarithm of the slices an octave
 };
@@ -20,7 +20,7 @@ float brick_slice_boundary(int k, BrickSlices slices) {
     return intBitsToFloat(slices.first + (k << slices.shift));
 }
 
-// The slices whose last one ends behind `farthest` and that leave at most `octaves` octaves before the first.
+// The slices whose last one ends behind `farthest` and that exclude at most `octaves` octaves before the first.
 BrickSlices brick_slices_over(float farthest, uint octaves, uint count) {
     uint an_octave = 1u << uint(findMSB(max(count / max(octaves, 1u), 1u)));
     int shift = 23 - findMSB(an_octave);

@@ -3,16 +3,16 @@
 // Source: DIRT section 3.3, by cells of (column, row, slice) in bricks; bricks/cube.glsl has the planes
 // between them, and ads/box_cells.glsl those of views along axes (BRICK_VIEWS), which have one view and
 // no near region. Every step goes from t to where the ray leaves the cell, or the empty cells around it; the
-// axis of that exit gets the next index exactly, the others are found from the point there and kept between
-// where they were and the end of what was empty. So indices only go forwards, and a cell is missed by no more
-// than rounding, which what it lists allows for.
+// axis of that exit gets the next index exactly, the others are found from the point there and clamped between
+// their previous values and the end of the empty cells. So indices only go forwards, and a cell is missed by no more
+// than rounding, for which its list has a margin.
 //
 // cursor: 0 flags and face
 //         1 t
 //         3 column and row
 //         4 slice
 //         6 next entry
-//         7 place in what is tested one by one
+//         7 place in the triangles that are tested one by one
 #ifndef BRICKS_TRACE_GLSL
 #define BRICKS_TRACE_GLSL
 
@@ -49,7 +49,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     traversal.rounding = BRICK_PLACE * BRICK_HEADER(s).reach;
     traversal.stored = min(BRICK_HEADER(s).capacity, BRICK_HEADER(s).demand);
     traversal.listed = brick_listed_cells(s);
-    // A finite end, also where the geometry ends beyond what numbers hold.
+    // A finite end, also where the end of the geometry overflows.
     t_last = min(t_last, 3.0e38);
     bool crosses_near = near.x <= near.y && near.y < t_last;
     if (near.x <= near.y && !crosses_near) {
@@ -76,9 +76,9 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
     BrickRay r;
     BoxLine line;
     bvec3 up;
-    // The two triangles tested last: large ones stand in many cells in a row.
+    // The two triangles tested last: large ones are in many consecutive cells.
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each turn crosses a cell or what is empty around it, and stays below the budget.
+    // Each iteration crosses a cell or the empty cells around it, and stays below the budget.
     while (t <= t_last && !(t > state.best.t + slack)) {
         if (turns) {
             if (axes) {
@@ -139,7 +139,7 @@ bool brick_trace_cells(BrickRef s, Ray ray, vec3 origin, float t, float t_last, 
             }
             entry = BRICK_LIST_BEGIN;
         }
-        // Where the ray goes into the near region it comes out on the other side; what is in there is tested one by one.
+        // Where the ray enters the near region it continues on the other side; triangles in it are tested one by one.
         if (crosses_near && t < near.x && t_out >= near.x) {
             t = near.y;
             face = face_of(origin + t * ray.direction);
@@ -187,7 +187,7 @@ uint brick_trace(BrickRef s, Ray ray, inout TraceState state, bool any_hit) {
     vec3 origin = ray.origin - BRICK_HEADER(s).centre;
     float reach = BRICK_HEADER(s).reach;
     float slack = hit_slack(origin, ray.direction, reach);
-    // Views along axes touch nowhere, so that no near region stands between them.
+    // Views along axes do not touch, so there is no near region between them.
     vec2 near = BRICK_VIEWS == BRICK_VIEWS_AXES ? vec2(1.0, 0.0)
         : near_region_interval(origin, ray.direction, BRICK_HEADER(s).near_size);
     vec2 clip = bounds_interval(BRICK_HEADER(s).lower, BRICK_HEADER(s).upper, origin, ray.direction, ray.t_min - slack,

@@ -19,12 +19,12 @@ struct BrickHeader {
     uint capacity;        // entries the pool holds
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
-    uint corrupted;       // list entries that name no triangle
+    uint corrupted;       // list entries with an invalid index
     uint columns;         // columns of every view, a multiple of 4
     uint rows;            // rows of every view, a multiple of 4
     uint slices;          // slices of every column, a multiple of 4
-    // metres: farthest that the geometry is from the centre along an axis; of views along axes, more where the eye is
-    // far away
+    // metres: largest distance of the geometry from the centre along an axis; of views along axes, more where the eye
+    // is far away
     float reach;
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
@@ -49,9 +49,9 @@ struct BrickHeader {
     uint cell_demand;     // cells that list something, as far as records fit
     uint cell_capacity;   // lists the pool holds
     uint triangle_capacity; // triangles whose corners the pool holds
-    uint large_demand;           // triangles with many columns of a view
-    uint groups[3];       // workgroups for them, one each
-    uint octaves[BRICK_OCTAVES]; // triangles that begin so many octaves before the farthest geometry
+    uint large_demand;           // triangles in the large-triangle queue
+    uint groups[3];       // workgroups for those triangles, one each
+    uint octaves[BRICK_OCTAVES]; // triangles that begin that many octaves before the farthest geometry
 };
 
 #endif

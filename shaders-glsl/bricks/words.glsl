@@ -1,14 +1,14 @@
-// What: where cells stand in bricks of 4x4x4, and what the words of a brick say.
+// What: the position of cells in bricks of 4x4x4, and the words of a brick.
 // Reads, writes: nothing.
 // A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one per cell that lists something,
-// in two words, and a word of its own: for a brick that lists something how many cells do so in all bricks
-// before it, for an empty one how many bricks farther on are empty too, towards each of eight octants.
+// in two words, and a word of its own: for a brick that lists something the number of such cells in all bricks
+// before it, for an empty one the number of further bricks that are empty too, towards each of eight octants.
 #ifndef BRICKS_WORDS_GLSL
 #define BRICKS_WORDS_GLSL
 
 #include "bricks/constants.glsl"
 
-// Bricks of one view of so many columns, rows and slices, each a multiple of 4.
+// Bricks of one view with these numbers of columns, rows and slices, each a multiple of 4.
 uint brick_count(uvec3 cells) {
     return (cells.x >> 2) * (cells.y >> 2) * (cells.z >> 2);
 }

@@ -109,7 +109,7 @@ impl Index {
     /// They were made of other sources than those, or one is not what it was.
     pub(crate) fn take(self, folder: &Path, out: &Path, sources: u64) -> Result<Vec<Built>, String> {
         if self.sources != sources {
-            return Err("they were made of other GLSL than what lies beside them".to_owned());
+            return Err("they were made from other GLSL than that next to them".to_owned());
         }
         let is_on = |module: &Built| module.features.iter().all(|feature| feature_is_on(feature));
         let modules = self.modules.into_iter().filter(|(module, _)| is_on(module));

@@ -23,7 +23,7 @@ pub(crate) fn pack(words: &[u32]) -> Option<Vec<u8>> {
             let is_near = distance < NEAR;
             let kept = if is_near { distance } else { word };
             put(&mut operands, u64::from(kept) << 1 | u64::from(is_near));
-            ids.meet(word);
+            ids.see(word);
         }
         rest = after;
     }
@@ -54,7 +54,7 @@ pub(crate) fn unpack(mut packed: &[u8]) -> Option<Vec<u32>> {
             let number = u32::try_from(kept >> 1).ok()?;
             let is_near = kept & 1 != 0;
             let word = if is_near { ids.highest.wrapping_add(AHEAD).wrapping_sub(number) } else { number };
-            ids.meet(word);
+            ids.see(word);
             words.push(word);
         }
     }
@@ -68,7 +68,7 @@ struct Ids {
 }
 
 impl Ids {
-    fn meet(&mut self, word: u32) {
+    fn see(&mut self, word: u32) {
         if word > self.highest && word - self.highest <= AHEAD {
             self.highest = word;
         }

@@ -35,7 +35,7 @@ layout(set = STRUCTURE_SET, binding = 3, scalar) buffer BvhScratchBuffer { uint 
 #define BVH_SCRATCH(s) bvh_scratch_words
 #endif
 
-// A node. A number past the end is counted and answers a node whose boxes no ray hits.
+// A node. An index past the end is counted and gives a node whose boxes no ray hits.
 BvhNode bvh_node(BvhRef s, uint node) {
     if (node >= BVH_HEADER(s).node_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);
@@ -45,7 +45,7 @@ BvhNode bvh_node(BvhRef s, uint node) {
     return BVH_NODES(s)[node];
 }
 
-// The child that a link names.
+// The child that a link refers to.
 uint bvh_child(BvhRef s, uint link) {
     uint node = link >> 1u;
     if (node >= BVH_HEADER(s).node_capacity) {
@@ -54,7 +54,7 @@ uint bvh_child(BvhRef s, uint link) {
     return (link & 1u) == 0u ? BVH_NODES(s)[node].child_0 : BVH_NODES(s)[node].child_1;
 }
 
-// A triangle. A number past the end is counted and answers a triangle without area.
+// A triangle. An index past the end is counted and gives a triangle without area.
 BvhRecord bvh_record(BvhRef s, uint record) {
     if (record >= BVH_HEADER(s).record_capacity) {
         atomicAdd(BVH_HEADER(s).corrupted, 1u);
@@ -83,7 +83,7 @@ void bvh_set_parent(BvhRef s, uint node, uint link) {
     }
 }
 
-// Sets the box of the child that a link names.
+// Sets the box of the child that a link refers to.
 void bvh_set_box(BvhRef s, uint link, vec3 lower, vec3 upper) {
     uint node = link >> 1u;
     if (node >= BVH_HEADER(s).node_capacity) {

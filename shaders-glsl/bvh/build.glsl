@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform BvhBuildConstants {
     uint bvh_step;        // digit of the sort, 0 is the lowest; level of the unions that are read
 };
 
-// Number of this invocation in groups of BVH_GROUP_SIZE; more than one dimension holds are in the second.
+// Index of this invocation in groups of BVH_GROUP_SIZE, which fill two dimensions.
 uint bvh_invocation() {
     return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BVH_GROUP_SIZE + gl_GlobalInvocationID.x;
 }

@@ -1,6 +1,6 @@
 // What: children, parents and boxes of all inner nodes, each found by itself in the sorted codes.
 // Reads: records, scratch (keys, unions). Writes: nodes.
-// Source: Karras 2012, figure 4. Equal codes are told apart by their places.
+// Source: Karras 2012, figure 4. Equal codes are ordered by their places.
 #version 460
 #include "contract/extensions.glsl"
 #include "bvh/unions.glsl"
@@ -16,7 +16,7 @@ int common_prefix(int place, int other) {
     return difference != 0u ? 31 - findMSB(difference) : 63 - findMSB(uint(place) ^ uint(other));
 }
 
-// The reference of a child; an inner node is told by which link it is reached.
+// The reference of a child; an inner node stores the link by which it is reached.
 uint adopt(int child, bool leaf, uint link) {
     if (leaf) {
         return BVH_LEAF | uint(child);

@@ -10,7 +10,7 @@
 #define BVH_LEAF 0x80000000u
 #define BVH_LEAF_SHIFT 27u
 
-// Most triangles of a leaf.
+// Maximum number of triangles per leaf.
 #define BVH_LEAF_LIMIT 16u
 
 // Subtrees a ray remembers; forgotten ones are found again through the links to parents.

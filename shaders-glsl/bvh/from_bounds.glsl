@@ -9,7 +9,7 @@
 
 void bvh_from_bounds(BvhRef s, vec3 lower, vec3 upper) {
     float extent = largest_axis(upper - lower);
-    // Kept normal: what does not fit is clamped to the grid, which costs quality and no hit.
+    // Kept a normal number: what lies outside is clamped to the grid, which costs quality but no hit.
     float cells = clamp(BVH_CODE_CELLS / max(extent, 1.1754944e-38), 1.1754944e-38, PLACEMENT_LONGEST);
     BVH_HEADER(s).lower = lower;
     // The same along all axes, so that cells are cubes.

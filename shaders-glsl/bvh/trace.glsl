@@ -1,10 +1,10 @@
 // What: finds the nearest or any hit by an ordered descent.
 // Reads: header, nodes, records; the scene where alpha is tested. Writes: header.corrupted.
-// Source: Laine 2010 and Hapala et al. 2011 (descent that can go on without its stack); Woop et al. 2013
+// Source: Laine 2010 and Hapala et al. 2011 (descent that can resume without its stack); Woop et al. 2013
 // (the triangle test).
 // A node's children are entered in an order that depends on ray and boxes alone. So the link of the
-// subtree entered or left last says everything about where a traversal stands: the stack only saves the
-// way up, and may forget its oldest entries, or all of them where a ray pauses.
+// subtree entered or left last is the whole position of a traversal: the stack only saves the path
+// upwards, and may forget its oldest entries, or all of them where a ray pauses.
 // cursor[0]: BVH_AT_*, cursor[1]: link of the subtree to enter or just left.
 #ifndef BVH_TRACE_GLSL
 #define BVH_TRACE_GLSL
@@ -32,7 +32,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     Hit best = state.best;
     uint link = BVH_NONE;
     bool entering = true;
-    // Whether there may be subtrees to enter that the stack does not know.
+    // Whether there may be subtrees to enter that are not on the stack.
     bool forgotten = false;
     if (state.cursor[0] != BVH_AT_START) {
         entering = state.cursor[0] == BVH_AT_ENTRY;
@@ -47,7 +47,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
     uint nodes = 0u;
     uint tests = 0u;
     bool paused = false;
-    // Every turn enters a node or a leaf, leaves one, or takes one from the stack.
+    // Every iteration enters a node or a leaf, leaves one, or takes one from the stack.
     while (true) {
         if (nodes + tests >= work_budget) {
             paused = true;
@@ -103,7 +103,7 @@ uint bvh_trace(BvhRef s, Ray ray, inout TraceState state, bool any_hit) {
         if (!forgotten || link == BVH_NONE) {
             break;
         }
-        // The way up: the sibling comes next if it is the one that is entered second.
+        // Upwards: the sibling comes next if it is the one that is entered second.
         uint parent = link >> 1u;
         BvhNode node = bvh_node(s, parent);
         nodes += 1u;

@@ -1,4 +1,4 @@
-// What: the records of a bounding volume hierarchy with two children a node.
+// What: the records of a bounding volume hierarchy with two children per node.
 // Reads, writes: nothing.
 #ifndef BVH_TYPES_GLSL
 #define BVH_TYPES_GLSL
@@ -19,7 +19,7 @@ struct BvhHeader {
     vec3 lower;             // lower corner of the geometry, metres relative to the frame origin; Morton codes only
     float spare_lower;      // zero
     vec3 cells_per_metre;   // cells of the Morton grid per metre, along each axis
-    uint corrupted;         // references that name no node or record
+    uint corrupted;         // references with an invalid index
     uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
     uvec2 records_address;  // device address of the triangle records
     uvec2 scratch_address;  // device address of the scratch pool
@@ -27,8 +27,8 @@ struct BvhHeader {
 };
 
 // An inner node: the boxes of its two children, so that one read decides about both. 64 bytes.
-// A child reference is a node's number, or BVH_LEAF with a run of records.
-// A link names one child of one node: twice the node's number, plus 1 for the second child.
+// A child reference is a node's number, or BVH_LEAF with a range of records.
+// A link refers to one child of one node: twice the node's number, plus 1 for the second child.
 struct BvhNode {
     vec3 lower_0;           // lower corner of the first child, metres relative to the frame origin
     uint child_0;           // reference of the first child: a node's number, or a leaf

@@ -5,7 +5,7 @@
 
 #include "bvh/build.glsl"
 
-// Boxes of the level above this many.
+// Number of boxes of the level above this many.
 uint union_count(uint below) {
     return (below + BVH_UNION - 1u) / BVH_UNION;
 }
@@ -30,7 +30,7 @@ void union_include(uint level, uint offset, uint place, inout vec3 lower, inout 
     }
 }
 
-// The box of the records from `begin` to before `end`: at each level what does not fill a union of the next.
+// The box of the records from `begin` to before `end`: at each level those that do not fill a union of the next.
 void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
     lower = vec3(uintBitsToFloat(0x7F800000u));
     upper = -lower;

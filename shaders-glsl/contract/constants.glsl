@@ -17,8 +17,8 @@
 // In Hit.primitive: a fragment without a known triangle; a and b are the structure's.
 #define PRIMITIVE_UNKNOWN 0xFFFFFFFEu
 
-// In Hit.b, as bits: a and the surface are a stored fragment's, although the hit names its triangle for diagnostics. No
-// barycentric is as large.
+// In Hit.b, as bits: a and the surface are a stored fragment's, although the hit has the triangle's id for diagnostics.
+// No barycentric is as large.
 #define HIT_STORED 0x7F7FFFFFu
 
 // Draw flags.
@@ -31,7 +31,7 @@
 #define SURFACE_PRIMITIVE 8u
 #define SURFACE_EMISSION 16u
 
-// What is recorded of the work of rays; each value includes those below it.
+// How much of the work of rays is recorded; each value includes those below it.
 #define COUNTERS_OFF 0u
 // Sums over all rays, in the queue's header.
 #define COUNTERS_SUMS 1u

@@ -1,4 +1,4 @@
-// What: hits of stored fragments that keep their triangle for diagnostics alone.
+// What: hits of stored fragments that keep their triangle only for diagnostics.
 // Reads: the hit. Writes: the hit.
 // The hit has the triangle's id, and HIT_STORED in b marks that a and the surface are still the fragment's.
 #ifndef CONTRACT_STORED_HIT_GLSL

@@ -8,7 +8,7 @@
 // Constant ids 0 to 9 belong to the contract.
 layout(constant_id = 0) const uint COUNTERS = COUNTERS_OFF;
 
-// Units of work after which a ray pauses. Data and no constant: one kernel serves every budget.
+// Units of work after which a ray pauses. A variable, not a constant: one kernel serves every budget.
 uint work_budget = TRACE_WORK_BUDGET;
 
 // The state of a ray that has not been traced yet.

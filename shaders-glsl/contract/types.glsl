@@ -11,9 +11,9 @@ struct Ray {
     vec3 origin;              // metres relative to the frame origin
     float t_min;              // hits at or before this t do not count
     vec3 direction;           // need not be unit; finite and not zero
-    float t_max;              // may be infinite; negative: the ray asks nothing
+    float t_max;              // may be infinite; negative: the ray is inactive
     uint exclude_primitive;   // never hit; PRIMITIVE_NONE excludes nothing
-    uint flags;               // 0: kept for what a ray may ask beyond this, none so far
+    uint flags;               // 0: reserved
     float cone_width;         // width of the ray cone at the origin, metres
     float cone_spread;        // growth of the width per metre, radians
 };
@@ -22,14 +22,14 @@ struct Ray {
 // a and b belong to the structure: barycentrics of vertices 1 and 2 where hits are primitives.
 struct Hit {
     float t;                  // in units of the ray direction's length
-    uint primitive;           // global triangle id; PRIMITIVE_UNKNOWN of a fragment that does not keep it
+    uint primitive;           // global triangle id; PRIMITIVE_UNKNOWN for a fragment that does not keep it
     float a;                  // the structure's; weight of vertex 1 where hits are primitives
     // the structure's; weight of vertex 2 where hits are primitives, and the bits HIT_STORED where a fragment without
-    // them names its triangle for diagnostics
+    // them has its triangle's id for diagnostics
     float b;
 };
 
-// Where a traversal stands, so that it can pause and go on. 64 bytes. Zeroed (trace_state_begin)
+// The position of a traversal, so that it can pause and resume. 64 bytes. Zeroed (trace_state_begin)
 // for a fresh ray; `cursor` belongs to the structure.
 struct TraceState {
     Hit best;                 // best hit so far
@@ -40,7 +40,7 @@ struct TraceState {
     uint rounds;              // dispatches so far
 };
 
-// What a ray has spent. 16 bytes.
+// The work of a ray. 16 bytes.
 struct RayWork {
     uint cells;               // cells visited
     uint entries;             // list entries read

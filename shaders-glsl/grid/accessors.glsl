@@ -32,7 +32,7 @@ uint grid_cell_count(GridRef s) {
     return GRID_HEADER(s).cells[0] * GRID_HEADER(s).cells[1] * GRID_HEADER(s).cells[2];
 }
 
-// Number of the list of a cell; lists of a column lie one behind the other.
+// Index of the list of a cell; lists of a column are contiguous.
 uint grid_list(ivec3 cell, uvec3 cells) {
     return (uint(cell.y) * cells.x + uint(cell.x)) * cells.z + uint(cell.z);
 }

@@ -1,8 +1,8 @@
 // What: follows a ray from cell to cell of a grid and tests the triangles that each cell lists.
 // Reads: header, lists, entries, geometry. Writes: header.corrupted.
 // Source: Amanatides and Woo 1987, with t of each plane computed anew instead of accumulated (ads/box_cells.glsl). Indices
-// only go forwards, and a cell is missed by no more than rounding, which what it lists allows for. Their mark that says
-// which ray a triangle was last tested against is the two triangles tested last.
+// only go forwards, and a cell is missed by no more than rounding, for which its list has a margin. Instead of their
+// mark of the ray that a triangle was last tested against, the two triangles tested last are kept.
 //
 // cursor: 0 flags
 //         1 t
@@ -36,7 +36,7 @@ uvec2 grid_entries(GridRef s, ivec3 cell, uvec3 cells, uint stored) {
     return uvec2(0u);
 }
 
-// Tests a triangle of a list. An entry that names none is counted.
+// Tests a triangle of a list. An invalid index is counted.
 void grid_test(GridRef s, uint primitive, Ray ray, inout TraceState state) {
     if (primitive >= geometry_triangle_count()) {
         atomicAdd(GRID_HEADER(s).corrupted, 1u);
@@ -51,7 +51,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
     uint stored = grid_stored(s);
     BoxLine line = box_line(grid_box_cells(s), origin, ray.direction);
     bvec3 up = greaterThanEqual(line.direction, vec3(0.0));
-    // A finite end, also where the geometry ends beyond what numbers hold.
+    // A finite end, also where the end of the geometry overflows.
     t_last = min(t_last, 3.0e38);
     ivec3 cell;
     uint entry = GRID_LIST_BEGIN;
@@ -66,7 +66,7 @@ bool grid_trace_cells(GridRef s, Ray ray, vec3 origin, float t, float t_last, fl
         cell = clamp(box_line_cell_at(line, t, ivec3(cells)), ivec3(0), ivec3(cells) - 1);
     }
     uvec2 tested = uvec2(PRIMITIVE_NONE);
-    // Each turn crosses a cell, and stays below the budget.
+    // Each iteration crosses a cell, and stays below the budget.
     while (t <= t_last && !(t > state.best.t + slack)) {
         // A list that was being read when the ray paused goes on without a unit for its cell.
         bool enters = entry == GRID_LIST_BEGIN;
@@ -140,7 +140,7 @@ uint grid_trace(GridRef s, Ray ray, inout TraceState state, bool any_hit) {
         trace_log(STEP_SKIP, SKIP_BOUNDS, 0u, 0u, ray.t_min, ray.t_max);
         return TRACE_MISS;
     }
-    // From so far outside rounding exceeds what cells allow for.
+    // From that far outside, rounding exceeds the margins of cells.
     if (largest_coordinate(origin) > ORIGIN_LIMIT * reach) {
         uint work = 0u;
         uint place = state.cursor[3];

@@ -12,7 +12,7 @@ struct GridHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
     uint capacity;        // entries the pool holds
-    uint corrupted;       // lists that leave the pool, and entries that name no triangle
+    uint corrupted;       // lists that leave the pool, and entries with an invalid index
     uint cells[3];        // cells along each axis
     float reach;          // metres: half the longest side of the bounds; more where the eye is far away
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray

@@ -56,7 +56,7 @@ bool ldc_fragments_fit(LdcRef s) {
     return LDC_HEADER(s).demand <= LDC_HEADER(s).capacity;
 }
 
-// With 16 bits two depths share a word: lists begin at even places, so that no word belongs to two of them.
+// With 16 bits two depths share a word: lists begin at even places, so that no two lists share a word.
 uint ldc_aligned(uint place) {
     return LDC_DEPTH_BITS == 16u ? (place + 1u) & ~1u : place;
 }
@@ -79,12 +79,12 @@ uvec2 ldc_list(LdcRef s, uint cell, uint places) {
 }
 
 // Words of a fragment's payload, and of the triangle kept for diagnostics. With attributes its first word
-// holds the triangle until all that goes by triangles is done.
+// holds the triangle until all passes that need triangles are done.
 uint ldc_payload_stride() {
     return (LDC_PAYLOAD == LDC_PAYLOAD_ATTRIBUTES ? 2u : 1u) + LDC_IDS;
 }
 
-// The triangle of a fragment; of attributes during the build only.
+// The triangle of a fragment; with attributes only during the build.
 uint ldc_primitive(LdcRef s, uint place) {
     return LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place];
 }
@@ -98,7 +98,7 @@ void ldc_lower_primitive(LdcRef s, uint place, uint primitive) {
     atomicMin(LDC_PAYLOAD_WORDS(s)[ldc_payload_stride() * place], primitive);
 }
 
-// Colour and normal of a fragment. A place that holds none is counted.
+// Colour and normal of a fragment. An invalid place is counted.
 uvec2 ldc_attributes(LdcRef s, uint place) {
     if (place >= ldc_places(s)) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
@@ -108,7 +108,7 @@ uvec2 ldc_attributes(LdcRef s, uint place) {
     return uvec2(LDC_PAYLOAD_WORDS(s)[first], LDC_PAYLOAD_WORDS(s)[first + 1u]);
 }
 
-// Puts colour and normal of a fragment in place of its triangle, which goes behind them where it is kept.
+// Puts colour and normal of a fragment in place of its triangle, which is stored behind them where it is kept.
 void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
     uint first = ldc_payload_stride() * place;
     if (LDC_IDS != 0u) {
@@ -118,7 +118,7 @@ void ldc_set_attributes(LdcRef s, uint place, uvec2 words) {
     LDC_PAYLOAD_WORDS(s)[first + 1u] = words.y;
 }
 
-// The triangle of a fragment with attributes, where it is kept. A place that holds none is counted.
+// The triangle of a fragment with attributes, where it is kept. An invalid place is counted.
 uint ldc_kept_id(LdcRef s, uint place) {
     if (place >= ldc_places(s)) {
         atomicAdd(LDC_HEADER(s).corrupted, 1u);
@@ -132,8 +132,8 @@ uint ldc_depth_bits(LdcRef s, float z) {
     return LDC_DEPTH_BITS == 16u ? packHalf2x16(vec2(z / LDC_HEADER(s).size, 0.0)) & 0xFFFFu : floatBitsToUint(z);
 }
 
-// The value of a half that is not negative. By its bits: compilers take unpackHalf2x16(packHalf2x16(x)) for x, and what
-// is stored is not.
+// The value of a half that is not negative. By its bits: compilers replace unpackHalf2x16(packHalf2x16(x)) by x, and
+// the stored value differs from x.
 float ldc_half(uint bits) {
     return bits < 0x400u ? float(bits) * (1.0 / 16777216.0) : uintBitsToFloat((bits << 13u) + 0x38000000u);
 }

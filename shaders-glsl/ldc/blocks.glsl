@@ -1,4 +1,4 @@
-// What: the blocks of a layered depth cube, of both levels: which there are, and what depths they hold.
+// What: the blocks of a layered depth cube, of both levels: their number, and the depths in them.
 // Reads, writes: header, blocks.
 // Source: Bürger et al. section 1.3, minimum and maximum depth per block; slices and the second level are not
 // in the paper.
@@ -13,7 +13,7 @@ uint ldc_block_cells(uint level) {
     return level == 0u ? LDC_BLOCK : LDC_BLOCK * LDC_LEVEL_BLOCKS;
 }
 
-// Blocks of a level a side of a view; the last ones may reach beyond its cells.
+// Blocks of a level along a side of a view; the last ones may reach beyond its cells.
 uint ldc_blocks_a_side(uint resolution, uint level) {
     return (resolution + ldc_block_cells(level) - 1u) / ldc_block_cells(level);
 }
@@ -30,11 +30,11 @@ uint ldc_block_stride() {
     return LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? 4u : 2u;
 }
 
-// Bits of the slices that depths from low to high lie in. The slice of a depth is monotone, so that no depth between
-// lies outside of them.
-uvec2 ldc_slices(float slices_a_metre, float z_low, float z_high) {
-    int first = int(bucket_of(z_low, 0.0, slices_a_metre, LDC_SLICES));
-    int last = int(bucket_of(z_high, 0.0, slices_a_metre, LDC_SLICES));
+// Bits of the slices from that of z_low to that of z_high. The slice of a depth is monotone, so that they hold all
+// depths between.
+uvec2 ldc_slices(float slices_per_metre, float z_low, float z_high) {
+    int first = int(bucket_of(z_low, 0.0, slices_per_metre, LDC_SLICES));
+    int last = int(bucket_of(z_high, 0.0, slices_per_metre, LDC_SLICES));
     uvec2 bits = uvec2(0u);
     for (int word = 0; word < 2; word++) {
         int from = max(first - 32 * word, 0);
@@ -48,11 +48,12 @@ uvec2 ldc_slices(float slices_a_metre, float z_low, float z_high) {
 
 // Widens the depths of the blocks of a cell. Word 0 holds the complement of the smallest depth's bits, so
 // that a cleared block is empty and both ends are maxima; depths are not negative, and order like their bits.
-// Words only grow and most fragments find theirs as large: reading first spares atomics.
+// Words only grow, and for most fragments they are large enough already: reading first saves atomics.
 void ldc_widen_blocks(LdcRef s, uint axis, ivec2 cell, float z_low, float z_high) {
     uvec2 ends = uvec2(~floatBitsToUint(z_low), floatBitsToUint(z_high));
     uint resolution = LDC_HEADER(s).resolution;
-    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(LDC_HEADER(s).slices_a_metre, z_low, z_high) : uvec2(0u);
+    uvec2 slices = LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES ? ldc_slices(LDC_HEADER(s).slices_per_metre, z_low, z_high)
+        : uvec2(0u);
     for (uint level = 0u; level < LDC_LEVELS; level++) {
         uint word = ldc_block_stride() * ldc_block(resolution, level, axis, cell / int(ldc_block_cells(level)));
         for (uint side = 0u; side < 2u; side++) {

@@ -1,7 +1,7 @@
-// What: length of each cell's list; where layers are peeled, how many there are, and in a second draw lists grow from
-// where they begin to where they end.
+// What: length of each cell's list; with peeling, the number of layers, and in a second draw the words of lists are
+// advanced from their first place to their end.
 // Reads: geometry, header. Writes: lists; scratch, header.layer_demand, header.beyond.
-// Source: Bürger et al. section 1.2, where the largest length says how often to peel.
+// Source: Bürger et al. section 1.2, where the maximum length is the number of layers to peel.
 #version 460
 #include "contract/extensions.glsl"
 #include "ldc/visit.glsl"

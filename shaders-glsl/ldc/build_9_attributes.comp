@@ -1,5 +1,5 @@
-// What: puts what is shaded at each fragment in place of its triangle: colour and normal, as seen along the triangle's
-// normal. Sorting, peeling and conservative lists go by triangles, so it comes last. Payload attributes only.
+// What: replaces the triangle of each fragment by colour and normal, as seen along the triangle's
+// normal. Sorting, peeling and conservative lists need triangles, so it comes last. Payload attributes only.
 // Reads: geometry, header, lists, payload, the scene. Writes: payload.
 // Source: Bürger et al. section 1.2.1, where a second target of each layer holds colour and texture.
 #version 460

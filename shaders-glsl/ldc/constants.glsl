@@ -20,7 +20,7 @@
 #define LDC_PAYLOAD_INDEX 0u
 #define LDC_PAYLOAD_ATTRIBUTES 1u
 
-// How layers are made: all in one pass and then sorted, or one a pass by peeling.
+// How layers are made: all in one pass and then sorted, or one per pass by peeling.
 #define LDC_BUILD_SINGLE 0u
 #define LDC_BUILD_PEEL 1u
 
@@ -30,12 +30,12 @@
 // Blocks along a side of a block of the second level.
 #define LDC_LEVEL_BLOCKS 8u
 
-// How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle leans little in the view it
-// faces most, so that its plane leaves the cell before that.
+// How far a fragment's plane reaches beyond its triangle, in widths of a cell. A triangle has a small slope in the view
+// it faces most, so that its plane leaves the cell before that.
 #define LDC_PLANE_REACH 2.0
 
 // How far a fragment's plane counts before and behind the ray's segment in its cell, in widths of a cell. More keeps
-// rays from leaving a bent surface between two cells, less keeps planes from standing out next to it.
+// rays from leaving a curved surface between two cells, less keeps planes from protruding next to it.
 #define LDC_PLANE_SLACK 0.125
 
 // How far a ray has to be from its origin, in widths of a cell, to hit a plane that it started close to.

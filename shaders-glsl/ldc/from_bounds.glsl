@@ -15,7 +15,7 @@ void ldc_from_bounds(LdcRef s, vec3 lower, vec3 upper) {
     precise float cell = size / float(LDC_HEADER(s).resolution);
     LDC_HEADER(s).size = size;
     LDC_HEADER(s).cell = cell;
-    LDC_HEADER(s).slices_a_metre = LDC_SLICES / size;
+    LDC_HEADER(s).slices_per_metre = LDC_SLICES / size;
     LDC_HEADER(s).tolerance = LDC_HEADER(s).tolerance_per_side * size;
     LDC_HEADER(s).origin = lower - 2.0 * rounding;
     LDC_HEADER(s).lower = lower - rounding;

@@ -1,4 +1,4 @@
-// What: traverses the squares of a flat grid that a ray crosses, column by column along the side it moves along most.
+// What: traverses the squares of a flat grid that a ray crosses, column by column along its major axis.
 // Reads, writes: nothing.
 // Source: Bürger et al. section 1.4, DDA over pixels; in closed form. Which rows of a column are crossed
 // follows from the column alone, so a traversal can go on anywhere. The visited squares are a superset of the
@@ -55,7 +55,7 @@ ivec2 ldc_touched(LdcFlatRay ray, LdcArea area, int side, vec2 t) {
     vec2 moved = ray.direction[side] == 0.0 ? vec2(0.0) : t * ray.direction[side];
     float guard = 9.6e-7 * (abs(origin) + max(abs(moved.x), abs(moved.y)));
     vec2 ends = vec2(origin + min(moved.x, moved.y) - guard, origin + max(moved.x, moved.y) + guard) / area.width;
-    // Clamped as floats: what does not fit into an integer has none.
+    // Clamped as floats: what does not fit into an integer cannot be converted.
     ivec2 squares = ivec2(floor(clamp(ends, vec2(-1.0), vec2(float(area.last[side] + 1)))));
     return ivec2(max(squares.x, area.first[side]), min(squares.y, area.last[side]));
 }
@@ -105,12 +105,12 @@ bool ldc_march_next(LdcFlatRay ray, inout LdcMarch march) {
     return true;
 }
 
-// The square that a traversal is at. A column without rows may stand at row -1, or one past the last.
+// The square that a traversal is at. A column without rows may be at row -1, or one past the last.
 ivec2 ldc_march_square(LdcFlatRay ray, LdcMarch march) {
     return ray.turned ? ivec2(march.row, march.column) : ivec2(march.column, march.row);
 }
 
-// Takes a traversal that has begun to the square where another one of the same ray stood.
+// Moves a traversal that has begun to the square at which another one of the same ray was.
 void ldc_march_resume(LdcFlatRay ray, ivec2 square, inout LdcMarch march) {
     ivec2 place = ray.turned ? square.yx : square;
     march.columns -= abs(place.x - march.column);

@@ -17,7 +17,7 @@ struct LdcSizes {
     uint resolution;      // cells along a side
     uint places;          // that hold fragments
     float cell;           // metres: side of a cell
-    float slices_a_metre;
+    float slices_per_metre;
     float margin;         // metres: see ldc_margin
     float slack;          // t by which a fragment can be hit before or behind its segment
 };
@@ -36,12 +36,12 @@ struct LdcSearch {
     uint place;           // of the next fragment, or link of the next node of the conservative list
 };
 
-// How far beyond the ray's depths in a cell fragments can lie that it hits there, at most.
+// Maximum distance from the ray's depths in a cell to those of a fragment that it hits there.
 float ldc_margin(LdcRef s) {
     if (LDC_ACCEPT == LDC_ACCEPT_TOLERANCE) {
         return LDC_HEADER(s).tolerance;
     }
-    // A plane leans by a maximum of one cell per cell, and the ray may hit it before or behind its segment.
+    // A plane has a slope of at most one cell per cell, and the ray may hit it before or behind its segment.
     float slack = LDC_ACCEPT == LDC_ACCEPT_PLANE ? 3.0 * LDC_PLANE_SLACK : 0.0;
     return (1.001 + slack) * LDC_HEADER(s).cell + 2.0 * ldc_depth_rounding(s);
 }
@@ -52,8 +52,8 @@ float ldc_slack(LdcRef s, Ray ray) {
 }
 
 LdcSizes ldc_sizes(LdcRef s, Ray ray) {
-    return LdcSizes(LDC_HEADER(s).resolution, ldc_places(s), LDC_HEADER(s).cell, LDC_HEADER(s).slices_a_metre, ldc_margin(s),
-        ldc_slack(s, ray));
+    return LdcSizes(LDC_HEADER(s).resolution, ldc_places(s), LDC_HEADER(s).cell, LDC_HEADER(s).slices_per_metre,
+        ldc_margin(s), ldc_slack(s, ray));
 }
 
 // Depths that the ray has between two t, widened by their rounding.
@@ -89,8 +89,8 @@ void ldc_test_plane(LdcRef s, Ray ray, LdcSearch search, uint primitive, inout T
     }
 }
 
-// How far a fragment may be from the ray, by its triangle's own lean: half a cell's rise, but no less than two units
-// of the last place of its depth.
+// How far a fragment may be from the ray, by its triangle's own slope: its rise over half a cell, but no less than two
+// units in the last place of its depth.
 float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     vec3 a;
     vec3 b;
@@ -102,8 +102,8 @@ float ldc_slope_tolerance(LdcRef s, LdcSearch search, uint primitive, float z) {
     return max(min(rise, 1.0) * search.sizes.cell, 2.0 * last_place);
 }
 
-// Whether a fragment without an id replaces a best hit that is as near: not one on a triangle, and of fragments the one
-// whose words come first, so that the answer does not depend on where they are stored.
+// Whether a fragment without an id replaces a best hit at the same distance: never one on a triangle, and of two
+// fragments the one with the lower words, so that the answer does not depend on where they are stored.
 bool ldc_replaces_as_near(LdcRef s, Hit best, uint place) {
     if (best.primitive != PRIMITIVE_UNKNOWN) {
         return false;

@@ -57,12 +57,13 @@ bool ldc_next_block(inout LdcTraversal traversal) {
     return LDC_LEVELS == 2u && ldc_march_next(traversal.flat_ray, traversal.upper);
 }
 
-// What becomes of a square of blocks.
-#define LDC_PASSED_OVER 0u
-#define LDC_MET 1u
+// What the traversal does with a square of blocks.
+#define LDC_SKIPPED 0u
+#define LDC_ENTERED 1u
 #define LDC_BEHIND 2u
 
-// Tests the block that the traversal of a level is at, and begins that of the level within it where it is hit.
+// Tests the block that the traversal of a level is at, and begins that of the level within it where its depths overlap
+// the ray's.
 uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch march, inout LdcMarch within,
     inout TraceState state,
     inout uint work) {
@@ -70,20 +71,20 @@ uint ldc_look(LdcRef s, LdcTraversal traversal, uint level, uint inner, LdcMarch
     ivec2 block = ldc_march_square(traversal.flat_ray, march);
     vec2 interval = ldc_block_interval(traversal, level, block);
     if (march.rows <= 0 || !(interval.x <= interval.y)) {
-        return LDC_PASSED_OVER;
+        return LDC_SKIPPED;
     }
     if (ldc_is_behind(traversal, interval.x, state.best.t)) {
         trace_log(STEP_SKIP, SKIP_BEHIND, 0u, 0u, interval.x, interval.y);
         return LDC_BEHIND;
     }
     state.entries++;
-    bool met = ldc_block_is_met(s, traversal, level, block, interval)
+    bool entered = ldc_block_overlaps(s, traversal, level, block, interval)
         && ldc_begin_level(traversal, inner, true, block, interval, within);
-    return met ? LDC_MET : LDC_PASSED_OVER;
+    return entered ? LDC_ENTERED : LDC_SKIPPED;
 }
 
 // Traverses one view, from its beginning or from where it stopped; true if the work budget ended first. Every
-// level has a loop of its own: invocations that run side by side pay for all that one of them does in a turn.
+// level has a loop of its own: invocations that run in lockstep pay for all that one of them does in an iteration.
 bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, inout LdcTraversal traversal,
     inout LdcSearch search,
     inout TraceState state, inout uint work) {
@@ -93,8 +94,8 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
                 return true;
             }
             uint found = ldc_look(s, traversal, 1u, 0u, traversal.upper, traversal.blocks, state, work);
-            traversal.in_upper = found == LDC_MET;
-            more = traversal.in_upper || (found == LDC_PASSED_OVER && ldc_march_next(traversal.flat_ray,
+            traversal.in_upper = found == LDC_ENTERED;
+            more = traversal.in_upper || (found == LDC_SKIPPED && ldc_march_next(traversal.flat_ray,
                 traversal.upper));
         }
         while (more && traversal.in_upper && !traversal.in_block) {
@@ -102,8 +103,8 @@ bool ldc_trace_view(LdcRef s, Ray ray, bool any_hit, bool ordered, bool more, in
                 return true;
             }
             uint found = ldc_look(s, traversal, 0u, 2u, traversal.blocks, traversal.cells, state, work);
-            traversal.in_block = found == LDC_MET;
-            more = traversal.in_block || (found == LDC_PASSED_OVER && ldc_next_block(traversal));
+            traversal.in_block = found == LDC_ENTERED;
+            more = traversal.in_block || (found == LDC_SKIPPED && ldc_next_block(traversal));
         }
         while (more && traversal.in_block) {
             if (work >= work_budget) {
@@ -147,7 +148,7 @@ uint ldc_trace(LdcRef s, Ray ray, inout TraceState state, bool any_hit) {
     }
     bool restored = bits_are_set(state.cursor[0], LDC_CURSOR_STARTED);
     uint work = 0u;
-    // First the view that the ray crosses the fewest cells of: what is hit there ends it early in the others.
+    // First the view in which the ray crosses the fewest cells: a hit there ends it early in the others.
     uint first_axis = triangle_major_axis(ray.direction);
     for (uint turn = restored ? bits_get(state.cursor[0], LDC_CURSOR_TURN) : 0u; turn < AXIS_VIEWS; turn++) {
         uint axis = (first_axis + turn) % AXIS_VIEWS;

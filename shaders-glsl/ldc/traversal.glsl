@@ -92,8 +92,8 @@ bool ldc_is_behind(LdcTraversal traversal, float t_low, float best_t) {
 }
 
 // Begins the traversal over the blocks of a level, or over cells (level 2), in a block of the level above or in
-// all of the view; false where the segment has none. What it touches outside of the block belongs to blocks that
-// are traversed as well.
+// all of the view; false where the segment has none. Squares that it touches outside of the block belong to blocks
+// that are traversed as well.
 bool ldc_begin_level(LdcTraversal traversal, uint level, bool within, ivec2 block, vec2 interval, out LdcMarch march) {
     int width = level == 2u ? 1 : int(ldc_block_cells(level));
     ivec2 first = ivec2(0);
@@ -108,8 +108,8 @@ bool ldc_begin_level(LdcTraversal traversal, uint level, bool within, ivec2 bloc
     return ldc_march_begin(traversal.flat_ray, ldc_area(traversal.flat_ray, float(width), first, last), t, march);
 }
 
-// Whether a block holds depths that the ray has in its segment.
-bool ldc_block_is_met(LdcRef s, LdcTraversal traversal, uint level, ivec2 block, vec2 interval) {
+// Whether the depths in a block overlap those of the ray in its segment.
+bool ldc_block_overlaps(LdcRef s, LdcTraversal traversal, uint level, ivec2 block, vec2 interval) {
     uint place = ldc_block(traversal.sizes.resolution, level, traversal.axis, block);
     LdcBlock held = ldc_block_depths(s, place);
     float margin = traversal.sizes.margin;
@@ -119,15 +119,15 @@ bool ldc_block_is_met(LdcRef s, LdcTraversal traversal, uint level, ivec2 block,
         abs(interval.y)) * abs(traversal.z_direction));
     float low = depths.x - margin - rounding;
     float high = depths.y + margin + rounding;
-    bool met = !held.empty && low <= held.z_max && high >= held.z_min;
-    if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && met) {
-        met = any(notEqual(ldc_slices(traversal.sizes.slices_a_metre, low, high) & held.slices, uvec2(0u)));
+    bool overlaps = !held.empty && low <= held.z_max && high >= held.z_min;
+    if (LDC_OCCUPANCY == LDC_OCCUPANCY_SLICES && overlaps) {
+        overlaps = any(notEqual(ldc_slices(traversal.sizes.slices_per_metre, low, high) & held.slices, uvec2(0u)));
     }
     trace_log(STEP_NODE, place, 0u, 0u, interval.x, interval.y);
-    if (!met) {
+    if (!overlaps) {
         trace_log(STEP_SKIP, held.empty ? SKIP_EMPTY : SKIP_OUTSIDE, 0u, 0u, depths.x, depths.y);
     }
-    return met;
+    return overlaps;
 }
 
 #endif

@@ -26,10 +26,10 @@ struct LdcHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // places of fragments in all lists, also those beyond the capacity
     uint capacity;        // places the pools hold
-    uint conservative_demand;   // triangles kept outside of centres; counted once all fragments fit
+    uint conservative_demand;   // triangles that conservative lists keep; counted once all fragments fit
     uint conservative_capacity; // triangles that the conservative lists hold
     uint unsorted;        // lists longer than the sort passes sort
-    uint corrupted;       // list entries that name no fragment
+    uint corrupted;       // list entries with an invalid index
     uint resolution;      // cells along a side of a view
     float cell;           // metres: side of a cell
     float size;           // metres: side of the cube
@@ -39,12 +39,12 @@ struct LdcHeader {
     vec3 origin;          // metres relative to the frame origin: lower corner of the cube
     uint long_capacity;   // long lists that the scratch holds
     vec3 lower;           // lower corner of the geometry, metres relative to the frame origin
-    uint layer_demand;    // fragments of the deepest cell, LDC_BUILD_PEEL only, as what else counts layers
+    uint layer_demand;    // fragments of the deepest cell; this and the other counts of layers with LDC_BUILD_PEEL only
     vec3 upper;           // upper corner of the geometry, metres relative to the frame origin
-    float slices_a_metre; // slices of depth per metre, LDC_OCCUPANCY_SLICES only
+    float slices_per_metre; // slices of depth per metre, LDC_OCCUPANCY_SLICES only
     uvec2 lists_address;  // device address of the lists; zero with descriptors, as all that follow
     uvec2 depths_address; // device address of the depths
-    uvec2 payload_address; // device address of what fragments carry in addition to their depth
+    uvec2 payload_address; // device address of the payload
     uvec2 blocks_address; // device address of the blocks
     uvec2 heads_address;  // device address of the heads of the conservative lists
     uvec2 conservative_address; // device address of the conservative lists' nodes
@@ -53,16 +53,16 @@ struct LdcHeader {
     uint layer_limit;     // layers that may be peeled
     uint beyond;          // fragments behind the layers that may be peeled
     uint large_demand;           // triangles with many cells of their view, also those beyond the capacity; binning only
-    uint large_capacity;   // triangles that their queue holds
-    uint groups[3];       // workgroups for them
+    uint large_capacity;   // triangles that the large-triangle queue holds
+    uint groups[3];       // workgroups for those triangles
 };
 
-// Depths of what a block of cells holds.
+// Depths of the fragments and triangles in a block of cells.
 struct LdcBlock {
     bool empty;
     float z_min;          // metres
     float z_max;
-    uvec2 slices;         // a bit for each slice of depth in which something lies; all where blocks do not say
+    uvec2 slices;         // a bit for each slice of depth that holds something; all bits where blocks have no slices
 };
 
 #endif

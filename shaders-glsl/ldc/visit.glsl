@@ -9,8 +9,7 @@
 #include "ldc/blocks.glsl"
 #include "ldc/covered.glsl"
 
-// Lengthens the cell's list, or in a second draw of layers that are peeled lets it grow from where it begins
-// to where it ends.
+// Lengthens the cell's list; in the second draw with peeling advances its word from its first place to its end.
 void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;

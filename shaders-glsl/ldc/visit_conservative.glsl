@@ -2,7 +2,7 @@
 // fragment represents it: at edges towards triangles of another view, at silhouettes, and where it is smaller than a
 // cell. The same for every builder.
 // Reads: geometry, header, lists, depths, payload. Writes: heads, conservative lists, blocks, header.conservative_demand.
-// Source: not in the paper, whose rays pass between the views' cells there.
+// Source: not in the paper, in which rays pass between the cells of the views there.
 #ifndef LDC_VISIT_CONSERVATIVE_GLSL
 #define LDC_VISIT_CONSERVATIVE_GLSL
 
@@ -40,7 +40,7 @@ bool ldc_is_stood_for(
 
 void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     if (!ldc_fragments_fit(ldc_built)) {
-        // What stands for what is not known until all fragments fit.
+        // Which fragments represent a triangle is not known until all fragments fit.
         return;
     }
     AxisView view = ldc_built_view(axis);
@@ -63,7 +63,7 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
     float z_center = axis_plane_depth(a, b, c, center);
     uint cell = ldc_cell(ldc_built, view.axis, place);
-    // A triangle far smaller than a cell is not represented by a surface that is near only in units of the cell.
+    // A triangle far smaller than a cell is not represented by a surface that is near it only in units of the cell.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
     if (ldc_is_stood_for(view, cell, primitive, point, z_point, z_center, CONSERVATIVE_DEPTH * size)) {

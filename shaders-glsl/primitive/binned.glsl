@@ -1,5 +1,6 @@
 // What: what a binning pass does with a triangle in a face; BIN_VISIT says which pass it is.
-// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; pairs, header.large_demand, header.groups.
+// Reads: geometry, header, bounds. Writes: bounds, or lists and entries; large-triangle queue, header.large_demand,
+// header.groups.
 // Source: DIRT section 4.1, by computing instead of drawing. The same functions decide as in the raster builder.
 #ifndef PRIMITIVE_BINNED_GLSL
 #define PRIMITIVE_BINNED_GLSL
@@ -26,7 +27,7 @@ layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveLargeBuffer { u
 #include "ads/bin_large.glsl"
 
 #define bin_built primitive_built
-// The bounds of cells are always needed, so no pass of its own comes before.
+// The bounds of cells are always needed, so the large-triangle queue needs no pass of its own.
 #define BIN_ENQUEUES BIN_VISIT_BOUNDS
 #define BIN_TELLS_BLOCKS
 

@@ -1,6 +1,6 @@
 // What: length of each list, contiguous storage only.
 // Reads: geometry, header, bounds. Writes: lists.
-// Source: DIRT section 3.2, fill primitives; counted first, so that lists can be stored one behind the other.
+// Source: DIRT section 3.2, fill primitives; counted first, so that lists can be stored contiguously.
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/raster.glsl"

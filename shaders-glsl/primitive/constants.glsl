@@ -22,7 +22,7 @@
 #define PRIMITIVE_DEPTHS_CLIPPED 0u
 #define PRIMITIVE_DEPTHS_CORNERS 1u
 
-// How a ray goes on from a tile: over the next boundary, or half a pixel on.
+// How a ray leaves a tile: over the next boundary, or half a pixel beyond it.
 #define PRIMITIVE_MARCH_EXACT 0u
 #define PRIMITIVE_MARCH_JUMP 1u
 

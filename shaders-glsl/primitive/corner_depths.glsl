@@ -1,7 +1,7 @@
 // What: the published depths of a triangle in a cell: of its plane at the cell's corners, whatever the triangle covers.
 // Reads, writes: nothing.
 // Source: DIRT section 4.1.1; the authors' program intersects the plane with the rays through the corners, and
-// leaves out those within a thousandth of parallel to it. Where some are left out, the depths miss part of
+// ignores rays within a thousandth of parallel to it. Where some are ignored, the depths miss part of
 // the triangle.
 #ifndef PRIMITIVE_CORNER_DEPTHS_GLSL
 #define PRIMITIVE_CORNER_DEPTHS_GLSL

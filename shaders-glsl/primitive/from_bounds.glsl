@@ -23,8 +23,8 @@ void primitive_from_bounds(PrimitiveRef s, vec3 lower, vec3 upper) {
     PRIMITIVE_HEADER(s).rounding = rounding;
     PRIMITIVE_HEADER(s).lower = first - rounding;
     PRIMITIVE_HEADER(s).upper = last + rounding;
-    // What a ray hits outside of the near region is not behind the centre, also where tiles are few. Depths are positive,
-    // also where all geometry is at the eye.
+    // Hits of a ray outside of the near region are not behind the centre, also where tiles are few. Depths are
+    // positive, also where all geometry is at the eye.
     float near = max(NEAR_REGION * float(PRIMITIVE_HEADER(s).tiles) * reach, 2.0 * rounding);
     PRIMITIVE_HEADER(s).near_size = max(near, PLACEMENT_SMALLEST);
 }

@@ -1,7 +1,7 @@
 // What: the published march: from where a ray leaves a tile half a pixel on along the longer axis, to the tile there.
 // Reads: header. Writes: nothing.
 // Source: DIRT section 4.2.1 and the authors' program. Tiles that the ray crosses in less than the half pixel
-// are passed by.
+// are skipped.
 #ifndef PRIMITIVE_JUMP_GLSL
 #define PRIMITIVE_JUMP_GLSL
 
@@ -14,7 +14,7 @@ float primitive_half_pixel(PrimitiveRef s) {
 }
 
 // Goes on to the tile half a pixel behind the exit from a tile or a block of them, or to that of the
-// segment's end; false behind it. A face takes at most two jumps a pixel and a step a tile.
+// segment's end; false behind it. A face takes at most two jumps per pixel and one step per tile.
 bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     m.neighbours = 0u;
     if (!skip.step_x && !skip.step_y) {
@@ -29,7 +29,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     float landing = leaves[axis] / leaves.z + float(way) * primitive_half_pixel(s);
     float error;
     float t = march_crossing(landing, m.origin[axis], m.direction[axis], m.origin.z, m.direction.z, way, error);
-    // Where rounding hides the half pixel the march is the exact one, so that every ray ends.
+    // Where the half pixel is lost in rounding, the march is the exact one, so that every ray ends.
     if (!(t > skip.t_out)) {
         bool more = march_take_skip(m, skip);
         m.neighbours = 0u;
@@ -55,7 +55,7 @@ bool primitive_jump(PrimitiveRef s, inout CellMarch m, MarchSkip skip) {
     return true;
 }
 
-// Where the ray entered the tile it landed in, not before the segment.
+// Where the ray entered its new tile, not before the segment.
 float primitive_jumped_entry(CellMarch m, float t_begin) {
     float t_in = t_begin;
     for (int axis = 0; axis < 2; axis++) {

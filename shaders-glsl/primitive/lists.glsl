@@ -1,8 +1,8 @@
-// What: the lists of triangles, behind which stands one of two storages.
+// What: the lists of triangles, in one of two storages.
 // Reads, writes: lists, entries, header.demand, header.corrupted.
 // Source: DIRT section 3.2, fill primitives. linked: a node of primitive and next, links are node number
-// + 1, 0 ends a list. contiguous: primitives only; the word of a list holds where it ends once all are
-// stored, and the word before it where it begins.
+// + 1, 0 ends a list. contiguous: primitives only; the word of a list is its end once all are
+// stored, and the word before it its begin.
 #ifndef PRIMITIVE_LISTS_GLSL
 #define PRIMITIVE_LISTS_GLSL
 
@@ -45,7 +45,7 @@ bool primitive_list_ended(PrimitiveCursor cursor) {
 }
 
 // The next triangle of a list that has not ended. An entry past the end of the pool is counted and ends
-// the list with PRIMITIVE_NONE; one that names no triangle is counted and is PRIMITIVE_NONE.
+// the list with PRIMITIVE_NONE; one with an invalid index is counted and is PRIMITIVE_NONE.
 uint primitive_list_next(PrimitiveRef s, inout PrimitiveCursor cursor) {
     uint entry = PRIMITIVE_STORAGE == PRIMITIVE_STORAGE_LINKED ? cursor.at - 1u : cursor.at;
     if (entry >= primitive_stored(s)) {

@@ -28,7 +28,7 @@ bool primitive_is_listed(uint primitive) {
     return triangle_has_area(a, b, c);
 }
 
-// What of the header decides which cells list a triangle. Precise expressions take values from here: with
+// The values of the header that decide which cells list a triangle. Precise expressions take values from here: with
 // addresses, glslang does not end where they follow a reference.
 struct PrimitiveGrid {
     uint tiles;

@@ -20,7 +20,7 @@ bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cel
     vec3 c;
     primitive_face_vertices(primitive_built, primitive, face, a, b, c);
     if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_HARDWARE) {
-        // Where the rasterizer says so: a triangle that covers no centre is in no list.
+        // Coverage by the rasterizer: a triangle that covers no centre is in no list.
         if (!primitive_overlap(grid, a, b, c, place, depths)) {
             depths = vec2(1.0 / frag_coord.w);
         }

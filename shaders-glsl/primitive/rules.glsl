@@ -1,7 +1,7 @@
 // What: the published rules of a ray in a tile: a hit must lie in the tile that listed it.
 // Reads: geometry. Writes: nothing.
-// Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding takes hits next to a border to the other tile,
-// which may not list the triangle or be passed by.
+// Source: DIRT section 4.2.1, algorithm 1, line 14. Rounding moves hits next to a border into the other tile,
+// which may not list the triangle, or may be skipped.
 #ifndef PRIMITIVE_RULES_GLSL
 #define PRIMITIVE_RULES_GLSL
 

@@ -1,8 +1,8 @@
 // What: searches the lists of one cell, bucket by bucket in the order of the ray.
 // Reads: bounds, lists, entries, geometry. Writes: header.corrupted.
-// Source: DIRT section 4.2.1. Buckets behind the best hit are left out, never those before it: a triangle
-// stands in every bucket it reaches into, so the first bucket with a hit need not hold the nearest.
-// PRIMITIVE_STOP_BUCKET is the paper's rule, after which it ends the search of the tile.
+// Source: DIRT section 4.2.1. Buckets behind the best hit are skipped, never those before it: a triangle
+// is in every bucket that it reaches into, so the first bucket with a hit need not hold the nearest.
+// With PRIMITIVE_STOP_BUCKET, the paper's rule, it ends the search of the tile.
 #ifndef PRIMITIVE_SEARCH_GLSL
 #define PRIMITIVE_SEARCH_GLSL
 

@@ -1,7 +1,7 @@
 // What: the largest block of tiles that a ray can skip, because none of them lists a triangle at the ray's depths.
 // Reads: bounds. Writes: nothing.
 // Source: DIRT section 4.2.1, Hi-Z tracing. Levels are tried from the finest up, since a ray that was among
-// triangles is so.
+// triangles is likely to be so still.
 #ifndef PRIMITIVE_SKIP_GLSL
 #define PRIMITIVE_SKIP_GLSL
 
@@ -32,7 +32,7 @@ bool primitive_skip(PrimitiveRef s, PrimitiveTraversal traversal, out MarchSkip 
     return found;
 }
 
-// Goes over a block; false at the end of the segment.
+// Skips a block; false at the end of the segment.
 bool primitive_take_skip(PrimitiveRef s, inout PrimitiveTraversal traversal, MarchSkip skip) {
     bool more = PRIMITIVE_MARCH == PRIMITIVE_MARCH_JUMP ? primitive_jump(s, traversal.cells, skip)
         : march_take_skip(traversal.cells, skip);

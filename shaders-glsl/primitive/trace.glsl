@@ -16,7 +16,7 @@
 #define LISTED_NEAR(s) PRIMITIVE_NEAR_LIST(s)
 #include "ads/listed.glsl"
 
-// Searches the cells of one face. True if the budget ended first; `ended` where nothing behind can count.
+// Searches the cells of one face. True if the budget ended first; `ended` where no hit behind can count.
 bool primitive_trace_cells(PrimitiveRef s, Ray ray, float slack, bool any_hit, inout PrimitiveTraversal traversal,
     inout TraceState state,
     inout uint work, out bool ended) {

@@ -1,7 +1,7 @@
 // What: the position of a ray's traversal through the cells, and how it is saved between two dispatches.
 // Reads: header. Writes: nothing.
 // cursor: 0 flags, 1 and 2 ends of the segment, 3 cell, 4 and 5 entry and its error, 6 entry of the list,
-// 7 the cell being searched, or the place in what is tested one by one.
+// 7 the cell being searched, or the place in the triangles that are tested one by one.
 #ifndef PRIMITIVE_TRAVERSAL_GLSL
 #define PRIMITIVE_TRAVERSAL_GLSL
 
@@ -25,7 +25,7 @@ struct PrimitiveTraversal {
     vec3 origin;          // face space
     vec3 direction;
     CellMarch cells;
-    uint place;           // of what is tested one by one
+    uint place;           // in the triangles that are tested one by one
     ivec2 searched;       // the cell being searched
     bool searching;       // its search has been begun
     PrimitiveSearch search;

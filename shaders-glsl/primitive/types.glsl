@@ -28,10 +28,10 @@ struct PrimitiveHeader {
     uint capacity;        // entries the pool holds
     uint near_demand;     // triangles that intersect the near region
     uint near_capacity;   // triangles that the near-region list holds
-    uint corrupted;       // list entries that name no node
+    uint corrupted;       // list entries with an invalid index
     uint tiles;           // cells along a side of a face, border not counted
     uint tile;            // pixels along a side of a cell
-    float reach;          // metres: farthest that the geometry is from the centre along an axis
+    float reach;          // metres: largest distance of the geometry from the centre along an axis
     float near_size;      // metres: half side of the near region
     float rounding;       // metres: bound of how far rounding moves a triangle against a ray
     vec3 eye;             // metres relative to the frame origin
@@ -44,17 +44,18 @@ struct PrimitiveHeader {
     uvec2 sums_address;   // device address of the sums of the scan
     uvec2 near_address;   // device address of the near-region list
     uvec2 large_address;  // device address of the large-triangle queue
-    uint large_capacity;   // words that the pool of pairs holds
-    uint large_demand;           // pairs: a triangle and a face of which it may reach into many columns
-    uint groups[3];       // workgroups for them
+    uint large_capacity;   // words that the large-triangle queue holds
+    // entries of the large-triangle queue: a triangle and a face of which it may reach into many columns
+    uint large_demand;
+    uint groups[3];       // workgroups for those entries
 };
 
-// Depths of what a cell lists.
+// Depths of the triangles that a cell lists.
 struct PrimitiveBounds {
     bool empty;
     float z_min;
     float z_max;
-    float scale;          // buckets a metre
+    float scale;          // buckets per metre
 };
 
 #endif

@@ -2,7 +2,7 @@
 // descriptors of STRUCTURE_SET, or (ADDRESSING_ADDRESS) through the device address of the header.
 // Reads, writes: header, voxels, normals, lists, fragments, scratch. Every access checks the capacity.
 // A list is a cell of a view: its word is that of voxel/lists.glsl.
-// A place is the number of a fragment, of pages that of a slot.
+// A place is the number of a fragment; in pages, of a slot.
 #ifndef VOXEL_ACCESSORS_GLSL
 #define VOXEL_ACCESSORS_GLSL
 
@@ -35,7 +35,7 @@ AxisView voxel_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).cell, VOXEL_HEADER(s).resolution, axis);
 }
 
-// The same with one cell a column of voxels.
+// The same with one cell per column of voxels.
 AxisView voxel_column_view(VoxelRef s, uint axis) {
     return AxisView(VOXEL_HEADER(s).lower, VOXEL_HEADER(s).voxel, VOXEL_HEADER(s).grid, axis);
 }
@@ -56,7 +56,7 @@ uint voxel_index(VoxelRef s, ivec3 voxel) {
 void voxel_mark(VoxelRef s, uint index, uint bits) {
     if (index < voxel_count(s)) {
         uint shift = VOXEL_BITS * (index % 8u);
-        // Many fragments mark the same voxel: most find it marked.
+        // Many fragments mark the same voxel: for most it is marked already.
         if ((VOXEL_VOXELS(s)[index / 8u] >> shift & bits) != bits) {
             atomicOr(VOXEL_VOXELS(s)[index / 8u], bits << shift);
         }
@@ -99,7 +99,7 @@ uint voxel_list_count(VoxelRef s) {
     return AXIS_VIEWS * resolution * resolution;
 }
 
-// Fragments of a list one behind the other, without links.
+// Contiguous fragments of a list, without links.
 bool voxel_contiguous() {
     return VOXEL_STORAGE == VOXEL_STORAGE_CONTIGUOUS;
 }
@@ -114,7 +114,7 @@ bool voxel_paged() {
     return VOXEL_STORAGE == VOXEL_STORAGE_PAGED;
 }
 
-// Places that the build has filled, or may have where they are slots of pages.
+// Places that the build has filled; with pages, may have filled.
 uint voxel_stored(VoxelRef s) {
     return min(VOXEL_HEADER(s).capacity, VOXEL_HEADER(s).demand) * (voxel_paged() ? VOXEL_PAGE : 1u);
 }
@@ -151,7 +151,7 @@ float voxel_z(VoxelRef s, uint place) {
     return uintBitsToFloat(voxel_word(s, place, 0u));
 }
 
-// The triangle of a fragment, where it says which: PRIMITIVE_UNKNOWN where it holds terms of a material instead.
+// The triangle of a fragment; PRIMITIVE_UNKNOWN where it holds terms of a material instead.
 uint voxel_primitive(VoxelRef s, uint place) {
     return VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL ? PRIMITIVE_UNKNOWN : voxel_word(s, place, 1u);
 }
@@ -173,7 +173,7 @@ void voxel_swap_word(VoxelRef s, uint left, uint right, uint word) {
     voxel_set_word(s, right, word, of_left);
 }
 
-// Exchanges two fragments. No loop: a sort has none to spare.
+// Exchanges two fragments. No loop: a sort has no iterations to spare.
 void voxel_swap(VoxelRef s, uint left, uint right) {
     voxel_swap_word(s, left, right, 0u);
     voxel_swap_word(s, left, right, 1u);

@@ -3,16 +3,17 @@
 // Source: Hu et al. section 3.1, depth, normal and BRDF; Frid Kastrati and Goswami section 3.2, colour,
 // depth, reflectivity, normal and triangle.
 //
-// Word 1: metallic, roughness, transmission, specular, 8 bits each; of a mirror the triangle.
-// Words 2 and 3: colour and normal, those of every stored surface; of a mirror the colour's fourth share is the
-// reflectivity, and of what transmits it is 1 for a thin wall, else 1 + (index of refraction - 1) * 100 in steps of 1/255.
+// Word 1: metallic, roughness, transmission, specular, 8 bits each; for a mirror the triangle.
+// Words 2 and 3: colour and normal, those of every stored surface; the fourth component of the colour is the
+// reflectivity of a mirror, and for a material that transmits it is 1 for a thin wall, else 1 + (index of refraction -
+// 1) * 100 in steps of 1/255.
 #ifndef VOXEL_ATTRIBUTES_GLSL
 #define VOXEL_ATTRIBUTES_GLSL
 
 #include "scene/stored_surface.glsl"
 #include "voxel/types.glsl"
 
-// Steps of the fourth share that one of the index of refraction is, and the last of them for an index.
+// Steps of the fourth component per unit of the index of refraction, and the last of them for an index.
 #define VOXEL_INDEX_STEPS 100.0
 #define VOXEL_INDEX_LAST 254.0
 
@@ -29,7 +30,7 @@ uvec3 voxel_pack_attributes(uint primitive, vec2 barycentrics) {
     return uvec3(stored_pack_terms(s), stored_pack(s));
 }
 
-// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors know their triangle, and it is read.
+// The triangle of a fragment that emits; PRIMITIVE_NONE of others. Mirrors store their triangle, which is read.
 uint voxel_emitter(uvec3 words) {
     if (VOXEL_PAYLOAD == VOXEL_PAYLOAD_MIRROR) {
         bool known = words.x < geometry_triangle_count();
@@ -44,7 +45,7 @@ Surface voxel_attributes_surface(uvec3 words, Ray ray, Hit hit, float position_e
         Surface s = stored_shape(stored_unpack_normal(words.z), ray, hit.t, position_error);
         vec4 albedo = unpackUnorm4x8(words.y);
         s.base_color = albedo.rgb;
-        // What reflects is a mirror, and everything else is dull.
+        // A reflective material is a mirror, and everything else is diffuse.
         s.metallic = albedo.a;
         s.roughness = s.metallic > 0.0 ? 0.0 : 1.0;
         s.primitive = hit.primitive;

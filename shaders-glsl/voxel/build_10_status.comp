@@ -1,4 +1,4 @@
-// What: declares the structure complete, or says what was missing; and how many fragments there are.
+// What: declares the structure complete, or says what was missing; and stores the number of fragments.
 // Reads: header. Writes: header.status, header.fragments.
 #version 460
 #include "contract/extensions.glsl"
@@ -17,7 +17,7 @@ void main() {
         && VOXEL_HEADER(voxel_built).large_demand <= VOXEL_HEADER(voxel_built).large_capacity;
     bool unsorted = VOXEL_HEADER(voxel_built).unsorted > 0u;
     VOXEL_HEADER(voxel_built).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
-    // Of pages the fragments have been counted, of others they are the demand.
+    // With pages the fragments have been counted, otherwise they are the demand.
     if (VOXEL_STORAGE != VOXEL_STORAGE_PAGED) {
         VOXEL_HEADER(voxel_built).fragments = VOXEL_HEADER(voxel_built).demand;
     }

@@ -1,6 +1,6 @@
-// What: stores each fragment: its depth, and its triangle or what is shaded there, as seen along the
+// What: stores each fragment: its depth, and its triangle or surface attributes, as seen along the
 // triangle's normal. Where views keep everything and nothing was counted before, also the normals of voxels.
-// Reads: geometry, header, voxels (one axis a voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
+// Reads: geometry, header, voxels (one axis per voxel), with PAYLOAD_ATTRIBUTES the scene. Writes: lists,
 // fragments, header; voxels and normals.
 // Source: Hu et al. section 3.1, the one geometry pass; Frid Kastrati and Goswami section 3.2: in the view of
 // its voxel's axis only.

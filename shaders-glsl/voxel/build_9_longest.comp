@@ -1,7 +1,7 @@
-// What: how many fragments the longest list has, where lists are not bisected: so many entries a ray may have
-// to read at a time.
+// What: the number of fragments of the longest list, where lists are not bisected: a ray may have to read
+// that many entries at a time.
 // Reads: lists, fragments. Writes: header.longest.
-// Source: not in the papers, whose rays read lists to their ends however long that takes.
+// Source: not in the papers, in which rays read lists to their ends, whatever their length.
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/lists.glsl"
@@ -23,7 +23,7 @@ void main() {
         voxel_list_next(voxel_built, cursor);
         length++;
     }
-    // Most lists are shorter than one that has been seen.
+    // Most lists are shorter than one that was found before.
     if (length > VOXEL_HEADER(voxel_built).longest) {
         atomicMax(VOXEL_HEADER(voxel_built).longest, length < VOXEL_LONGEST_LIMIT ? length : 0xFFFFFFFFu);
     }

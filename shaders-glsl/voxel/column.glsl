@@ -7,7 +7,7 @@
 #include "ads/axis_views.glsl"
 #include "voxel/types.glsl"
 
-// Whether all of the square of half a side `half_side` around the origin lies beyond the edge p q, on the side away
+// Whether all of the square with half side `half_side` around the origin lies beyond the edge p q, on the side away
 // from the triangle, which is wound by the sign of `area`.
 bool column_beyond(vec2 p, vec2 q, float half_side, float area) {
     vec2 span = q - p;
@@ -36,7 +36,7 @@ bool voxel_column_range(AxisView view, vec3 a, vec3 b, vec3 c, ivec2 column, out
     vec3 normal = cross(ab, ac);
     float uncertain = 4.0e-6 * (abs(ab.x * ac.y) + abs(ab.y * ac.x) + abs(ab.y * ac.z) + abs(ab.z * ac.y)
         + abs(ab.z * ac.x) + abs(ab.x * ac.z));
-    // Where rounding may have made the winding or the plane, the corners alone count.
+    // Where rounding may decide the winding or the plane, only the corners count.
     if (abs(normal.z) > 64.0 * uncertain) {
         if (column_beyond(a.xy, b.xy, half_side, normal.z) || column_beyond(b.xy, c.xy, half_side, normal.z)
             || column_beyond(c.xy, a.xy, half_side, normal.z)) {

@@ -10,8 +10,8 @@
 // A view keeps the triangles that face it most; a voxel is searched along the axes of all its triangles.
 #define VOXEL_AXES_TRIANGLE 2u
 
-// What makes a voxel one in which something lies: the fragments in it alone, all axes only; or the triangles
-// that reach into it, in a pass before.
+// What makes a voxel occupied: only the fragments in it, with all axes; or the triangles that reach into it, in a pass
+// before.
 #define VOXEL_MARKED_BY_FRAGMENTS 0u
 #define VOXEL_MARKED_BY_TRIANGLES 1u
 
@@ -29,26 +29,26 @@
 #define VOXEL_PAYLOAD_MATERIAL 1u
 #define VOXEL_PAYLOAD_MIRROR 2u
 
-// How the fragments of a cell are kept: one behind the other, after they were counted; linked to one another;
+// How the fragments of a cell are kept: contiguous, after they were counted; linked to one another;
 // or in linked pages of several.
 #define VOXEL_STORAGE_CONTIGUOUS 0u
 #define VOXEL_STORAGE_LINKED 1u
 #define VOXEL_STORAGE_PAGED 2u
 
-// Which cells a triangle is kept in: those whose centre the rasterizer, or the shared function, says it
-// covers; or all that it reaches into, and then hits are those of triangles alone.
+// Which cells a triangle is kept in: those whose centre it covers by the rasterizer, or by the shared function;
+// or all that it reaches into, and then hits are those of triangles.
 #define VOXEL_COVERAGE_HARDWARE 0u
 #define VOXEL_COVERAGE_EXACT 1u
 #define VOXEL_COVERAGE_CONSERVATIVE 2u
 
-// Most voxels along a side: three coordinates share a word of a paused ray.
+// Maximum voxels along a side: three coordinates share a word of a paused ray.
 #define VOXEL_GRID_LIMIT 1024u
 
-// Bits of a voxel: one for each axis it is searched along, and one that says that something lies in it.
+// Bits of a voxel: one for each axis it is searched along, and one for an occupied voxel.
 #define VOXEL_OCCUPIED 8u
 #define VOXEL_BITS 4u
 
-// How much wider than a voxel everything is that is said to lie in it, in voxels: more than rounding moves a ray.
+// Margin by which a voxel counts triangles outside of it, in voxels: more than rounding moves a ray.
 #define VOXEL_SLACK 0.00390625
 
 // Unit normals are added up as whole numbers of this many steps.

@@ -42,7 +42,7 @@ ivec2 voxel_cell_at_fragment(vec4 frag_coord) {
     return ivec2(frag_coord.xy) - 1;
 }
 
-// False where the triangle leaves no fragment in the cell.
+// False where the triangle has no fragment in the cell.
 bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found) {
     AxisView view = voxel_view(voxel_built, axis);
     vec3 a;
@@ -64,7 +64,7 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
             return false;
         }
     } else {
-        // Where the rasterizer says so: the plane's depth, within those of the corners.
+        // Coverage by the rasterizer: the plane's depth, within those of the corners.
         vec3 center = axis_center(view, cell);
         precise vec3 ab = b - a;
         precise vec3 ac = c - a;

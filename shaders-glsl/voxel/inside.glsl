@@ -34,9 +34,9 @@ uint voxel_first_from(VoxelRef s, uvec2 list, float depth, inout TraceState stat
     return place;
 }
 
-// Lets a fragment with a depth take the place of the one that is held as nearest to a point, if it is nearer
-// in depth; of equals the one before the point, and on one side the one that comes first. A total order: no
-// order of reading matters.
+// Replaces the nearest fragment to a point by this one if it is nearer in depth; of equals the one before
+// the point is nearer, and on one side the one that comes first. A total order, so that the order of reading has no
+// influence.
 void voxel_hold_nearer(VoxelRef s, float depth, uint place, float z, inout uint held, inout float held_z) {
     if (held == VOXEL_NO_PLACE) {
         held = place;
@@ -76,8 +76,8 @@ uint voxel_nearest_sorted(VoxelRef s, uvec2 list, float depth, inout TraceState 
     return held;
 }
 
-// Counts the fragments of a point's cell that lie before it, or finds the nearest one: walk.odd,
-// walk.held. True if the work budget ended first.
+// Counts the fragments of a point's cell that lie before it, or finds the nearest one: traversal.odd,
+// traversal.held. True if the work budget ended first.
 bool voxel_read_list(VoxelRef s, VoxelPoint point, bool nearest, inout VoxelTraversal traversal, inout TraceState state,
     inout uint work) {
     if (!traversal.in_list) {

@@ -1,21 +1,20 @@
-// What: the list of a cell, behind which stands one of three storages: how a fragment is put into it, and how
-// it is read.
+// What: the list of a cell, in one of three storages: how a fragment is put into it, and how it is read.
 // Reads, writes: lists, fragments, header.demand, header.fragments, header.corrupted.
 // Source: Hu et al. section 3.1, linked lists in one pass; Frid Kastrati and Goswami section 3.2, pages of
 // several.
 //
 // The word of a list:
-// - contiguous: first its length, then where the next fragment goes, and once all is stored where its fragments
-//   end; they begin where those of the list before it end
+// - contiguous: first its length, then the place of the next fragment, and once all is stored the end of its fragments;
+//   they begin where those of the list before it end
 // - linked: a link to the newest
 // - paged: the word that leads to the newest page
-// A link is a place + 1; 0 names none.
+// A link is a place + 1; 0 is none.
 #ifndef VOXEL_LISTS_GLSL
 #define VOXEL_LISTS_GLSL
 
 #include "voxel/list_pages.glsl"
 
-// Stands for no place.
+// No place.
 #define VOXEL_NO_PLACE 0xFFFFFFFFu
 
 // Adds one to the length of a contiguous list.
@@ -42,7 +41,7 @@ void voxel_link(VoxelRef s, uint list, uint place) {
     }
 }
 
-// Where the fragments of a contiguous list begin and end. A list that leaves the pool is counted and answered as empty.
+// Where the fragments of a contiguous list begin and end. A list that leaves the pool is counted and is empty.
 uvec2 voxel_list(VoxelRef s, uint list) {
     if (list >= voxel_list_count(s)) {
         return uvec2(0u);
@@ -80,8 +79,8 @@ VoxelCursor voxel_list_begin(VoxelRef s, uint list) {
     return voxel_list_resume(s, list, voxel_paged() ? page_link(s, word) : word);
 }
 
-// Ends a list that has come back to the mark, and counts it. The mark moves on after twice as many links as
-// before (Brent 1980), so every circle is noticed within three times its links.
+// Ends a list that returns to the mark, and counts it. The mark moves on after twice as many links as
+// before (Brent 1980), so every cycle is found within three times its links.
 void voxel_list_guard(VoxelRef s, inout VoxelCursor cursor) {
     if (cursor.link == cursor.mark) {
         atomicAdd(VOXEL_HEADER(s).corrupted, 1u);

@@ -1,23 +1,24 @@
-// What: searches one voxel along one axis for the first place where a ray goes from outside to inside or back, a point
-// being inside where an odd number of fragments lies before it in its cell.
+// What: searches one voxel along one axis for the first point at which a ray goes from outside to inside or back, a
+// point being inside where an odd number of fragments lies before it in its cell.
 // Reads: header, lists, fragments. Writes: header.corrupted.
 // Source: Hu et al. section 3.2: a few steps from where the ray enters to where it leaves, or one per cell,
-// then bisection, which a ray that asks for any hit does without. As published it takes surfaces for closed, and a voxel for one smooth surface.
-// The order of fragments in their lists has no influence: it only says how many of them are read.
+// then bisection, which occlusion rays do not need. As published, surfaces are assumed to be closed, and a voxel to
+// hold one smooth surface.
+// The order of fragments in their lists only changes how many of them are read.
 #ifndef VOXEL_PARITY_GLSL
 #define VOXEL_PARITY_GLSL
 
 #include "voxel/inside.glsl"
 
-// What is being done; a paused ray keeps it in two bits.
+// The stage of the search; a paused ray keeps it in two bits.
 // The fragments before the point where the ray enters the voxel are counted.
 #define VOXEL_STAGE_ENTER 0u
 // Those before the far point of a step.
 #define VOXEL_STAGE_STEP 1u
 // Those before the middle between two points of which one is inside; once all halvings are done, the fragment
-// nearest to the far point is looked for.
+// nearest to the far point is searched.
 #define VOXEL_STAGE_HALVE 2u
-// The fragment nearest to the near point is looked for, since the cell of the far one is empty.
+// The fragment nearest to the near point is searched, since the cell of the far one is empty.
 #define VOXEL_STAGE_NEAR 3u
 
 // `halvings` once all are done.
@@ -124,8 +125,8 @@ bool voxel_next_stage(VoxelRef s, Ray ray, vec2 interval, float depth, bool any_
         if (traversal.odd == traversal.inside) {
             return voxel_next_step(s, interval, traversal, span);
         }
-        // A ray that asks for any hit has it: the crossing lies between the points, and these between the ray's ends.
-        // Where fragments name a triangle it may be the one that the ray excludes.
+        // An occlusion ray has its hit: the crossing lies between the points, and these between the ray's ends.
+        // Where fragments have a triangle, it may be the one that the ray excludes.
         if (any_hit && VOXEL_PAYLOAD == VOXEL_PAYLOAD_MATERIAL) {
             state.best = Hit(0.5 * (span.t_before + span.t_after), PRIMITIVE_UNKNOWN, 0.0, 0.0);
             return false;

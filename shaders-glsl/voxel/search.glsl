@@ -23,7 +23,7 @@ float voxel_read(VoxelRef s, uint place, inout TraceState state, inout uint work
     return z;
 }
 
-// The first fragment of a sorted list that lies at a depth or beyond, but for the last few steps.
+// The first fragment of a sorted list that lies at a depth or beyond, except for the last few steps.
 uint voxel_bisect(VoxelRef s, uvec2 list, float depth, inout TraceState state, inout uint work) {
     // Each step halves what is left.
     for (uint k = 0u; k < 32u && list.y - list.x > VOXEL_BISECT_FROM; k++) {
@@ -42,7 +42,7 @@ bool voxel_search_list(VoxelRef s, Ray ray, vec2 interval, inout VoxelTraversal 
     uint index = axis_cell_index(traversal.axis, traversal.cell.xy, resolution);
     VoxelCursor cursor = traversal.in_list ? voxel_list_resume(s, index, traversal.link) : voxel_list_begin(s, index);
     bool sorted = voxel_lists_sorted(s);
-    // Depths at the cell's centre that are looked for. Where a triangle faces its view most, its plane rises
+    // Depths at the cell's centre that are searched. Where a triangle faces its view most, its plane rises
     // by a maximum of one cell from the centre to a corner. A cell more finds triangles that the ray hits in the
     // next cell, whose centre they may not cover. Where cells keep all that reaches into them nothing may be
     // lost, not the hits on slivers whose planes rounding has turned: then all of the list is searched.

@@ -1,5 +1,5 @@
 // What: the elements of a contiguous list, and the links of a linked one, for the shared sorts: fragments by depth, ties by
-// triangle or by what else they carry.
+// triangle or by their payload.
 // Reads, writes: lists, fragments, scratch, header.long_demand, header.unsorted.
 // Source: Hu et al. section 3.1, sort pass.
 #ifndef VOXEL_SORTED_GLSL
@@ -22,7 +22,7 @@ layout(push_constant, scalar) uniform VoxelBuildConstants {
 #define SORT_LIMIT SHORT_LIST_LIMIT
 #define SORT_LONG_LIMIT LONG_LIST_LIMIT
 #define SORT_LINKED (!voxel_contiguous())
-// Links are places + 1. A fragment's link stands behind its other words.
+// Links are places + 1. A fragment's link is behind its other words.
 #define LINKED_DOUBLY false
 
 // The list that is sorted: the functions of the shared sort know elements by their number.
@@ -59,7 +59,7 @@ void linked_set_next(VoxelRef s, uint link, uint next) { voxel_set_word(s, link 
 
 void linked_set_prev(VoxelRef s, uint link, uint prev) {}
 
-// Of fragments that are alike in all they carry the one that was stored first.
+// Of fragments with equal words, the one that was stored first.
 bool linked_comes_first(VoxelRef s, uint left, uint right) {
     return sort_places_before(s, left - 1u, right - 1u)
         || (left < right && !sort_places_before(s, right - 1u, left - 1u));

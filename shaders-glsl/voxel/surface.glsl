@@ -1,7 +1,7 @@
 // What: the surface at a hit of the axis A-buffers.
 // Reads: the scene (payload index, and what emits), fragments (the others). Writes: header.corrupted.
 // A hit names a triangle and the barycentrics of the point on its plane; they may lie outside the triangle by up to a
-// cell and are taken to its nearest edge for shading, while the position stays on the ray.
+// cell and are clamped to its nearest edge for shading, while the position stays on the ray.
 #ifndef VOXEL_SURFACE_GLSL
 #define VOXEL_SURFACE_GLSL
 
@@ -14,7 +14,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
     if (stored) {
         uint place = floatBitsToUint(hit.a);
         if (place >= voxel_stored(s)) {
-            // A hit that names no fragment is counted.
+            // A hit with an invalid fragment is counted.
             atomicAdd(VOXEL_HEADER(s).corrupted, 1u);
             return surface_miss(ray);
         }
@@ -25,7 +25,7 @@ Surface voxel_surface_at(VoxelRef s, Ray ray, Hit hit) {
         }
         hit = stored_triangle_hit(emitter, ray, hit.t);
     }
-    // By parity the point is known to a cell.
+    // With parity, the point is known to within a cell.
     return stored_triangle_surface(ray, hit, stored || VOXEL_ACCEPT == VOXEL_ACCEPT_PARITY, cell);
 }
 

@@ -1,4 +1,4 @@
-// What: follows a ray through the voxels, and searches those in which something lies along their axes.
+// What: follows a ray through the voxels, and searches the occupied ones along their axes.
 // Reads: all pools, geometry. Writes: header.corrupted.
 // Source: Hu et al. section 3.2.
 #ifndef VOXEL_TRACE_GLSL

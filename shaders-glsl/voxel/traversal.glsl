@@ -28,7 +28,7 @@
 // The axes along which the march has entered the voxel and the cell, plus one.
 #define VOXEL_CURSOR_VOXEL_ENTRY 6, 2
 #define VOXEL_CURSOR_CELL_ENTRY 13, 2
-// Where the voxel, or the cell, being searched is beside that of the march.
+// Offset of the voxel, or cell, being searched from that of the march.
 #define VOXEL_CURSOR_VOXEL_BESIDE 8, 5
 #define VOXEL_CURSOR_CELL_BESIDE 15, 5
 // Of the cells around a cell of a view only the nine at its depth exist.
@@ -51,13 +51,13 @@ struct VoxelTraversal {
     GridMarch cells;
     ivec3 cell;
     bool searching;       // the traversal through the cells of a view has begun
-    bool in_list;         // the list of the cell has been begun: it stands at `link`
+    bool in_list;         // the list of the cell has been begun: it is at `link`
     uint link;            // the next fragment
     // Parity only (voxel/parity.glsl).
     bool inside;          // of the point before the step
-    uint stage;           // what is being done: VOXEL_STAGE_*
+    uint stage;           // stage of the search: VOXEL_STAGE_*
     uint step;
-    uint halvings;        // a one, and behind it a bit a halving: whether its middle took the place of the far point
+    uint halvings;        // a one, and behind it one bit per halving: whether its middle replaced the far point
     bool odd;             // fragments before the point, so far
     uint held;            // the fragment nearest to the point, so far
 };
@@ -107,7 +107,7 @@ vec2 voxel_interval(VoxelTraversal traversal) {
 }
 
 // Starts the traversal through the cells of its view over a segment of the ray; false where it crosses none. The third
-// axis is depth, on which everything is one cell.
+// axis is depth, along which everything is one cell.
 bool voxel_begin_cells(VoxelRef s, vec2 interval, inout VoxelTraversal traversal) {
     int resolution = int(VOXEL_HEADER(s).resolution);
     float scale = VOXEL_HEADER(s).cells_per_metre;
@@ -168,7 +168,7 @@ void voxel_save(VoxelTraversal traversal, inout TraceState state) {
     state.cursor[0] = flags;
 }
 
-// Takes a traversal through the voxels that has begun to where it stood.
+// Moves a traversal through the voxels that has begun to where it paused.
 void voxel_restore(TraceState state, inout VoxelTraversal traversal) {
     uint flags = state.cursor[0];
     grid_resume(traversal.voxels, grid_cell_of_bits(state.cursor[1]), uintBitsToFloat(state.cursor[2]),

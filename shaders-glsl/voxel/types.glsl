@@ -29,12 +29,12 @@ struct VoxelHeader {
     uint unsorted;        // lists longer than the sort passes sort
     uint long_demand;     // lists too long for one dispatch of the sort
     uint long_capacity;   // long lists that the scratch holds
-    uint corrupted;       // lists that reached beyond the pool or came back to themselves
+    uint corrupted;       // lists that reach beyond the pool or are cycles
     uint resolution;      // cells along a side of a view
     uint grid;            // voxels along a side
     // fragments of the longest list where lists are not bisected; all bits set where that is not known
     uint longest;
-    uint samples;         // steps in a voxel, VOXEL_MARCH_SAMPLES only
+    uint samples;         // steps per voxel, VOXEL_MARCH_SAMPLES only
     float cell;           // metres: side of a cell
     float voxel;          // metres: side of a voxel
     float cells_per_metre; // one over `cell`
@@ -46,8 +46,8 @@ struct VoxelHeader {
     uvec2 fragments_address; // device address of the fragments
     uvec2 scratch_address; // device address of the scratch: sums of the scan, and long lists behind them
     uint large_demand;           // triangles with many cells of a view, also those beyond the capacity; binning only
-    uint large_capacity;   // triangles that their queue holds
-    uint groups[3];       // workgroups for them
+    uint large_capacity;   // triangles that the large-triangle queue holds
+    uint groups[3];       // workgroups for those triangles
 };
 
 #endif

@@ -11,11 +11,12 @@ pub struct Counted {
     pub demand: &'static str,
     /// The name of the pool that grows with it.
     pub pool: &'static str,
-    /// Whether it is pages, of which builds differ a little: how many are begun depends on which threads meet.
+    /// Whether it is pages, of which builds differ a little: the number of begun pages depends on which threads
+    /// collide.
     pub pages: bool,
 }
 
-/// The share of pages by which builds may differ, and which structures leave as room.
+/// The share of pages by which builds may differ, and which structures leave as a margin.
 const SPREAD_OF_PAGES: u64 = 64;
 
 /// As [`check_capacities`], for what is counted in a pool of scratch, seen from the origin: answers are hits.
@@ -39,8 +40,8 @@ pub fn check_capacities_of(
 }
 
 /// Builds a structure in capacity for none, one, half, all but one and all of what is counted, `sizes` being its
-/// pools with capacity for so many. What has no capacity is counted and grown, no build is said to be complete until it
-/// has, and what it asks for is enough; the answers of complete builds are those of one in ample capacity. Returns
+/// pools with capacity for that many. What has no capacity is counted and grown, no build is complete until it
+/// has, and its demand is enough; the answers of complete builds are those of one in ample capacity. Returns
 /// how many there are, which is more than ten.
 ///
 /// # Panics
@@ -61,20 +62,23 @@ pub fn check_capacities<T: PartialEq>(
         (structure.check(&status, 0).expect("sizes that do"), found, answers)
     };
     let (check, demand, expected) = built(structure, &sizes(1 << 16));
-    assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} in ample room");
+    assert!(check == Check::Complete && expected.is_some() && demand > 10, "{demand} with ample capacity");
     let spread = if counted.pages { demand / SPREAD_OF_PAGES } else { 0 };
     for capacity in [0, 1, demand / 2, demand - 1] {
         let (check, found, answers) = built(structure, &sizes(capacity));
-        assert!(found.abs_diff(demand) <= spread, "room for {capacity}: {found} for {demand}");
+        assert!(found.abs_diff(demand) <= spread, "capacity for {capacity}: {found} for {demand}");
         let Check::Grow(mut grown) = check else {
-            assert!(found <= capacity && answers == expected, "room for {capacity}: complete with {found}");
+            assert!(
+                found <= capacity && answers == expected,
+                "capacity for {capacity}: complete with {found}"
+            );
             continue;
         };
-        assert!(found > capacity && answers.is_none(), "room for {capacity}: incomplete with {found}");
+        assert!(found > capacity && answers.is_none(), "capacity for {capacity}: incomplete with {found}");
         // Pages come with a little more capacity.
         let more = if counted.pages { found / SPREAD_OF_PAGES } else { 0 };
         let enough = sizes(found + more).elements(counted.pool);
-        assert_eq!(grown.elements(counted.pool), enough, "room for {capacity}");
+        assert_eq!(grown.elements(counted.pool), enough, "capacity for {capacity}");
         // What is counted later, or in other pools, may have to grow then.
         let answers = (0..4).find_map(|_| {
             let (check, _, answers) = built(structure, &grown);
@@ -83,12 +87,9 @@ pub fn check_capacities<T: PartialEq>(
             }
             answers
         });
-        assert!(
-            answers == expected,
-            "room for {capacity}: what it asks for is not enough, or changes answers"
-        );
+        assert!(answers == expected, "capacity for {capacity}: its demand is not enough, or changes answers");
     }
     let (check, found, answers) = built(structure, &sizes(demand + spread));
-    assert!(check == Check::Complete && answers == expected, "room for {demand}: {found}");
+    assert!(check == Check::Complete && answers == expected, "capacity for {demand}: {found}");
     demand
 }

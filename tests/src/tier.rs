@@ -8,13 +8,13 @@ use std::fmt::Debug;
 
 use rasray_gpu::Device;
 
-/// Whether the large counts are asked for (`RASRAY_FULL=1`).
+/// Whether the large counts are requested (`RASRAY_FULL=1`).
 pub fn is_full() -> bool {
     std::env::var_os("RASRAY_FULL").is_some_and(|value| value == "1")
 }
 
-/// All of them in the full tier. In the quick one those whose turn it is: where one option is switched in an outer loop
-/// and others in an inner one, every value is tried, and not beside every other. Each is a kernel of its own, which a
+/// All of them in the full tier; in the quick one one of them, by `turn`: where one option changes in an outer loop
+/// and others in an inner one, every value is tried, but not with every other. Each is a kernel of its own, which a
 /// driver on the processor compiles for seconds.
 pub fn in_turn<T>(all: &[T], turn: usize) -> &[T] {
     let place = turn % all.len();

@@ -1,6 +1,6 @@
 //! Which cells a march visits, on the device and in double precision.
 //!
-//! The exact side knows what single precision cannot be asked for: parts of a ray that are shorter than
+//! The exact side knows what single precision cannot resolve: parts of a ray that are shorter than
 //! [`unresolved`] in t, or that lie within as much of a seam between faces or of the near region.
 
 use bytemuck::{Pod, Zeroable};

@@ -79,7 +79,7 @@ fn one_option_at_a_time_changes_no_hit() {
         }
         for (option, values) in options {
             for value in values {
-                // What goes only beside another choice is among the pairs.
+                // Values that need another choice are among the pairs.
                 let Some(changed) = subject.with(&[(option, value)]) else { continue };
                 let found = changed.answers(&bench, EYE, &triangles, &rays);
                 assert_same(&format!("{}: --{option} {value}", subject.name()), &rays, &expected, &found);

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Pyramid, Scan, SceneBinding, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, Pyramid, SceneBinding, Visit, Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
@@ -27,13 +27,6 @@ pub struct Build {
     status: ComputePipeline,
 }
 
-/// What contiguous lists need before they are stored.
-#[derive(Debug)]
-struct Lengths {
-    count: Visit,
-    scan: Scan,
-}
-
 impl Build {
     /// # Errors
     /// The configuration needs the scene's shaders and there is no scene, or the device refuses a pipeline.
@@ -42,22 +35,16 @@ impl Build {
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let attributes = config.payload.needs_scene();
         if attributes {
             SceneBinding::for_payload(scene, config.payload.name())?;
         }
-        let masked = if alpha { ".alpha" } else { "" };
+        let masked = SceneBinding::mask_suffix(scene);
         let stored = if attributes { ".attributes" } else { masked };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let covered = |name, variant| visits.visit("build_raster", name, variant);
         let scaled = config.has_buckets() && config.accept.needs_triangles();
-        let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths {
-                count: covered("build_5_count", masked)?,
-                scan: Scan::new(pipelines, "build_6_scan")?,
-            })
-        };
+        let lengths = || Lengths::new(pipelines, covered("build_5_count", masked)?, "build_6_scan");
         let sorted = if config.storage == Storage::Paged { ".pages" } else { "" };
         let reorder = || ListSort::new(pipelines, "build_11_reorder", sorted, "build_12_reorder_long");
         Ok(Self {
@@ -110,8 +97,7 @@ impl Build {
             target.compute_pass(recorder, "abuffer/build_4_scale", scale, groups(cells), 0, shaders);
         }
         if let Some(lengths) = &self.lengths {
-            lengths.count.record(recorder, target, &draws);
-            lengths.scan.record(recorder, target, "abuffer/build_6_scan", lists, 0, shaders);
+            lengths.record(recorder, target, &draws, lists, shaders);
         }
         self.store.record(recorder, target, &draws);
         if let Some(conservative) = &self.conservative {
@@ -123,7 +109,7 @@ impl Build {
             pyramid.record(recorder, target, "abuffer/build_10_pyramid", &draws, Access::COMPUTE);
         }
         if let Some(reorder) = &self.reorder {
-            // Of pages each is sorted by itself.
+            // Each page is sorted separately.
             let (sorted, linked) = match config.storage {
                 Storage::Paged => (target.pools.sizes().elements_of(Pool::Nodes), false),
                 Storage::Sb => (lists, false),

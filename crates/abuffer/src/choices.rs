@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::abuffer as numbers;
 /// How a ray steps through cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum March {
-    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) a face. Cells
+    /// Steps of equal length on the screen, at most [`Config::samples`](crate::Config::samples) per face. Cells
     /// between are not visited.
     Samples,
     /// The same with as many steps as keep each to a cell of the longer axis, as the paper's march without its limit.
@@ -101,7 +101,7 @@ impl Payload {
     }
 }
 
-/// Who decides which cells a triangle covers.
+/// How it is decided which cells a triangle covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
     /// The rasterizer, with its sub-pixel grid.
@@ -113,9 +113,9 @@ pub enum Coverage {
     /// planes, and find what brute force finds ([`Config::is_exact`](crate::Config::is_exact)). Needs
     /// [`Accept::Plane`].
     Conservative,
-    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre those are kept
-    /// that have no fragment in any view, or whose planes are seen edge-on there: what the paper names as its
-    /// open limit. Rays intersect fragments by their planes, triangles of conservative lists by themselves. Needs
+    /// As [`Coverage::Exact`], and of the triangles that reach into a cell outside of its centre, those are kept
+    /// that have no fragment in any view, or whose planes are seen edge-on there: what the paper mentions as its
+    /// open limitation. Rays intersect the planes of fragments, and the triangles of conservative lists. Needs
     /// [`Accept::Plane`].
     EdgeOn,
 }
@@ -192,13 +192,13 @@ pub enum Storage {
     Ll,
     /// One doubly linked list per cell, read from either end.
     Dll,
-    /// A linked list a depth bucket.
+    /// A linked list per depth bucket.
     Llb,
-    /// A doubly linked list a depth bucket: the paper's own.
+    /// A doubly linked list per depth bucket: the paper's own.
     Dllb,
-    /// One behind the other, counted first (S-buffer). Sorted lists of a cell are searched by halves.
+    /// Contiguous, counted first (S-buffer). Sorted lists of a cell are searched by bisection.
     Sb,
-    /// A linked list of pages a depth bucket; a page holds [`Config::page`](crate::Config::page) fragments.
+    /// A linked list of pages per depth bucket; a page holds [`Config::page`](crate::Config::page) fragments.
     Paged,
 }
 

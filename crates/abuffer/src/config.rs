@@ -1,19 +1,20 @@
 //! Options of the A-buffer and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::abuffer as ids;
 
 use crate::{Accept, Coverage, March, Payload, Storage, Views};
 
-/// Everything that may be chosen.
+/// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each face, 1 to 8192. A power of two keeps cell boundaries exact.
     pub resolution: u32,
     /// Which views are drawn. A view of the camera needs a [`rasray_ads::Viewpoint`] with one.
     pub views: Views,
-    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. Of an even and an odd number
-    /// the smaller is made one larger ([`Config::camera_cells`]), so that the cells lie evenly around the axis.
+    /// Columns and rows of the camera's view, 1 to 8192 each; only for views with a camera. If one is even and the
+    /// other odd, the smaller one is increased by one ([`Config::camera_cells`]), so that the cells lie evenly around
+    /// the axis.
     pub camera_resolution: [u32; 2],
     /// How a cell's fragments are kept. Changes no hit.
     pub storage: Storage,
@@ -24,7 +25,7 @@ pub struct Config {
     /// Depth buckets per cell, 1 to 32; only for storages with buckets ([`Storage::is_bucketed`]), and with all
     /// layers. Changes no hit.
     pub buckets: u32,
-    /// Keep the nearest fragments of each cell alone, as the paper's single-layer variant does; not with
+    /// Keep only the nearest fragments of each cell, as the paper's single-layer variant does; not with
     /// [`Coverage::Conservative`] and [`Coverage::EdgeOn`]. Rays then hit nothing that is behind something
     /// else as seen from the eye.
     pub single_layer: bool,
@@ -32,23 +33,23 @@ pub struct Config {
     pub march: March,
     /// Maximum of samples per face, 1 to 65535; only for [`March::Samples`].
     pub samples: u32,
-    /// Where steps are longer than a cell, samples look at a place in them that is the ray's own, in place of the
+    /// Where steps are longer than a cell, each ray places its samples at an offset of its own within them, not in the
     /// middle; only for [`March::Samples`].
     pub jitter: bool,
     /// When a fragment counts.
     pub accept: Accept,
-    /// Metres; only for [`Accept::Thickness`]. Where absent half the width of a step of the march at the farthest
+    /// Metres; only for [`Accept::Thickness`]. Default: half the width of a step of the march at the farthest
     /// geometry: `f / n` for `n` cells along a side, or samples per face where these are fewer, and `f` the largest
-    /// coordinate of the geometry relative to the eye; of a camera's view with wider cells accordingly.
+    /// coordinate of the geometry relative to the eye; more for a camera's view with wider cells.
     pub thickness: Option<f32>,
     /// What a fragment carries.
     pub payload: Payload,
     /// For diagnostics: keep the triangle of each fragment behind a payload without it. Hits then name it,
     /// and nothing else follows: it is not excluded, and surfaces stay those of the payload. Changes no t.
     pub ids: bool,
-    /// Who decides coverage.
+    /// How coverage is decided.
     pub coverage: Coverage,
-    /// Who puts triangles into cells. Changes no hit.
+    /// How triangles are binned into cells. Changes no hit.
     pub builder: Builder,
     /// Sort lists, so that a search can end early. Changes no hit.
     pub sort: bool,
@@ -116,19 +117,12 @@ impl Config {
     /// # Errors
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         for side in self.camera_resolution {
-            range("camera-resolution", side, 1, 8192, "1 to 8192 columns and rows")?;
+            check_range("camera-resolution", side, 1..=8192, "1 to 8192 columns and rows")?;
         }
-        range("buckets", self.buckets, 1, 32, "1 to 32 buckets per cell")?;
-        range("samples", self.samples, 1, 65535, "1 to 65535 samples per face")?;
+        check_range("buckets", self.buckets, 1..=32, "1 to 32 buckets per cell")?;
+        check_range("samples", self.samples, 1..=65535, "1 to 65535 samples per face")?;
         if ![1, 2, 4, 8].contains(&self.page) {
             return Err(AdsError::Option {
                 option: "page",
@@ -136,9 +130,7 @@ impl Config {
                 expected: "1, 2, 4 or 8 fragments per page",
             });
         }
-        // A dispatch that resumes a search counts its cell before it reads an entry.
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 2, u32::MAX, "2 units or more a dispatch, or rays make no progress")?;
+        check_work_budget(self.work_budget, true)?;
         let thickness = self.thickness.unwrap_or(0.0);
         if !(thickness >= 0.0 && thickness.is_finite()) {
             return Err(AdsError::Option {
@@ -152,30 +144,30 @@ impl Config {
             return Err(AdsError::Option {
                 option: "accept",
                 value: format!("{:?}", self.accept).to_lowercase(),
-                expected: "the acceptances plane and slope need the payload `index`, which names the triangle; plane also \
-                           goes with the payload `plane`",
+                expected: "the acceptances plane and slope need the payload `index`, which identifies the triangle; \
+                           plane also goes with the payload `plane`",
             });
         }
         if self.ids && self.payload == Payload::Index {
             return Err(AdsError::Option {
                 option: "ids",
                 value: "on".to_owned(),
-                expected: "the payload `index` names triangles already: leave it off",
+                expected: "the payload `index` identifies triangles already: leave it off",
             });
         }
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
             return Err(AdsError::Option {
                 option: "builder",
                 value: self.builder.name().to_owned(),
-                expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
+                expected: "the binning builder does not draw: use builder `raster` with coverage `hardware`",
             });
         }
         if self.has_conservative_lists() && (self.accept != Accept::Plane || self.payload != Payload::Index) {
             return Err(AdsError::Option {
                 option: "coverage",
                 value: self.coverage.name().to_owned(),
-                expected: "the coverages conservative and edge-on test triangles, which fragments name with `accept=plane` \
-                           and `payload=index` only",
+                expected: "the coverages conservative and edge-on test triangles, which fragments identify with \
+                           `accept=plane` and `payload=index` only",
             });
         }
         if self.has_conservative_lists() && self.single_layer {
@@ -188,7 +180,7 @@ impl Config {
         Ok(())
     }
 
-    /// Whether every hit is that of brute force: cells keep every triangle that reaches into them, and rays
+    /// Whether every hit equals that of brute force: cells keep every triangle that reaches into them, and rays
     /// visit every cell that they cross, all around the eye.
     pub fn is_exact(&self) -> bool {
         self.tests_triangles() && matches!(self.march, March::Exact | March::Pyramid) && self.views.has_cube()
@@ -232,7 +224,7 @@ impl Config {
         self.storage.is_bucketed() || self.single_layer
     }
 
-    /// Whether the fragments of a cell are kept by depth in several lists: of a single layer there is one,
+    /// Whether the fragments of a cell are kept by depth in several lists: a single layer has one list,
     /// whatever the storage.
     pub(crate) fn has_buckets(&self) -> bool {
         self.storage.is_bucketed() && !self.single_layer

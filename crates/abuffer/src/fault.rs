@@ -4,8 +4,8 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A link names no node.
-    #[error("cell {cell}, bucket {bucket}: link {link} names no node")]
+    /// A link points to no node.
+    #[error("cell {cell}, bucket {bucket}: link {link} points to no node")]
     Dangling {
         /// Cell.
         cell: usize,
@@ -66,8 +66,8 @@ pub enum Fault {
         /// Number of the page.
         page: usize,
     },
-    /// A contiguous node names a payload that does not exist or is another's.
-    #[error("cell {cell}: node {link} names the payload {place}, which does not exist or is another's")]
+    /// A contiguous node refers to a payload that does not exist or is another's.
+    #[error("cell {cell}: node {link} refers to the payload {place}, which does not exist or is another's")]
     Payload {
         /// Cell.
         cell: usize,
@@ -107,7 +107,7 @@ pub enum Fault {
         bucket: usize,
         /// The node's link.
         link: u32,
-        /// The depth, as text: it may be no number.
+        /// The depth, as text: it may be NaN.
         z: String,
         /// Smallest depth of the cell.
         z_min: String,

@@ -32,7 +32,7 @@ pub(crate) fn widest_view(config: &Config) -> u64 {
     draws(config).iter().map(|draw| u64::from(draw.side).pow(2)).max().unwrap_or(0)
 }
 
-/// What a build found: how much of each pool it asked for.
+/// The demand of a build: how much of each pool it needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Nodes: one per fragment, or one per page of them.
@@ -43,7 +43,7 @@ pub struct Demand {
     pub long_lists: u64,
     /// Triangles of the geometry.
     pub triangles: u64,
-    /// Triangles kept outside of centres.
+    /// Triangles that conservative lists keep.
     pub conservative: u64,
     /// Triangles with many cells of a view, for the binning builder.
     pub large: u64,
@@ -58,8 +58,8 @@ pub(crate) fn data_words(config: &Config) -> u64 {
     payload + u64::from(config.ids)
 }
 
-/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node names it where it
-/// is not.
+/// Words of a fragment's node: depth, links, and the payload where it is inline; a contiguous node refers to it where
+/// it is not.
 pub(crate) fn fragment_words(config: &Config) -> u64 {
     let links = match config.storage {
         Storage::Paged => 0,
@@ -91,7 +91,7 @@ pub(crate) fn list_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are looked at
+/// Words of a cell's bounds: ends where there are buckets or blocks of cells; where triangles are tested
 /// the extent, and with buckets their scale; with conservative coverage the head of the conservative list.
 pub(crate) fn bounds_words(config: &Config) -> u64 {
     let extent = match (config.accept.needs_triangles(), config.has_buckets()) {
@@ -138,10 +138,10 @@ pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
     }
 }
 
-/// What an A-buffer of this configuration allocates to hold what a build may ask for.
+/// What an A-buffer of this configuration allocates for a demand.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit links can name.
+/// An option is out of range, or a pool has more elements than 32-bit links can address.
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let cells = cell_count(config);
@@ -213,7 +213,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It follows the paper's table and does not look at [`plan`], so that the two
+/// The page's formula. It follows the paper's table and shares nothing with [`plan`], so that the two
 /// check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let side = u64::from(config.resolution + 2);

@@ -9,15 +9,15 @@ rasray_ads::pool_names! {
         Bounds = "bounds",
         /// Heads or ends of lists.
         Lists = "lists",
-        /// Fragments, or pages of them.
+        /// Nodes of fragments, or of pages of them.
         Nodes = "nodes",
-        /// What fragments carry, where that is not in the nodes.
+        /// Payload of fragments, where it is not in the nodes.
         Data = "data",
         /// Triangles in the near region.
         Near = "near",
-        /// Sums of the scan, and what a build remembers.
+        /// Sums of the scan, long lists, and the large-triangle queue.
         Scratch = "scratch",
-        /// Triangles that no fragment stands for.
+        /// Nodes of the conservative lists.
         Conservative = "conservative",
     }
 }

@@ -23,7 +23,7 @@ pub type ABuffer = Pooled<Build>;
 /// The header that the next build starts from.
 ///
 /// # Errors
-/// A camera's view is asked for and there is no camera.
+/// The configuration has a view of the camera and the viewpoint has no camera.
 fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, AdsError> {
     let Parts { config, pools, .. } = parts;
     let eye = viewpoint.eye;
@@ -32,11 +32,11 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         return Err(AdsError::Option {
             option: "views",
             value: config.views.name().to_owned(),
-            expected: "the build was given no perspective camera; without one use `cube`",
+            expected: "this build has no perspective camera; without one use `cube`",
         });
     }
     let faces = if config.views.has_cube() { config.resolution } else { 0 };
-    let (camera_rows, camera_stretch, camera_cells, camera_width) =
+    let (camera_rows, camera_scale, camera_cells, camera_width) =
         camera.map_or_else(Default::default, |camera| {
             let cells = config.camera_cells();
             let side = cells[0].max(cells[1]) as f32;
@@ -46,14 +46,14 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
                 rows[axis] = rows[axis].map(|x| x * (cells[axis] as f32 / side));
             }
             let width = |axis: usize| 2.0 * halves[axis] / cells[axis] as f32;
-            // A point's place in the camera's view is also rotated and scaled: twice the rounding, and
+            // Points in the camera's view are also rotated and scaled: twice the rounding, and
             // narrow views more.
-            let stretch = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
-            (rows, stretch, stretch * side, width(0).max(width(1)))
+            let scale = 2.0 / camera.half_width.min(camera.half_height).min(1.0);
+            (rows, scale, scale * side, width(0).max(width(1)))
         });
     let widest = if faces > 0 { (2.0 / faces as f32).max(camera_width) } else { camera_width };
-    let stretch = if camera.is_some() { camera_stretch.max(1.0) } else { 1.0 };
-    // Half as deep as a ray moves sideways from one look at lists to the next, where steps are widest.
+    let scale = if camera.is_some() { camera_scale.max(1.0) } else { 1.0 };
+    // Half the distance that a ray moves sideways between two searches of lists, where steps are widest.
     let step = match config.march {
         March::Samples => widest.max(2.0 / config.samples as f32),
         March::Dda | March::Exact | March::Pyramid => widest,
@@ -70,7 +70,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         thickness: config.thickness.unwrap_or(0.0),
         thickness_per_reach: if config.thickness.is_some() { 0.0 } else { 0.5 * step },
         near_per_reach: cells * if config.has_conservative_lists() { NEAR_REGION } else { ABUFFER_NEAR_BOX },
-        rounding_per_reach: if config.has_conservative_lists() { stretch * TRIANGLE_ROUNDING } else { 0.0 },
+        rounding_per_reach: if config.has_conservative_lists() { scale * TRIANGLE_ROUNDING } else { 0.0 },
         widest,
         eye,
         camera_cells: if camera.is_some() { columns | rows << 16 } else { 0 },
@@ -196,7 +196,7 @@ impl Design for Build {
     }
 
     fn varies(config: &Config, name: &str) -> bool {
-        // Pages that are begun.
+        // The number of pages varies with the order of threads.
         name == "nodes" && config.storage == Storage::Paged
     }
 

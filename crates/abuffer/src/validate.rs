@@ -15,15 +15,15 @@ pub struct Contents {
     /// Head (and tail) of each list; of contiguous lists all first places, then all counts; of paged ones the word that
     /// leads to the first page.
     pub lists: Vec<u32>,
-    /// Depth, inline payload, and next, previous or place of the payload, of each node. Of a page the word that leads
+    /// Depth, inline payload, and next, previous or place of the payload, of each node. For a page, the word that leads
     /// to the next one, and nodes without links.
     pub nodes: Vec<u32>,
     /// Payload of each fragment, where it is not inline.
     pub data: Vec<u32>,
     /// Triangles in the near region.
     pub near: Vec<u32>,
-    /// What the scan of contiguous lists left behind, and the lists that one dispatch does not sort with how
-    /// far each is.
+    /// Sums of the scan of contiguous lists, and the lists that one dispatch does not sort, with how
+    /// far each is sorted.
     pub scratch: Vec<u32>,
     /// Triangle and next link of each node of the conservative lists.
     pub conservative: Vec<u32>,
@@ -113,7 +113,7 @@ impl Contents {
         Ok(found)
     }
 
-    /// The fragment that a hit without an id names by the bits of its `a`; absent if none is stored there.
+    /// The fragment to which a hit without an id refers by the bits of its `a`; absent if none is stored there.
     pub fn fragment(&self, link: u32) -> Option<Fragment<'_>> {
         let is_stored = link != 0 && link as usize <= self.stored();
         is_stored.then(|| Fragment { z: self.z(link), payload: self.payload(link) })
@@ -122,7 +122,7 @@ impl Contents {
     /// The fragments of each cell, over all its buckets.
     ///
     /// # Errors
-    /// A link names no node, or lists are damaged otherwise.
+    /// A link points to no node, or lists are damaged otherwise.
     pub fn fragments(&self) -> Result<Vec<Vec<Fragment<'_>>>, Fault> {
         let mut pages = vec![false; self.stored() / self.slots()];
         let (mut linked, mut place) = (0, 0);
@@ -187,7 +187,7 @@ pub fn well_formed(contents: &Contents) -> Result<(), Fault> {
         }
         in_conservative += contents.conservative_list_of(cell)?.len();
     }
-    // What lies in pages beyond the capacity cannot be counted.
+    // Fragments in pages beyond the capacity cannot be counted.
     let expected = match config.storage {
         Storage::Paged if contents.complete() => contents.header.fragments as usize,
         Storage::Paged => linked,

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Pyramid, Scan, Visit, Visits};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Lengths, Pyramid, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::primitive::PRIMITIVE_GROUP_SIZE;
 
@@ -21,20 +21,11 @@ pub(crate) struct Build {
     status: ComputePipeline,
 }
 
-/// What contiguous lists need before they are stored.
-#[derive(Debug)]
-struct Lengths {
-    count: Visit,
-    scan: Scan,
-}
-
 impl Build {
     pub(crate) fn new(pipelines: &BuildPipelines<'_>, config: &Config) -> Result<Self, AdsError> {
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let visit = |name| visits.visit("build_raster", name, "");
-        let lengths = || -> Result<Lengths, AdsError> {
-            Ok(Lengths { count: visit("build_5_count")?, scan: Scan::new(pipelines, "build_6_scan")? })
-        };
+        let lengths = || Lengths::new(pipelines, visit("build_5_count")?, "build_6_scan");
         let compute = |wanted: bool, name| wanted.then(|| pipelines.compute(name)).transpose();
         Ok(Self {
             near: pipelines.compute("build_1_near")?,
@@ -68,8 +59,7 @@ impl Build {
             pyramid.record(recorder, target, "primitive/build_4_pyramid", &views, shaders);
         }
         if let Some(lengths) = &self.lengths {
-            lengths.count.record(recorder, target, &views);
-            lengths.scan.record(recorder, target, "primitive/build_6_scan", lists, 0, shaders);
+            lengths.record(recorder, target, &views, lists, shaders);
         }
         self.store.record(recorder, target, &views);
         target.status_pass(recorder, "primitive/build_8_status", &self.status);

@@ -1,6 +1,6 @@
 //! Options of primitive lists and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::primitive as ids;
 use rasray_shaders_glsl::constants::primitive as numbers;
 
@@ -9,9 +9,9 @@ use crate::{Accept, Coverage, Depths, March, Stop};
 /// How the lists of a cell are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Linked nodes of triangle and next, as in the paper: 8 bytes an entry, one geometry pass less.
+    /// Linked nodes of triangle and next, as in the paper: 8 bytes per entry, one geometry pass less.
     Linked,
-    /// Triangles one behind the other, by counting first: 4 bytes an entry.
+    /// Contiguous triangles, by counting first: 4 bytes per entry.
     Contiguous,
 }
 
@@ -25,7 +25,7 @@ pub enum Centre {
     Scene,
 }
 
-/// Everything that may be chosen.
+/// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Pixels along a side of each face, 1 to 8192. Changes no hit where [`Config::is_exact`].
@@ -38,7 +38,7 @@ pub struct Config {
     pub storage: Storage,
     /// The point at which the faces touch.
     pub centre: Centre,
-    /// Who puts triangles into tiles. Changes no hit.
+    /// How triangles are binned into tiles. Changes no hit.
     pub builder: Builder,
     /// With [`Config::skip`]: depth bounds of blocks of tiles, which a ray skips. Changes no hit where
     /// [`Config::is_exact`].
@@ -68,7 +68,7 @@ pub struct Config {
 rasray_ads::configured!(Config);
 
 impl Config {
-    /// The exact structure: every tile lists what reaches into it, and every hit is that of brute force.
+    /// The exact structure: every tile lists what reaches into it, and every hit equals that of brute force.
     pub fn robust(resolution: u32) -> Self {
         Self {
             resolution,
@@ -105,7 +105,7 @@ impl Config {
         }
     }
 
-    /// Whether every hit is that of brute force: no rule of the paper that loses some is chosen.
+    /// Whether every hit equals that of brute force: no rule of the paper that loses some is chosen.
     pub fn is_exact(&self) -> bool {
         self.lossy_rule().is_none()
     }
@@ -139,22 +139,14 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 pixels along a side")?;
-        range("tile", self.tile, 1, 64, "1 to 64 pixels along a side")?;
-        range("buckets", self.buckets, 1, 64, "1 to 64 buckets per tile")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 pixels along a side")?;
+        check_range("tile", self.tile, 1..=64, "1 to 64 pixels along a side")?;
+        check_range("buckets", self.buckets, 1..=64, "1 to 64 buckets per tile")?;
         if self.coverage == Coverage::Hardware && self.builder == Builder::Binning {
-            let expected = "the binning builder does not draw: take builder raster";
+            let expected = "the binning builder does not draw: use builder `raster`";
             return Err(AdsError::Option { option: "coverage", value: "hardware".to_owned(), expected });
         }
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")
+        check_work_budget(self.work_budget, false)
     }
 
     /// Specialisation constants: id and bits.

@@ -6,7 +6,7 @@ use rasray_shaders_glsl::constants::primitive as numbers;
 
 use crate::{Builder, Config, Header, Pool, Storage};
 
-/// What a build asks for, counted.
+/// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Entries of all lists.
@@ -17,7 +17,7 @@ pub struct Demand {
     pub triangles: u64,
 }
 
-/// Cells of all six faces of `tiles` tiles a side, each with a border of one.
+/// Cells of all six faces with `tiles` tiles along a side, each with a border of one.
 pub fn cell_count(tiles: u32) -> u64 {
     let side = u64::from(tiles) + 2;
     6 * side * side
@@ -36,7 +36,7 @@ pub(crate) fn entry_words(storage: Storage) -> u64 {
     }
 }
 
-/// Words per triangle: the pairs of a triangle and a face that cover many columns, which binning needs while it
+/// Words per triangle of the large-triangle queue, one per face, which binning needs while it
 /// builds. None for lists that are drawn.
 pub(crate) fn large_words(config: &Config) -> u64 {
     match config.builder {
@@ -45,7 +45,8 @@ pub(crate) fn large_words(config: &Config) -> u64 {
     }
 }
 
-/// Workgroups per triangle with many columns of a face: so many that no invocation's loops turn more often than they may.
+/// Workgroups per triangle with many columns of a face: enough that the loops of an invocation stay within BIN_TURNS
+/// iterations.
 pub(crate) fn bin_groups(config: &Config) -> u32 {
     let block = BIN_BLOCK as u64;
     let blocks = u64::from(config.tiles() + 2).div_ceil(block).pow(2);
@@ -67,7 +68,7 @@ fn pyramid_words(config: &Config) -> u64 {
 /// What primitive lists of this configuration allocate to hold `demand`.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+/// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let cells = cell_count(config.tiles());
@@ -113,7 +114,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let tiles = u64::from(config.resolution).div_ceil(u64::from(config.tile));
     let cells = (tiles + 2) * (tiles + 2) * 6;
@@ -161,16 +162,16 @@ mod tests {
         }
     }
 
-    /// Table 3 of the paper: a node of a list is 8 bytes, a head 4, and depth bounds 8 a tile.
+    /// Table 3 of the paper: a node of a list is 8 bytes, a head 4, and depth bounds 8 per tile.
     #[test]
     fn published_lists_have_the_papers_bytes() {
-        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 a bucket,
+        // Terms of the paper's table 3: depths 8 and a third of that for their pyramid, a head of 4 per bucket,
         // a node of 8.
         let published = Config { tile: 1, buckets: 4, ..Config::published(512) };
         let demand = Demand { entries: 3_100_000, ..Demand::default() };
         let (formula, cells) = (formula_bytes(&published, &demand), cell_count(512));
         assert_eq!(formula.entries, 8 * 3_100_000);
-        // One word more a cell than the paper: the scale of its buckets.
+        // One word more per cell than the paper: the scale of its buckets.
         let pyramid = formula.cells - cells * (8 + 4 * 4 + 4);
         let third = 8.0 * cells as f64 / 3.0;
         assert!(

@@ -15,7 +15,7 @@ rasray_ads::pool_names! {
         Sums = "sums",
         /// Triangles in the near region.
         Near = "near",
-        /// Triangles with many tiles of a face.
+        /// The large-triangle queue.
         Large = "large",
     }
 }

@@ -1,9 +1,9 @@
-//! The paper's rules, each next to the one that takes its place.
+//! The paper's rules, each next to the exact one that replaces it.
 
 /// Which cells list a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coverage {
-    /// All that the triangle reaches into, decided by a shared function; the rasterizer only proposes.
+    /// All cells that the triangle reaches into, decided by a shared function; the rasterizer only proposes cells.
     Conservative,
     /// Those whose centre the rasterizer covers (section 4.2.4, where conservative rasterization is missing):
     /// rays that pass a listed triangle's neighbour are lost.
@@ -16,7 +16,7 @@ pub enum Accept {
     /// By its t, wherever it lies.
     T,
     /// Where the point projects into the tile that listed it (section 4.2.1): rounding at the tiles' borders
-    /// loses hits, and so does every tile that the march passes by.
+    /// loses hits, and so does every tile that the march skips.
     Tile,
 }
 
@@ -25,7 +25,7 @@ pub enum Accept {
 pub enum Stop {
     /// At buckets behind the best hit.
     Best,
-    /// After the first bucket with a hit (section 4.2.1): a nearer hit may stand in the next bucket alone.
+    /// After the first bucket with a hit (section 4.2.1): a nearer hit may be in the next bucket only.
     Bucket,
 }
 
@@ -45,6 +45,6 @@ pub enum March {
     /// Over the boundary at which it leaves the tile.
     Exact,
     /// Half a pixel beyond that along the longer axis (the authors' program): tiles that are crossed in less
-    /// are passed by.
+    /// are skipped.
     Jump,
 }

@@ -130,8 +130,7 @@ impl Design for Passes {
     }
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
-        // Rays from far outside are tested against every triangle, others against what a few cells list.
-        parts.usual_rounds() + 2 * parts.rounds(parts.geometry.triangle_count())
+        parts.rounds_with_distant_rays()
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {

@@ -23,8 +23,8 @@ pub struct Contents {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A link names no node, or a list reaches beyond the pool.
-    #[error("cell {cell}, bucket {bucket}: {link} names no entry")]
+    /// A link points to no entry, or a list reaches beyond the pool.
+    #[error("cell {cell}, bucket {bucket}: link {link} points to no entry")]
     Dangling {
         /// Cell.
         cell: usize,
@@ -41,7 +41,7 @@ pub enum Fault {
         /// Entries found in lists.
         listed: usize,
     },
-    /// An entry names no triangle.
+    /// An entry has an invalid triangle index.
     #[error("cell {cell}, bucket {bucket}: there is no triangle {primitive}")]
     Primitive {
         /// Cell.
@@ -51,8 +51,8 @@ pub enum Fault {
         /// What is stored.
         primitive: u32,
     },
-    /// A triangle stands twice in a list.
-    #[error("cell {cell}, bucket {bucket}: triangle {primitive} stands there twice")]
+    /// A triangle is in a list twice.
+    #[error("cell {cell}, bucket {bucket}: triangle {primitive} is in the list twice")]
     Twice {
         /// Cell.
         cell: usize,
@@ -94,8 +94,8 @@ impl Contents {
     }
 }
 
-/// Checks that every counted entry is in exactly one list and names one of `triangles` triangles, and that no
-/// list names a triangle twice.
+/// Checks that every counted entry is in exactly one list and has the index of one of `triangles` triangles, and that
+/// no list contains a triangle twice.
 ///
 /// # Errors
 /// The first fault found.

@@ -126,7 +126,7 @@ impl Modules {
         variant: &str,
         scene: Option<&SceneBinding>,
     ) -> Result<TraceModules, AdsError> {
-        let masked = if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" };
+        let masked = SceneBinding::mask_suffix(scene);
         Ok(TraceModules {
             closest: self.find(&format!("trace_closest{variant}{masked}"))?,
             occluded: self.find(&format!("trace_occluded{variant}{masked}"))?,

@@ -1,4 +1,4 @@
-//! Bounds that the device measures.
+//! Bounds that the device computes.
 
 use std::mem::offset_of;
 
@@ -11,7 +11,7 @@ use crate::{AdsError, Geometry, GeometryHeader};
 /// Bytes of the keys of a corner of the bounds.
 const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 
-/// Measures the bounds of geometries on the device, for positions that the device moved.
+/// Computes the bounds of geometries on the device, for positions that the device moved.
 #[derive(Debug)]
 pub struct BoundsPass {
     measure: ComputePipeline,
@@ -29,9 +29,9 @@ impl BoundsPass {
         Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
     }
 
-    /// Records the measuring of the bounds of all triangles, in two dispatches that read every triangle once, into the
-    /// header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all that
-    /// follows. Corners that are not finite are left out: the check of a build finds those that are infinite.
+    /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle once, into
+    /// the header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all
+    /// that follows. Corners that are not finite are ignored; the check of a build counts triangles with infinite ones.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
         let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
             .map(|at| at as u64);

@@ -109,7 +109,7 @@ impl Structure for BruteForce {
 
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
         if slot >= self.slots {
-            let reason = format!("slot {slot} of {} was asked for", self.slots);
+            let reason = format!("slot {slot} of {} was requested", self.slots);
             return Err(GpuError::InvalidUse { name: self.name().to_owned(), reason });
         }
         Ok(BuildStatus { complete: true, was_complete: true, ..BuildStatus::default() })

@@ -1,8 +1,10 @@
-//! What the configurations and the contents of all structures say alike.
+//! What the configurations and the contents of all structures have in common.
 
-use crate::{Addressing, Counters};
+use std::ops::RangeInclusive;
 
-/// What every configuration says.
+use crate::{Addressing, AdsError, Counters};
+
+/// What every configuration has.
 #[derive(Clone, Copy, Debug)]
 pub struct Common {
     /// How shaders reach the pools.
@@ -15,8 +17,37 @@ pub struct Common {
 
 /// A configuration of a structure; [`configured!`](crate::configured) makes one of a struct.
 pub trait Configured {
-    /// What every configuration says.
+    /// What every configuration has.
     fn common(&self) -> Common;
+}
+
+/// Checks that the value of an option is in a range, which `expected` states in words.
+///
+/// # Errors
+/// [`AdsError::Option`]: it is not.
+pub fn check_range(
+    option: &'static str,
+    value: u32,
+    range: RangeInclusive<u32>,
+    expected: &'static str,
+) -> Result<(), AdsError> {
+    if range.contains(&value) {
+        return Ok(());
+    }
+    Err(AdsError::Option { option, value: value.to_string(), expected })
+}
+
+/// Checks that a work budget lets every dispatch make progress: it has at least one unit, or two where a dispatch that
+/// resumes a search counts the cell again before it reads an entry (`counts_cells_again`).
+///
+/// # Errors
+/// [`AdsError::Option`]: it does not.
+pub fn check_work_budget(work_budget: Option<u32>, counts_cells_again: bool) -> Result<(), AdsError> {
+    let (least, expected) = match counts_cells_again {
+        false => (1, "1 unit or more per dispatch, or rays make no progress"),
+        true => (2, "2 units or more per dispatch, or rays make no progress"),
+    };
+    check_range("work budget", work_budget.unwrap_or(least), least..=u32::MAX, expected)
 }
 
 /// Makes a struct with the fields of [`Common`] a [`Configured`] one.

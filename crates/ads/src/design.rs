@@ -1,4 +1,4 @@
-//! What one structure says of itself: the part of it that no other has.
+//! What defines one structure: the part that it shares with no other.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use crate::{
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 
-/// Work units that a ray may spend in a dispatch where the device is no processor: nearly every ray needs one dispatch
+/// Work units that a ray may spend in a dispatch where the device is not a CPU: nearly every ray needs one dispatch
 /// then, and those that follow find no ray. A dispatch still ends long before a driver gives the device up.
 const HARDWARE_WORK_BUDGET: u32 = 16 * TRACE_WORK_BUDGET;
 
@@ -43,7 +43,7 @@ pub trait Demand: Copy {
     fn zip(self, other: Self, with: impl FnMut(&'static str, u64, u64) -> u64) -> Self;
 }
 
-/// What a structure is made of and works on, but for its passes.
+/// What a structure is made of and works on, except its passes.
 #[derive(Debug)]
 pub struct Parts<C> {
     /// The configuration.
@@ -75,6 +75,11 @@ impl<C> Parts<C> {
         usual_rounds(self.work_budget)
     }
 
+    /// The same for structures of triangles in cells, which test rays from far outside against every triangle.
+    pub fn rounds_with_distant_rays(&self) -> u32 {
+        self.usual_rounds() + 2 * self.rounds(self.geometry.triangle_count())
+    }
+
     /// What passes work on.
     pub fn target<'a>(&'a self, scene: Option<&'a BindingSet>) -> BuildTarget<'a> {
         BuildTarget { geometry: &self.geometry, pools: &self.pools, header_pass: &self.header_pass, scene }
@@ -95,7 +100,7 @@ pub trait Design: fmt::Debug + Sized {
     type Config: Configured + fmt::Debug + Copy;
     /// What shaders start from.
     type Header: Pod;
-    /// What builds ask for.
+    /// The demand of builds.
     type Demand: Demand;
     /// Its pools.
     type Pool: PoolName;
@@ -151,7 +156,7 @@ pub trait Design: fmt::Debug + Sized {
         Ok(None)
     }
 
-    /// Refuses sizes that no build would fill.
+    /// Refuses sizes that no build could use.
     ///
     /// # Errors
     /// An option forbids them.
@@ -204,10 +209,10 @@ pub trait Design: fmt::Debug + Sized {
         scene: Option<&BindingSet>,
     );
 
-    /// What the last build's status pass said.
+    /// The outcome that the status pass of the last build wrote.
     fn outcome(header: &Self::Header) -> Outcome;
 
-    /// What the last build asked for.
+    /// The demand of the last build.
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;
 
     /// The capacity of the pools, in the terms of the demand.

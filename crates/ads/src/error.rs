@@ -10,11 +10,11 @@ pub enum AdsError {
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// A build was recorded for a slot that does not exist.
-    #[error("{structure}: slot {slot} of {slots} was asked for; `set_slots` says how many there are")]
+    #[error("{structure}: slot {slot} of {slots} was requested; `set_slots` sets how many there are")]
     Slot {
         /// The structure.
         structure: &'static str,
-        /// What was asked for, from 0.
+        /// The requested slot, from 0.
         slot: u32,
         /// Number of slots.
         slots: u32,
@@ -31,7 +31,8 @@ pub enum AdsError {
     },
     /// A pool needs more elements than its indices can address.
     #[error(
-        "{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can name; lower the resolution or split the scene"
+        "{structure}: pool `{pool}` needs {elements} elements, more than its 32-bit indices can address; lower the \
+         resolution or split the scene"
     )]
     PoolTooLarge {
         /// Name of the structure.
@@ -41,7 +42,7 @@ pub enum AdsError {
         /// Elements needed.
         elements: u64,
     },
-    /// A structure was asked for surfaces that was made without a scene.
+    /// Surfaces were requested from a structure that was made without a scene.
     #[error("{structure} was created without a scene binding, so it cannot resolve surfaces")]
     NoScene {
         /// Name of the structure.
@@ -55,8 +56,8 @@ pub enum AdsError {
     },
     /// A build found triangles that its geometry does not allow.
     #[error(
-        "{triangles} triangles have a corner outside of the bounds that the geometry states, name a vertex that it does \
-         not have, or exceed its maximum: state bounds that hold all positions, indices below the number of vertices, \
+        "{triangles} triangles have a corner outside of the bounds that the geometry states, have an invalid vertex \
+         index, or exceed its maximum: state bounds that hold all positions, indices below the number of vertices, \
          and a maximum that the device's count of triangles does not exceed"
     )]
     OutsideBounds {

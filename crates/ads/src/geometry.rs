@@ -22,7 +22,7 @@ const TRIANGLES_PER_GROUP: u64 = 64;
 /// Bytes of the arguments of an indirect draw.
 const DRAW_ARGUMENT_BYTES: u64 = 16;
 
-/// Who reads what the passes here write.
+/// Readers of what the passes here write.
 const READERS: Access = Access::COMPUTE
     .union(Access::VERTEX_READ)
     .union(Access::FRAGMENT_READ)
@@ -37,7 +37,7 @@ pub struct Geometry {
     check: ComputePipeline,
     layout: SetLayout,
     set: BindingSet,
-    /// Where the device alone knows how many triangles there are.
+    /// Where only the device knows the number of triangles.
     count: Option<Count>,
     /// Where indices are not read in place.
     gather: Option<Gather>,
@@ -131,8 +131,8 @@ impl Geometry {
         Ok(Self { desc, header, check, layout, set, count, gather })
     }
 
-    /// Records what shaders read other than in place: the number of triangles where the device alone knows it, and
-    /// indices that are gathered, visible to all who read them. Nothing where neither is asked for.
+    /// Records what shaders do not read in place: the number of triangles where only the device knows it, and
+    /// indices that are gathered, visible to all who read them. Nothing where neither is needed.
     pub(crate) fn record_gather(&self, recorder: &mut Recorder<'_>) {
         if let Some(Count { pipeline, set, constants, .. }) = &self.count {
             recorder.barrier(READERS, Access::COMPUTE);

@@ -34,7 +34,7 @@ pub struct IndexRange {
     pub offset: u64,
     /// What an index is.
     pub format: IndexFormat,
-    /// Which vertex an index names.
+    /// Which vertex an index refers to.
     pub indexing: Indexing,
 }
 
@@ -71,7 +71,7 @@ impl IndexFormat {
     }
 }
 
-/// Which index belongs to a triangle, and which vertex an index names.
+/// Which index belongs to a triangle, and which vertex an index refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexing {
     /// Triangle i has the indices from 3 i, and an index is the number of a vertex.
@@ -104,7 +104,7 @@ impl From<Buffer> for BufferOffset {
 pub struct GeometryDesc {
     /// Posed positions, metres relative to `frame_origin`.
     pub positions: PositionRange,
-    /// Vertex indices, three a triangle; the vertices they name are below `vertex_count`.
+    /// Vertex indices, three per triangle; each is below `vertex_count`.
     pub indices: IndexRange,
     /// [`crate::Draw`] records in order of their triangles. The offset is a multiple of
     /// [`rasray_gpu::Limits::min_storage_buffer_offset_alignment`].
@@ -121,8 +121,8 @@ pub struct GeometryDesc {
     pub draw_count: u32,
     /// Lower and upper corner of all posed positions, metres; any finite value where there is none. They are written to
     /// the geometry's header on the device, where a pass of the host or [`BoundsPass`](crate::BoundsPass) may write others
-    /// before a build; structures are planned by these, and built by those on the device. A build that meets a corner
-    /// outside of those is not complete, and says how many triangles do.
+    /// before a build; structures are planned by these, and built by those on the device. A build that finds a corner
+    /// outside of those is not complete, and counts the triangles with one.
     pub bounds: [[f32; 3]; 2],
     /// What positions are relative to, metres, world.
     pub frame_origin: [f64; 3],
@@ -153,7 +153,7 @@ impl<'a> Span<'a> {
 }
 
 impl GeometryDesc {
-    /// Whether the description is true of the buffers, as far as the host can see.
+    /// Checks the description against the buffers, as far as the host can see.
     pub(crate) fn check(&self, device: &Device) -> Result<(), AdsError> {
         let wrong = |reason: String| Err(AdsError::Geometry { reason });
         let stride = self.positions.stride;

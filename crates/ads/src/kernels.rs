@@ -29,8 +29,13 @@ impl SceneBinding {
         scene.ok_or(AdsError::Option {
             option: "payload",
             value: payload.to_owned(),
-            expected: "what fragments are shaded by is read from a scene; without one use `index`",
+            expected: "surface attributes of fragments are read from a scene; without one use `index`",
         })
+    }
+
+    /// The suffix of modules that test alpha masks: `.alpha` where a draw is masked, else nothing.
+    pub fn mask_suffix(scene: Option<&Self>) -> &'static str {
+        if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
     }
 }
 

@@ -6,8 +6,8 @@ use rasray_shaders_glsl::constants::ads::{LONG_LIST_ROUNDS, NODE_SORT_LISTS, SOR
 use crate::{AdsError, BuildPipelines, BuildTarget};
 
 /// Sorts each list of a structure in place: `ads/build_sort.comp` and `ads/build_sort_long.comp` as compiled for it, whose
-/// `sorted.glsl` says what its lists are. A first pass sorts short lists and names the others; a second one, of
-/// `LONG_LIST_ROUNDS` dispatches, sorts those.
+/// `sorted.glsl` says what its lists are. A first pass sorts short lists and stores the others in a table; a second
+/// one, of `LONG_LIST_ROUNDS` dispatches, sorts those.
 #[derive(Debug)]
 pub struct ListSort {
     short: (String, ComputePipeline),
@@ -37,8 +37,8 @@ impl ListSort {
         lists.div_ceil(u64::from(SORT_GROUP_SIZE) * u64::from(per_thread))
     }
 
-    /// Records both passes over `lists` lists, of which `long` may be named, visible to `readers`. The second pass is left out
-    /// where none may be.
+    /// Records both passes over `lists` lists, of which `long` fit into the table, visible to `readers`. The second
+    /// pass is left out where none does.
     pub fn record(
         &self,
         recorder: &mut Recorder<'_>,
@@ -49,7 +49,7 @@ impl ListSort {
         readers: Access,
     ) {
         let (label, pipeline) = &self.short;
-        // What is named is read by the second pass.
+        // The second pass reads the table.
         let between = Access::COMPUTE | readers;
         target.compute_pass(recorder, label, pipeline, Self::groups(lists, linked), 0, between);
         let (label, pipeline) = &self.long;

@@ -90,7 +90,7 @@ impl<'a> BuildPipelines<'a> {
     }
 }
 
-/// Views of one size that are drawn at once, one instance each.
+/// Views of one size that are drawn together, one instance each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ViewDraw {
     /// Cells along a side, border included.

@@ -1,4 +1,4 @@
-//! A structure of a header, pools and passes: what all of these do alike.
+//! A structure of a header, pools and passes: what all such structures have in common.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -21,7 +21,7 @@ pub struct Pooled<D: Design> {
     /// The scene's set, where passes of the build read it.
     scene: Option<BindingSet>,
     /// The header as [`Structure::status`] last read it; zeros until then. Reports and rounds are of this build, also where
-    /// triangles or pools are others by now: frames that follow each other ask for much the same.
+    /// triangles or pools have changed since: consecutive frames have much the same demand.
     known: Mutex<D::Header>,
 }
 
@@ -37,7 +37,7 @@ impl<D: Design> Pooled<D> {
     /// something of it.
     ///
     /// # Errors
-    /// An option is out of range or needs what the device or the caller does not provide; out of memory; a pool
+    /// An option is out of range or needs what neither the device nor the caller provides; out of memory; a pool
     /// exceeds what one binding can hold (then use device addresses).
     pub fn new(
         device: &Device,
@@ -120,7 +120,7 @@ impl<D: Design> Pooled<D> {
     }
 
     /// Writes back what [`Pooled::download`] returned, or what was made of it. Submits and waits: for tests and tools.
-    /// Traces end within their bounds whatever the other pools say; the header is taken at its word.
+    /// Traces end within their bounds whatever the other pools say; the header is trusted.
     ///
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.

@@ -159,7 +159,7 @@ impl Pools {
     /// Where the entry of a slot begins.
     fn entry_of(&self, slot: u32) -> Result<u64, GpuError> {
         if slot >= self.slots {
-            let reason = format!("slot {slot} of {} was asked for", self.slots);
+            let reason = format!("slot {slot} of {} was requested", self.slots);
             return Err(GpuError::InvalidUse { name: self.structure.to_owned(), reason });
         }
         Ok(u64::from(slot) * self.entry())

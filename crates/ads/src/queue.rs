@@ -83,7 +83,7 @@ pub struct QueueCounters {
 }
 
 impl RayQueue {
-    /// Allocates a queue, with surfaces if asked for.
+    /// Allocates a queue, with surfaces if requested.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -91,7 +91,7 @@ impl RayQueue {
         Self::with_parts(device, name, capacity, QueueParts { surfaces, ..QueueParts::default() })
     }
 
-    /// Allocates a queue with the parts asked for.
+    /// Allocates a queue with the requested parts.
     ///
     /// # Errors
     /// Out of memory, or a buffer exceeds what one binding can hold.
@@ -196,7 +196,7 @@ impl RayQueue {
     pub fn record_dispatch(&self, recorder: &mut Recorder<'_>, domain: Domain) {
         match domain {
             Domain::First(count) if count > self.capacity => {
-                recorder.refuse(&format!("{count} slots of a queue of {} were asked for", self.capacity));
+                recorder.refuse(&format!("{count} slots of a queue of {} were requested", self.capacity));
             }
             Domain::First(count) => recorder.dispatch([count.div_ceil(QUEUE_GROUP_SIZE), 1, 1]),
             Domain::Selected => {

@@ -99,7 +99,7 @@ impl Sizes {
 pub struct PoolStatus {
     /// Name of the pool.
     pub name: &'static str,
-    /// Elements the build asked for; exact also beyond the capacity. For pages it is the number that this build began
+    /// Elements the build needs; exact also beyond the capacity. For pages it is the number that this build began
     /// or would have begun, which varies slightly with the order of threads; `check` adds a margin for it.
     pub demand: u64,
     /// Elements the pool holds.
@@ -179,7 +179,7 @@ impl Growth {
     }
 }
 
-/// What a structure says of itself once built.
+/// What a structure reports once built.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StructureReport {
     /// Options as resolved: name and value.
@@ -190,7 +190,7 @@ pub struct StructureReport {
     pub bytes_by_part: Vec<(&'static str, u64)>,
     /// Bytes the page's formula gives for what was counted.
     pub formula_bytes: u64,
-    /// Of these, what nothing but diagnostics reads.
+    /// Of these, what only diagnostics read.
     pub diagnostic_bytes: u64,
     /// Fragments or entries stored; absent where the structure stores none.
     pub stored: Option<u64>,
@@ -367,7 +367,7 @@ pub trait Structure {
     ) -> Result<(), AdsError>;
 
     /// How a shader of one's own traces through it, as it is until the next resize; absent where a structure has
-    /// no functions to call. Whether it is ready is in its status, which its functions look at.
+    /// no functions to call. Whether it is ready is in its status, which its functions check.
     fn inline_trace(&self) -> Option<InlineTrace<'_>> {
         None
     }
@@ -382,7 +382,7 @@ pub trait Structure {
     }
 
     /// Writes back what [`Structure::download_pools`] returned, or what was made of it. Submits and waits: for tests and
-    /// tools. Traces end within their bounds whatever the other pools say; the header is taken at its word.
+    /// tools. Traces end within their bounds whatever the other pools say; the header is trusted.
     ///
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.

@@ -1,6 +1,6 @@
 //! Where a build is seen from, and what a camera sees there.
 
-/// What a camera sees: a pyramid whose apex is the eye. Axes are unit and at right angles.
+/// What a camera sees: a pyramid whose apex is the eye. Axes are unit and perpendicular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
     /// Towards the right of the image.

@@ -5,7 +5,7 @@ use rasray_shaders_glsl::constants::ads::{BIN_GROUP_SIZE, BIN_TURNS};
 
 use crate::{AdsError, BuildPipelines, BuildTarget, ViewDraw};
 
-/// Who puts triangles into cells. Changes no hit.
+/// How triangles are binned into cells. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builder {
     /// The rasterizer proposes cells, and the shared function decides.
@@ -93,12 +93,12 @@ impl LargePass {
 
 /// Makes the visits of a structure that can be built either way. Modules are named alike: a fragment shader
 /// `build_3_bounds.alpha` has compute shaders `build_3_bounds_bin.alpha` and `build_3_bounds_bin_large.alpha`
-/// beside it, and labels end as they do.
+/// next to it, and labels have the same suffixes.
 #[derive(Clone, Copy, Debug)]
 pub struct Visits<'a> {
     /// What makes pipelines.
     pub pipelines: &'a BuildPipelines<'a>,
-    /// Who builds.
+    /// The builder.
     pub builder: Builder,
     /// Byte of the header with the workgroups for the large-triangle queue: three u32.
     pub groups: usize,

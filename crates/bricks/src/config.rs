@@ -1,6 +1,6 @@
 //! Options of bricks.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 
@@ -14,22 +14,22 @@ pub(crate) const SIDE_LIMIT: u32 = numbers::BRICK_SIDE_LIMIT;
 /// Maximum slices.
 const SLICE_LIMIT: u32 = numbers::BRICK_SLICE_LIMIT;
 
-/// Everything that may be chosen. Nothing changes a hit.
+/// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
-    /// What is seen where.
+    /// Which views there are.
     pub views: Views,
-    /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024, made up to a
-    /// multiple of 4. Absent: as many as make a cell about as wide as a triangle.
+    /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024, rounded up
+    /// to a multiple of 4. Absent: as many as make a cell about as wide as a triangle.
     pub grid: Option<u32>,
-    /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, made up to a multiple of 4; twice the
-    /// columns along a side where absent.
+    /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, rounded up to a multiple of 4; twice
+    /// the columns along a side where absent.
     pub slices: Option<u32>,
-    /// Keep the corners of triangles once more, one behind the other: 36 bytes per triangle in place of 24.
+    /// Keep a contiguous copy of the corners of triangles: 36 bytes per triangle instead of 24.
     pub corners: bool,
     /// Find how far around each empty brick everything is empty, so that a ray crosses it in one step.
     pub skip: bool,
-    /// Who puts triangles into cells.
+    /// How triangles are binned into cells.
     pub builder: Builder,
     /// How pools are reached.
     pub addressing: Addressing,
@@ -80,21 +80,13 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("grid", self.grid.unwrap_or(1), 1, SIDE_LIMIT, "1 to 1024 cells along a side")?;
-        range("slices", self.slices.unwrap_or(1), 1, SLICE_LIMIT, "1 to 1024 depth slices")?;
+        check_range("grid", self.grid.unwrap_or(1), 1..=SIDE_LIMIT, "1 to 1024 cells along a side")?;
+        check_range("slices", self.slices.unwrap_or(1), 1..=SLICE_LIMIT, "1 to 1024 depth slices")?;
         if let (Views::Axes, Some(slices)) = (self.views, self.slices) {
-            let expected = "views along axes have cells of one size: take grid, or views cube";
+            let expected = "views along axes have cells of one size: use `grid`, or views `cube`";
             return Err(AdsError::Option { option: "slices", value: slices.to_string(), expected });
         }
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more per dispatch, or rays make no progress")
+        check_work_budget(self.work_budget, false)
     }
 
     /// Specialisation constants: id and bits.

@@ -1,14 +1,14 @@
-//! What columns of bricks are, and how many there are.
+//! The views of bricks, and their numbers of columns, rows and slices.
 
 use crate::config::{BRICK_SIDE, SIDE_LIMIT};
 
-/// What is seen where. Changes no hit.
+/// Which views there are. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Views {
     /// Six faces of a cube around a centre: cells grow with the distance.
     Cube,
     /// One box of cells of one size around the geometry, seen along an axis, which are the cells of views along the
-    /// other two axes as well. Nothing depends on the eye but how far away rays may start.
+    /// other two axes as well. Only the distance at which rays may start depends on the eye.
     Axes,
 }
 
@@ -33,17 +33,17 @@ impl Views {
     }
 }
 
-/// Most cells where their number is left to the rule: 256 a side of a cube.
+/// Maximum number of cells where the rule chooses it: 256 along a side of a cube.
 const MOST_CELLS: f64 = 16_777_216.0;
 
-/// Fewest cells along the longest side where their number is left to the rule.
+/// Minimum number of cells along the longest side where the rule chooses it.
 const FEWEST_ALONG: f64 = 16.0;
 
 /// Columns along a side of a face for that many triangles: as many as make a column about as wide as a triangle is
 /// seen from the middle, a power of two from 32 to 256.
 pub(crate) fn columns_for(triangles: u32) -> u32 {
     let wanted = f64::from(triangles).sqrt() / 4.0;
-    // Of two powers of two the nearer by ratio.
+    // The nearer of two powers of two, by ratio.
     2.0_f64.powf(wanted.max(1.0).log2().round()).clamp(32.0, 256.0) as u32
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: 
     if let Some(along) = along {
         return cells_of(longest / f64::from(along));
     }
-    // A third of the area of a box's sides: of a sheet its area, of a cube that of a side.
+    // A third of the area of a box's sides: the area of a sheet, or of one side of a cube.
     let area = (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]) / 3.0;
     let wide = 2.0 * (area / f64::from(triangles.max(1))).sqrt();
     let mut side = wide.clamp(longest / f64::from(SIDE_LIMIT), longest / FEWEST_ALONG);
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn cells_are_as_long_as_wide() {
         assert_eq!(cells_along(ROOM, 12, Some(64)), [64, 32, 16]);
-        // A multiple of 4 at least as many as asked for.
+        // Rounded up to a multiple of 4.
         assert_eq!(cells_along(ROOM, 12, Some(61)), [64, 32, 16]);
         assert_eq!(cells_along(ROOM, 12, Some(1)), [4, 4, 4]);
         assert_eq!(cells_along(ROOM, 12, Some(1024)), [1024, 512, 256]);

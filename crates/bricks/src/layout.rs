@@ -12,7 +12,7 @@ const BRICK_WORDS: u64 = 3;
 /// Words of a record: a triangle in a column.
 const RECORD_WORDS: u64 = 3;
 
-/// What a build asks for, counted.
+/// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Entries of all lists.
@@ -35,7 +35,7 @@ pub(crate) fn bricks_of(views: Views, cells: [u32; 3]) -> ([u64; 3], u64) {
     (along, u64::from(views.count()) * along.iter().product::<u64>())
 }
 
-/// Words per triangle: its corners, or the pairs of a triangle and a view that cover many columns, which binning needs
+/// Words per triangle: its corners, or the large-triangle queue, one word per view, which binning needs
 /// while it builds.
 fn triangle_words(config: &Config) -> u64 {
     if config.corners { 9 } else { numbers::BRICK_LARGE_LIMIT.into() }
@@ -44,12 +44,12 @@ fn triangle_words(config: &Config) -> u64 {
 /// What bricks of this configuration allocate to hold `demand`.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+/// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    // A brick at least, so that a build can say what it needs.
+    // At least one brick, so that a build can count its demand.
     let (_, bricks) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
-    // The distances of bricks are found where the sums were.
+    // The distances of bricks replace the sums.
     let distances = if config.skip { bricks } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
     let pools = [
@@ -65,8 +65,8 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("bricks", pools)
 }
 
-/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, half of which stand
-/// alone in theirs.
+/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, and two entries per
+/// cell.
 pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
     config.validate()?;
     let triangles = u64::from(geometry.triangle_count());
@@ -97,7 +97,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let of_view = demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64;
     let bricks = if config.views == Views::Cube { 6 * of_view } else { of_view };

@@ -1,9 +1,9 @@
 //! Bricks: cells with lists of the triangles that reach into them, 4x4x4 cells in a brick with a mask, and bricks that
-//! say how far around them everything is empty. Hits are those of the triangles, and rays cross empty space by many
+//! say how far around them everything is empty. Hits are those of the triangles, and rays cross empty space many
 //! cells at a time.
 //!
-//! No paper has this structure; what it keeps of DIRT and of Hu et al., and passes, bytes, options and limits are on
-//! `docs/systems/bricks.md`.
+//! This structure is in no paper. What it takes from DIRT and from Hu et al., its passes, bytes, options and limits are
+//! in `docs/systems/bricks.md`.
 //!
 //! [`Bricks`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
 

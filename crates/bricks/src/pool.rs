@@ -5,7 +5,7 @@ rasray_ads::pool_names! {
     pub enum Pool {
         /// What shaders start from.
         Header = "header",
-        /// Words and masks.
+        /// Words and masks of bricks.
         Bricks = "bricks",
         /// Where the list of each cell that has one ends.
         Lists = "lists",
@@ -15,9 +15,9 @@ rasray_ads::pool_names! {
         Sums = "sums",
         /// Triangles in the near region.
         Near = "near",
-        /// Triangles in columns.
+        /// Records: triangles in columns.
         Records = "records",
-        /// Corners; before them triangles with many columns.
+        /// Corners of triangles; during the build the large-triangle queue.
         Triangles = "triangles",
     }
 }

@@ -21,7 +21,7 @@ pub type Bricks = Pooled<Passes>;
 pub struct Passes(Build);
 
 /// Columns, rows and slices of each view, one brick where the capacity does not suffice for those that the geometry
-/// asks for; and whether it does.
+/// needs; and whether it does.
 fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     let Parts { config, geometry, .. } = parts;
     let wanted = config.cells(geometry);
@@ -134,7 +134,7 @@ impl Design for Passes {
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
-        // Cells are marked by records that were stored. Where some were not, none has more cells than entries.
+        // Only stored records mark cells. Unless all are stored, the bound is one cell per entry.
         let all = header.record_demand <= header.record_capacity;
         Demand {
             entries: header.demand.into(),
@@ -158,8 +158,7 @@ impl Design for Passes {
     }
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
-        // Rays from far outside are tested against every triangle, others against what a few cells list.
-        parts.usual_rounds() + 2 * parts.rounds(parts.geometry.triangle_count())
+        parts.rounds_with_distant_rays()
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {

@@ -26,7 +26,7 @@ pub struct Contents {
 #[non_exhaustive]
 pub enum Fault {
     /// A list reaches beyond the pool.
-    #[error("list {list}: {end} is no end of it")]
+    #[error("list {list}: {end} is not a valid end")]
     Dangling {
         /// List, numbered by the cells that have one.
         list: usize,
@@ -41,7 +41,7 @@ pub enum Fault {
         /// Entries found in lists.
         listed: usize,
     },
-    /// An entry names no triangle.
+    /// An entry has an invalid triangle index.
     #[error("list {list}: there is no triangle {primitive}")]
     Primitive {
         /// List.
@@ -49,8 +49,8 @@ pub enum Fault {
         /// What is stored.
         primitive: u32,
     },
-    /// A triangle stands twice in a list.
-    #[error("list {list}: triangle {primitive} stands there twice")]
+    /// A triangle is in a list twice.
+    #[error("list {list}: triangle {primitive} is in the list twice")]
     Twice {
         /// List.
         list: usize,
@@ -58,7 +58,7 @@ pub enum Fault {
         primitive: u32,
     },
     /// The word of a brick does not count the cells before it, or calls a brick empty that lists something.
-    #[error("brick {brick}: its word {word:#x} is not that of {cells} cells before it")]
+    #[error("brick {brick}: its word {word:#x} does not match the {cells} listed cells before it")]
     Word {
         /// Brick.
         brick: usize,
@@ -67,8 +67,8 @@ pub enum Fault {
         /// Cells that list something in the bricks before it.
         cells: u32,
     },
-    /// A brick is skipped that lists something.
-    #[error("brick {brick}: towards octant {octant} its distance goes over a brick that lists something")]
+    /// A brick that lists something is skipped.
+    #[error("brick {brick}: towards octant {octant} its distance skips a brick that lists something")]
     Distance {
         /// The empty brick.
         brick: usize,
@@ -102,7 +102,7 @@ impl Contents {
     }
 }
 
-/// Checks that words of bricks number the cells that list something, and that no empty brick's distance goes over one
+/// Checks that words of bricks number the cells that list something, and that no empty brick's distance skips one
 /// that is not.
 fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     let header = &contents.header;
@@ -149,8 +149,8 @@ fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Checks words of bricks, that every counted entry is in exactly one list and names one of `triangles` triangles, and
-/// that no list names a triangle twice.
+/// Checks words of bricks, that every counted entry is in exactly one list and has the index of one of `triangles`
+/// triangles, and that no list contains a triangle twice.
 ///
 /// # Errors
 /// The first fault found.

@@ -1,6 +1,6 @@
 //! Options of the BVH.
 
-use rasray_ads::{Addressing, AdsError, Counters};
+use rasray_ads::{Addressing, AdsError, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::bvh::BVH_LEAF_LIMIT;
 
 /// What builds the tree.
@@ -22,16 +22,16 @@ impl Builder {
     }
 }
 
-/// Everything that may be chosen. Nothing of it changes a hit.
+/// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Config {
     /// What builds the tree.
     pub builder: Builder,
-    /// Most triangles of a leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic decides below that.
+    /// Maximum number of triangles per leaf, 1 to 16; only for [`Builder::Sah`], whose heuristic may use fewer.
     pub leaf: u32,
     /// How pools are reached.
     pub addressing: Addressing,
-    /// How much rays record of their work: nodes read and triangles tested.
+    /// How much of their work rays record: nodes read and triangles tested.
     pub counters: Counters,
     /// Work units (nodes read and triangles tested) a ray may spend in one dispatch, 1 or more; the shared
     /// default where absent.
@@ -57,16 +57,8 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let refuse = |option, value: u32, expected| {
-            Err(AdsError::Option { option, value: value.to_string(), expected })
-        };
-        if !(1..=BVH_LEAF_LIMIT).contains(&self.leaf) {
-            return refuse("leaf", self.leaf, "1 to 16 triangles a leaf");
-        }
-        match self.work_budget {
-            Some(0) => refuse("work budget", 0, "1 unit or more a dispatch, or rays make no progress"),
-            _ => Ok(()),
-        }
+        check_range("leaf", self.leaf, 1..=BVH_LEAF_LIMIT, "1 to 16 triangles per leaf")?;
+        check_work_budget(self.work_budget, false)
     }
 
     /// Options as name and value, for reports.

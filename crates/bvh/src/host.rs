@@ -93,11 +93,11 @@ fn normalized(boxes: &[Box3]) -> Vec<Aabb> {
     boxes.iter().map(|b| Aabb::new(corner(b[0]).into(), corner(b[1]).into())).collect()
 }
 
-/// What becomes a child.
+/// What a child is.
 enum Part {
     /// A node of the shape.
     Node(usize),
-    /// Triangles that the shape does not tell apart.
+    /// Triangles with equal boxes, which the shape does not separate.
     Triangles(Vec<u32>),
 }
 
@@ -175,7 +175,7 @@ mod tests {
         for (count, leaf) in [(1, 4), (4, 4), (5, 4), (700, 1), (100_000, 4)] {
             let tree = build(&vec![point; count], leaf);
             let levels = count.div_ceil(leaf as usize).next_power_of_two().ilog2() as usize;
-            assert_eq!(shape(&tree), (count, levels), "{count} triangles, {leaf} a leaf");
+            assert_eq!(shape(&tree), (count, levels), "{count} triangles, {leaf} per leaf");
         }
         // Among others that are apart.
         let mut boxes: Vec<Box3> = (0..100).map(|i| [[i as f32; 3], [i as f32 + 0.5; 3]]).collect();

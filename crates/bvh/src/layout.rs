@@ -37,7 +37,7 @@ fn unions(triangles: u64) -> u64 {
 /// than there are leaves at most.
 ///
 /// # Errors
-/// An option is out of range, or there are more triangles than a leaf's 27 bits can name.
+/// An option is out of range, or there are more triangles than a leaf's 27 bits can address.
 pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
     config.validate()?;
     if triangles >= 1 << BVH_LEAF_SHIFT {
@@ -58,10 +58,10 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 /// Bytes of the page's formula for counted nodes and triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// What traces read: header 96, 64 a node, 40 a triangle.
+    /// What traces read: header 96, 64 per node, 40 per triangle.
     pub traced: u64,
-    /// What only the build uses: 28 a triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 a triangle, 1024
-    /// for every 256 of them, 4 for every 1024 of them, and 24 a union of four boxes, unions of unions
+    /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 per triangle, 1024
+    /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
     /// included, each rounded up.
     pub scratch: u64,
 }
@@ -73,7 +73,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaBytes {
     let scratch = match builder {
         Builder::Sah => 28 * triangles,

@@ -15,11 +15,11 @@ use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
 use crate::{Builder, Config, Contents, Header, Node, Pool, Record, well_formed};
 
-/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray on which
-/// hundreds of thousands of boxes lie needs more.
+/// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray that
+/// hits hundreds of thousands of boxes needs more.
 const FIRST_ROUNDS: u32 = 64;
 
-/// A bounding volume hierarchy with two children a node, made from a [`Config`].
+/// A bounding volume hierarchy with two children per node, made from a [`Config`].
 pub type Bvh = Pooled<Tree>;
 
 /// Pipelines of the build: the design of [`Bvh`].
@@ -53,8 +53,8 @@ struct Prepared {
     triangles: u32,
 }
 
-/// What is known of the tree that the device builds over at most this many triangles: it has the last word on both root and
-/// triangles.
+/// The tree that the device builds over at most this many triangles, as far as the host knows it: the device sets the
+/// final root and number of triangles.
 fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1).into(), triangles }
 }
@@ -105,7 +105,7 @@ impl rasray_ads::Demand for Demand {
 
 /// Rounds that a ray needs if it hits every box of the tree.
 fn most_rounds(parts: &Parts<Config>) -> u32 {
-    // Each triangle is tested once, each node entered once, and after pauses each child left once.
+    // Each triangle is tested once, each node entered once, and after pauses each child exited once.
     let units = 4 * u64::from(parts.geometry.triangle_count());
     let budget = u64::from(parts.work_budget);
     (units / budget + 2).min(u32::MAX.into()) as u32
@@ -177,7 +177,7 @@ impl Design for Tree {
         self.prepared = None;
         let unknown = on_device(parts.geometry.triangle_count());
         if !has_capacity(parts) {
-            // The build will say so.
+            // The status of the build reports that.
             self.prepared = Some(unknown);
             return Ok(());
         }
@@ -216,7 +216,7 @@ impl Design for Tree {
     }
 
     fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {
-        // What the tree has, and of the rest what its triangles take.
+        // The nodes of the tree; all other demand follows from the triangles.
         let triangles = u64::from(parts.geometry.triangle_count());
         let wanted = plan(&parts.config, triangles).unwrap_or_default();
         Demand {

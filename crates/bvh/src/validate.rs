@@ -21,7 +21,7 @@ pub struct Contents {
 pub struct Shape {
     /// Leaves.
     pub leaves: usize,
-    /// Inner nodes on the longest way from the root to a leaf.
+    /// Inner nodes on the longest path from the root to a leaf.
     pub levels: usize,
     /// Expected nodes and triangles that a ray through the root's box hits, by surface area; 0 where that
     /// box has none.
@@ -32,7 +32,7 @@ pub struct Shape {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// A child is no node or run of records.
+    /// A child is neither a node nor a range of records.
     #[error("node {node}: child {reference:#010x} points to neither a node nor records")]
     Dangling {
         /// The node.
@@ -40,8 +40,8 @@ pub enum Fault {
         /// The reference.
         reference: u32,
     },
-    /// A node is reached by a link other than the one it knows, or a second time.
-    #[error("node {node} is reached by link {link} and knows {parent}")]
+    /// A node is reached by a link other than the one it stores, or a second time.
+    #[error("node {node} is reached by link {link} and stores link {parent}")]
     Parent {
         /// The node.
         node: u32,
@@ -78,7 +78,7 @@ pub enum Fault {
     },
 }
 
-/// Checks that every triangle has one record and every record one leaf, that nodes know the link by which they
+/// Checks that every triangle has one record and every record one leaf, that nodes store the link by which they
 /// are reached, and that every box is the union of what is below it.
 ///
 /// # Errors

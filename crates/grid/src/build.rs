@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, LargePass, Scan, Visit, Visits};
+use rasray_ads::{AdsError, BuildPipelines, BuildTarget, Builder, LargePass, Lengths, Visit, Visits};
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 
 use crate::{Header, Pool};
@@ -11,8 +11,7 @@ use crate::{Header, Pool};
 #[derive(Debug)]
 pub(crate) struct Build {
     large: Option<LargePass>,
-    count: Visit,
-    scan: Scan,
+    lengths: Lengths,
     store: Visit,
     status: ComputePipeline,
 }
@@ -23,8 +22,7 @@ impl Build {
         let visit = |name| visits.visit("", name, "");
         Ok(Self {
             large: visits.large("build_1_large")?,
-            count: visit("build_2_count")?,
-            scan: Scan::new(pipelines, "build_3_scan")?,
+            lengths: Lengths::new(pipelines, visit("build_2_count")?, "build_3_scan")?,
             store: visit("build_4_store")?,
             status: pipelines.compute("build_5_status")?,
         })
@@ -36,8 +34,7 @@ impl Build {
         if let Some(large) = &self.large {
             large.record(recorder, target);
         }
-        self.count.record(recorder, target, &[]);
-        self.scan.record(recorder, target, "grid/build_3_scan", cells, 0, Access::COMPUTE);
+        self.lengths.record(recorder, target, &[], cells, Access::COMPUTE);
         self.store.record(recorder, target, &[]);
         target.status_pass(recorder, "grid/build_5_status", &self.status);
     }

@@ -1,15 +1,15 @@
 //! Options of a grid.
 
-use rasray_ads::{Addressing, AdsError, Counters, Geometry};
+use rasray_ads::{Addressing, AdsError, Counters, Geometry, check_range, check_work_budget};
 use rasray_shaders_glsl::constants::grid::GRID_SIDE_LIMIT;
 
-/// Cells per triangle where their number is left to the rule.
+/// Cells per triangle where the rule chooses their number.
 const DENSITY: f64 = 5.0;
 
-/// Fewest cells along the longest side where their number is left to the rule.
+/// Minimum number of cells along the longest side where the rule chooses it.
 const FEWEST_ALONG: f64 = 4.0;
 
-/// Everything that may be chosen. Nothing changes a hit.
+/// All options. None of them changes a hit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Config {
     /// Cells along the longest side of the geometry's bounds, 1 to 1024. Absent: five cells per triangle.
@@ -42,16 +42,9 @@ impl Config {
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let check = |option, value: u32, highest, expected| {
-            if (1..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        check("grid", self.cells.unwrap_or(1), GRID_SIDE_LIMIT, "1 to 1024 cells along the longest side")?;
-        let expected = "1 unit or more per dispatch, or rays make no progress";
-        check("work budget", self.work_budget.unwrap_or(1), u32::MAX, expected)
+        let expected = "1 to 1024 cells along the longest side";
+        check_range("grid", self.cells.unwrap_or(1), 1..=GRID_SIDE_LIMIT, expected)?;
+        check_work_budget(self.work_budget, false)
     }
 
     /// Options as name and value, for reports.
@@ -65,7 +58,7 @@ impl Config {
     }
 }
 
-/// Cells along each axis for bounds (lower, upper) in metres: cubes, but where a side is not a whole number of them,
+/// Cells along each axis for bounds (lower, upper) in metres: cubes, except where a side is not a whole number of them,
 /// with `along` on the longest side, or [`DENSITY`] per triangle.
 fn cells_along([lower, upper]: [[f32; 3]; 2], triangles: u32, along: Option<u32>) -> [u32; 3] {
     let extent: [f64; 3] = std::array::from_fn(|axis| f64::from(upper[axis]) - f64::from(lower[axis]));

@@ -4,7 +4,7 @@ use rasray_ads::{AdsError, Geometry, Scan, Sizes};
 
 use crate::{Config, Header, Pool};
 
-/// What a build asks for.
+/// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Entries of all lists: what a build counts.
@@ -23,10 +23,10 @@ pub(crate) fn cell_count(cells: [u32; 3]) -> u64 {
 /// What a grid of this configuration allocates to hold `demand`.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+/// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
-    // A cell at least, so that a build can say what it needs.
+    // At least one cell, so that a build can count its demand.
     let cells = cell_count(demand.cells).max(1);
     let pool = |pool, elements| (pool, elements, 4);
     let pools = [
@@ -64,7 +64,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(demand: &Demand) -> FormulaBytes {
     let [x, y, z] = demand.cells.map(u64::from);
     let cells = (x * y * z).max(1);

@@ -26,8 +26,8 @@ fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     (if fits { wanted } else { [1; 3] }, fits)
 }
 
-/// How often the loops over the cells of a triangle turn at most, in all its invocations: a plane has three times the
-/// cells of the largest side of the grid, with its margins twice as many, and some of its columns have none.
+/// Maximum number of iterations of the loops over the cells of a triangle, in all its invocations: a plane has three
+/// times the cells of the largest side of the grid, with its margins twice as many, and some of its columns have none.
 fn turns(cells: [u32; 3]) -> u64 {
     let [x, y, z] = cells.map(u64::from);
     8 * (x * y).max(y * z).max(z * x)
@@ -139,8 +139,7 @@ impl Design for Passes {
     }
 
     fn first_rounds(parts: &Parts<Config>, _header: &Header) -> u32 {
-        // Rays from far outside are tested against every triangle, others against what a few cells list.
-        parts.usual_rounds() + 2 * parts.rounds(parts.geometry.triangle_count())
+        parts.rounds_with_distant_rays()
     }
 
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {

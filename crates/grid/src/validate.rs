@@ -19,7 +19,7 @@ pub struct Contents {
 #[non_exhaustive]
 pub enum Fault {
     /// A list reaches beyond the pool, or ends before it begins.
-    #[error("cell {cell}: {end} is no end of its list")]
+    #[error("cell {cell}: {end} is not a valid end of its list")]
     Dangling {
         /// Cell, in the order of lists.
         cell: usize,
@@ -34,7 +34,7 @@ pub enum Fault {
         /// Entries found in lists.
         listed: usize,
     },
-    /// An entry names no triangle.
+    /// An entry has an invalid triangle index.
     #[error("cell {cell}: there is no triangle {primitive}")]
     Primitive {
         /// Cell.
@@ -42,8 +42,8 @@ pub enum Fault {
         /// What is stored.
         primitive: u32,
     },
-    /// A triangle stands twice in a list.
-    #[error("cell {cell}: triangle {primitive} stands there twice")]
+    /// A triangle is in a list twice.
+    #[error("cell {cell}: triangle {primitive} is in the list twice")]
     Twice {
         /// Cell.
         cell: usize,
@@ -77,8 +77,8 @@ impl Contents {
     }
 }
 
-/// Checks that lists lie one behind the other and hold every counted entry, that entries name one of `triangles`
-/// triangles, and that no list names a triangle twice.
+/// Checks that lists are contiguous and hold every counted entry, that entries are indices of `triangles`
+/// triangles, and that no list contains a triangle twice.
 ///
 /// # Errors
 /// The first fault found.

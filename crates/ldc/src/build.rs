@@ -3,7 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
+    Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
@@ -18,8 +19,7 @@ const DRAWS: u32 = 1;
 #[derive(Debug)]
 pub struct Build {
     large: Option<LargePass>,
-    count: Visit,
-    scan: Scan,
+    lengths: Lengths,
     layers: Layers,
     conservative: Option<Visit>,
     attributes: Option<ComputePipeline>,
@@ -33,7 +33,7 @@ enum Layers {
         store: Visit,
         sort: ListSort,
     },
-    /// The last draw lets lists grow from where they begin to where they end.
+    /// The last draw, which advances lists from their first place to their end.
     Peel {
         peel: RasterPipeline,
         grow: RasterPipeline,
@@ -48,12 +48,11 @@ impl Build {
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload == Payload::Attributes;
         if stored {
             SceneBinding::for_payload(scene, "attributes")?;
         }
-        let masked = if alpha { ".alpha" } else { "" };
+        let masked = SceneBinding::mask_suffix(scene);
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let covered = |name| visits.visit("build_raster", name, masked);
         let draw = |name| pipelines.raster("build_raster", &format!("{name}{masked}"));
@@ -67,8 +66,7 @@ impl Build {
         let kept = config.coverage == Coverage::Conservative;
         Ok(Self {
             large: visits.large("build_1_large")?,
-            count: covered("build_2_count")?,
-            scan: Scan::new(pipelines, "build_3_scan")?,
+            lengths: Lengths::new(pipelines, covered("build_2_count")?, "build_3_scan")?,
             layers,
             conservative: kept
                 .then(|| visits.visit("build_raster.conservative", "build_6_conservative", ""))
@@ -84,7 +82,7 @@ impl Build {
         let side = config.resolution + 2;
         let shaders = Access::COMPUTE | Access::FRAGMENT;
 
-        // Depths that share a word are put into it one after the other; layers that are peeled are counted.
+        // Words that two depths share are filled one depth after the other; peeled layers are counted.
         let cleared: &[Pool] = match (config.making, config.depth) {
             (Making::Single, Depth::Bits16) => &[Pool::Lists, Pool::Blocks, Pool::Heads, Pool::Depths],
             (Making::Single, Depth::Bits32) => &[Pool::Lists, Pool::Blocks, Pool::Heads],
@@ -95,8 +93,7 @@ impl Build {
             large.record(recorder, target);
         }
         let views = [ViewDraw { side, views: DRAWS, first: 0 }];
-        self.count.record(recorder, target, &views);
-        self.scan.record(recorder, target, "ldc/build_3_scan", cells, 0, shaders);
+        self.lengths.record(recorder, target, &views, cells, shaders);
         match &self.layers {
             Layers::Single { store, .. } => store.record(recorder, target, &views),
             Layers::Peel { peel, grow } => {
@@ -107,7 +104,7 @@ impl Build {
         if let Some(conservative) = &self.conservative {
             conservative.record(recorder, target, &views);
         }
-        // Long lists are named where triangles with many cells were, so all triangles are visited before.
+        // Long lists are stored where the large-triangle queue was, so all triangles are visited before.
         if let Layers::Single { sort, .. } = &self.layers {
             let long = long_capacity(config, target.pools.sizes());
             sort.record(recorder, target, cells, false, long, shaders);
@@ -120,7 +117,7 @@ impl Build {
     }
 }
 
-/// Two draws a layer, and one in which lists grow to where they end.
+/// Two draws per layer, and one that advances lists to their ends.
 fn record_peeling(
     recorder: &mut Recorder<'_>,
     peel: &RasterPipeline,

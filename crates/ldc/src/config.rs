@@ -1,6 +1,6 @@
 //! Options of the layered depth cube and the two presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::ldc as ids;
 use rasray_shaders_glsl::constants::ldc as numbers;
 
@@ -9,7 +9,7 @@ use rasray_shaders_glsl::constants::ldc as numbers;
 pub enum Accept {
     /// Its depth is within [`Config::tolerance`] of the depths that the ray has in its cell.
     Tolerance,
-    /// The same with a tolerance that follows the lean of its triangle: half of its rise over the cell.
+    /// The same with a tolerance that follows the slope of its triangle: half of its rise over the cell.
     Slope,
     /// The ray intersects the plane of its triangle within the cell.
     Plane,
@@ -22,8 +22,8 @@ pub enum Coverage {
     Hardware,
     /// Those whose centre it covers by a watertight test; the rasterizer only proposes.
     Exact,
-    /// The same, and it is kept in other cells that it reaches into, where no fragment stands
-    /// for it: there its own hits count.
+    /// The same, and it is kept in other cells that it reaches into, where no fragment represents
+    /// it: there hits on the triangle itself count.
     Conservative,
 }
 
@@ -41,7 +41,7 @@ pub enum Depth {
 pub enum Occupancy {
     /// The smallest and the largest: 8 bytes.
     Bounds,
-    /// The same, and in which of 64 slices of the cube's depth something lies: 16 bytes.
+    /// The same, and which of 64 slices of the cube's depth hold something: 16 bytes.
     Slices,
 }
 
@@ -60,11 +60,11 @@ pub enum Payload {
     /// Its triangle: 4 bytes. Surfaces come from the posed triangle.
     Index,
     /// Colour and opacity 8:8:8:8 and normal 16:16: 8 bytes, read from a scene. Surfaces come from these, and
-    /// what else a surface has takes its default. Needs [`Accept::Tolerance`]: the others ask the triangle.
+    /// what else a surface has takes its default. Needs [`Accept::Tolerance`]: the others read the triangle.
     Attributes,
 }
 
-/// Everything that may be chosen.
+/// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
@@ -77,15 +77,15 @@ pub struct Config {
     pub occupancy: Occupancy,
     /// How layers are made. Changes no hit.
     pub making: Making,
-    /// Most layers that are peeled, 1 to 1024; only for [`Making::Peel`]. Deeper cells are refused.
+    /// Maximum number of peeled layers, 1 to 1024; only for [`Making::Peel`]. Deeper cells are an error.
     pub layers: u32,
     /// When a fragment counts.
     pub accept: Accept,
     /// Share of the cube's side, 0 to 1; only for [`Accept::Tolerance`].
     pub tolerance: f32,
-    /// Who decides coverage.
+    /// How coverage is decided.
     pub coverage: Coverage,
-    /// Who puts triangles into cells; [`Making::Peel`] draws. Changes no hit.
+    /// How triangles are binned into cells; [`Making::Peel`] draws. Changes no hit.
     pub builder: Builder,
     /// How depths are kept.
     pub depth: Depth,
@@ -153,18 +153,12 @@ impl Config {
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
         let refused = |option, value: String, expected| Err(AdsError::Option { option, value, expected });
-        if !(1..=8192).contains(&self.resolution) {
-            return refused("resolution", self.resolution.to_string(), "1 to 8192 cells along a side");
-        }
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
         if !(1..=64).contains(&self.block) || !self.block.is_power_of_two() {
             return refused("block", self.block.to_string(), "1, 2, 4, 8, 16, 32 or 64 cells along a side");
         }
-        if !(1..=2).contains(&self.levels) {
-            return refused("levels", self.levels.to_string(), "1 or 2 levels of blocks");
-        }
-        if !(1..=1024).contains(&self.layers) {
-            return refused("layers", self.layers.to_string(), "1 to 1024 layers");
-        }
+        check_range("levels", self.levels, 1..=2, "1 or 2 levels of blocks")?;
+        check_range("layers", self.layers, 1..=1024, "1 to 1024 layers")?;
         if !(0.0..=1.0).contains(&self.tolerance) {
             return refused("tolerance", self.tolerance.to_string(), "a share of the cube's side, 0 to 1");
         }
@@ -172,28 +166,20 @@ impl Config {
             return refused(
                 "accept",
                 format!("{:?}", self.accept).to_lowercase(),
-                "the acceptances plane and slope need the payload `index`, which names the triangle",
+                "the acceptances plane and slope need the payload `index`, which identifies the triangle",
             );
         }
         if self.ids && self.payload == Payload::Index {
-            let expected = "the payload `index` names triangles already: leave it off";
+            let expected = "the payload `index` identifies triangles already: leave it off";
             return refused("ids", "on".to_owned(), expected);
         }
         if self.builder == Builder::Binning
             && (self.coverage == Coverage::Hardware || self.making == Making::Peel)
         {
-            let expected = "the binning builder does not draw: with coverage `hardware`, or layers that are peeled, take raster";
+            let expected = "coverage `hardware` and peeled layers need builder `raster`: the binning builder does not draw";
             return refused("builder", self.builder.name().to_owned(), expected);
         }
-        match self.work_budget {
-            // A dispatch that resumes a search counts its cell before it reads an entry.
-            Some(budget @ 0..2) => refused(
-                "work budget",
-                budget.to_string(),
-                "2 units or more a dispatch, or rays make no progress",
-            ),
-            _ => Ok(()),
-        }
+        check_work_budget(self.work_budget, true)
     }
 
     /// Bytes of a fragment's payload, and of the triangle that is kept for diagnostics.

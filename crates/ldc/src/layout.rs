@@ -17,13 +17,13 @@ pub fn block_count(config: &Config) -> u64 {
     cell_count(side) + if config.levels == 2 { cell_count(side.div_ceil(LDC_LEVEL_BLOCKS)) } else { 0 }
 }
 
-/// What a build found: how much of each pool it asked for.
+/// The demand of a build: how much of each pool it needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Places of fragments. With 16-bit depths every list begins at an even place, so a list of odd length takes one
     /// place more than it has fragments.
     pub fragments: u64,
-    /// Triangles outside of centres.
+    /// Triangles that conservative lists keep.
     pub conservative: u64,
     /// Lists that one dispatch does not sort.
     pub long_lists: u64,
@@ -33,10 +33,10 @@ pub struct Demand {
     pub large: u64,
 }
 
-/// What a layered depth cube of this configuration allocates to hold what a build may ask for.
+/// What a layered depth cube of this configuration allocates for a demand.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+/// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let cells = cell_count(config.resolution);
@@ -130,7 +130,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let Demand { fragments, conservative, long_lists, layers, large } = demand;
     let side = u64::from(config.resolution);

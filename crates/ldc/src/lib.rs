@@ -2,7 +2,7 @@
 //! triangle in the view it faces most, and rays traverse the views one after the other.
 //!
 //! Source: Bürger, Hertel, Krüger, Westermann, "GPU rendering of secondary effects", VMV 2007 (LDC). All
-//! layers of a cell are made in one pass and lie one behind the other, sorted by depth, as peeling would
+//! layers of a cell are made in one pass and stored contiguously, sorted by depth, as peeling would
 //! yield them. See `docs/systems/ldc.md` for passes, bytes, options, limits and departures.
 //!
 //! [`LayeredDepthCube`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.

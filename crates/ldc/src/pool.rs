@@ -9,15 +9,15 @@ rasray_ads::pool_names! {
         Lists = "lists",
         /// Depths of fragments.
         Depths = "depths",
-        /// What fragments carry in addition to their depth.
+        /// Payload of fragments, in addition to their depth.
         Payload = "payload",
-        /// What blocks of cells hold.
+        /// Depths of blocks of cells.
         Blocks = "blocks",
-        /// Heads of the lists of triangles that no fragment stands for.
+        /// Heads of the conservative lists.
         Heads = "heads",
-        /// Those triangles.
+        /// Nodes of the conservative lists.
         Conservative = "conservative",
-        /// Sums of the scan, and what a build remembers.
+        /// Sums of the scan, long lists or counts of layers, and the large-triangle queue.
         Scratch = "scratch",
     }
 }

@@ -40,7 +40,7 @@ pub enum Fault {
         /// One past the last.
         end: u32,
     },
-    /// A sorted list is not in order, or a fragment stands there twice.
+    /// A sorted list is not in order, or contains a fragment twice.
     #[error("cell {cell}: the fragment at place {place} is out of order")]
     Order {
         /// Cell.
@@ -48,14 +48,14 @@ pub enum Fault {
         /// Place of the fragment.
         place: u32,
     },
-    /// A depth lies outside of its blocks', or is no number.
+    /// A depth lies outside of its blocks', or is NaN.
     #[error("cell {cell}: depth {z} at place {place} is outside of its blocks'")]
     Depth {
         /// Cell.
         cell: usize,
         /// Place of the fragment.
         place: u32,
-        /// The depth, as text: it may be no number.
+        /// The depth, as text: it may be NaN.
         z: String,
     },
     /// A fragment or a node of a conservative list holds no valid triangle.
@@ -67,7 +67,7 @@ pub enum Fault {
         primitive: u32,
     },
     /// A link of a conservative list points to no node.
-    #[error("cell {cell}: link {link} names no node")]
+    #[error("cell {cell}: link {link} points to no node")]
     Dangling {
         /// Cell.
         cell: usize,
@@ -119,7 +119,7 @@ impl Contents {
     /// The triangles of a cell's conservative list.
     ///
     /// # Errors
-    /// A link names no node, or the list is a ring.
+    /// A link points to no node, or the list is a cycle.
     pub fn conservative_list_of(&self, cell: usize) -> Result<Vec<u32>, Fault> {
         let stored = self.header.conservative_demand.min(self.header.conservative_capacity) as usize;
         let mut found = Vec::new();
@@ -151,7 +151,8 @@ impl Contents {
                 [_, _, low, high] => u64::from(high) << 32 | u64::from(low),
                 _ => u64::MAX,
             };
-            let slice = |z: f32| (z * self.header.slices_a_metre).clamp(0.0, (LDC_SLICES - 1) as f32) as u32;
+            let slice =
+                |z: f32| (z * self.header.slices_per_metre).clamp(0.0, (LDC_SLICES - 1) as f32) as u32;
             let marked = (slice(z - slack)..=slice(z + slack)).any(|slice| slices >> slice & 1 != 0);
             if !(z >= z_min - slack && z <= z_max + slack && marked) {
                 return false;
@@ -173,9 +174,9 @@ fn half(bits: u32) -> f32 {
     }
 }
 
-/// Checks that lists lie one behind the other and fill what was counted, that they are sorted where they
-/// should be, that depths lie within those of their blocks, that fragments which name triangles name some
-/// that exist, and that every node of the conservative lists is in exactly one list.
+/// Checks that lists are contiguous and hold what was counted, that they are sorted where they
+/// should be, that depths lie within those of their blocks, that triangle indices of fragments are
+/// valid, and that every node of the conservative lists is in exactly one list.
 ///
 /// # Errors
 /// The first fault found.
@@ -187,7 +188,7 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
         let list = contents.list(cell)?;
         let mut previous: Option<(u32, u32)> = None;
         for place in list.clone() {
-            // Without a name fragments of one depth may stand in any order.
+            // Fragments of one depth without a triangle index may be in any order.
             let primitive = if named { contents.payload[place as usize] } else { 0 };
             if named && primitive >= triangles {
                 return Err(Fault::Primitive { cell, primitive });

@@ -1,4 +1,4 @@
-//! Bricks: the structure that is no paper's, and the default.
+//! Bricks: the structure that is in no paper, and the default.
 
 use rasray_bricks::{Bricks, Builder, Config, Views};
 
@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "bricks",
-    doc: "Cells with lists of triangles, in bricks that say where nothing is: hits are those of the triangles",
+    doc: "Cells with lists of triangles, in bricks that skip empty space: hits are those of the triangles",
     structure: "bricks",
     records: Bricks::RECORDS,
     large_pools: &[("views", "cube"), ("grid", "512"), ("slices", "512")],

@@ -1,4 +1,4 @@
-//! Every triangle for every ray: what hits are checked against, always present.
+//! Every triangle for every ray: the reference for hits, always present.
 
 use rasray_ads::{BruteForce, StructureKind};
 use rasray_gpu::Requirements;
@@ -8,7 +8,7 @@ use crate::{Preset, System};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "brute-force",
-    doc: "Every triangle tested against every ray: what hits are checked against, slow on purpose",
+    doc: "Every triangle tested against every ray: the reference for hits, slow on purpose",
     structure: "brute-force",
     records: &[],
     large_pools: &[],

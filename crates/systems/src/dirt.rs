@@ -69,7 +69,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Pixels along a side of a face where nothing else is asked for.
+/// Default number of pixels along a side of a face.
 const RESOLUTION: u32 = 256;
 
 /// Those of the paper's second table.

@@ -9,7 +9,7 @@ pub enum SystemsError {
     /// No system of that name.
     #[error("there is no system `{name}`; the systems are {known}")]
     UnknownSystem {
-        /// What was asked for.
+        /// The requested name or value.
         name: String,
         /// Names of all systems.
         known: String,
@@ -19,7 +19,7 @@ pub enum SystemsError {
     UnknownPreset {
         /// The system.
         system: &'static str,
-        /// What was asked for.
+        /// The requested name or value.
         preset: String,
     },
     /// The system lacks that option.
@@ -27,7 +27,7 @@ pub enum SystemsError {
     UnknownOption {
         /// The system.
         system: &'static str,
-        /// What was asked for.
+        /// The requested name or value.
         option: String,
     },
     /// The option has no such value.
@@ -37,7 +37,7 @@ pub enum SystemsError {
         system: &'static str,
         /// The option.
         option: String,
-        /// What was asked for.
+        /// The requested name or value.
         value: String,
         /// What is possible.
         expected: String,

@@ -8,7 +8,7 @@ use crate::{Preset, Spec, System, SystemsError};
 /// The registry's row.
 pub(crate) const SYSTEM: System = System {
     name: "grid",
-    doc: "A plain uniform grid with a list of triangles per cell, the baseline of what is made of cells",
+    doc: "A plain uniform grid with a list of triangles per cell, the baseline of structures made of cells",
     structure: "grid",
     records: Grid::RECORDS,
     large_pools: &[("grid", "400")],

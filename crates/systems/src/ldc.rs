@@ -46,7 +46,7 @@ const OPTIONS: &[Setter<Config>] = &[
             .choice(&Builder::ALL.map(|builder| (builder.name(), builder)))
             .map(|value| config.builder = value)
     }),
-    // One word each so far: a value is checked, and nothing else is chosen.
+    // These take one word each so far, which is checked and selects nothing.
     ("storage", |_, given| given.choice(&[("sb", ())])),
     ("views", |_, given| given.choice(&[("axes", ())])),
     ("ids", |config, given| given.switch().map(|value| config.ids = value)),
@@ -75,7 +75,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Cells along a side of a view where nothing else is asked for.
+/// Default number of cells along a side of a view.
 const RESOLUTION: u32 = 512;
 
 /// The larger of the two sizes of the paper's table.

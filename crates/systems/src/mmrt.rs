@@ -85,7 +85,7 @@ const OPTIONS: &[Setter<Config>] = &[
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),
 ];
 
-/// Cells along a side where nothing else is asked for.
+/// Default number of cells along a side.
 const RESOLUTION: u32 = 512;
 
 /// The configuration that a spec stands for.

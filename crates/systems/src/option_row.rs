@@ -5,15 +5,15 @@ use rasray_ads::StructureKind;
 /// What an option is for, the order in which help shows them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
-    /// How finely a structure is cut.
+    /// The resolution of a structure.
     Size,
-    /// What is stored, and when it is a hit: mostly choices between a paper's way and another.
+    /// What is stored, and what counts as a hit: mostly choices between a paper's method and another.
     Method,
-    /// What changes time and memory alone.
+    /// What changes only time and memory.
     Speed,
-    /// Bounds of memory and work.
+    /// Limits of memory and work.
     Limit,
-    /// What helps to look into a structure.
+    /// Diagnostics.
     Diagnostic,
 }
 
@@ -60,7 +60,7 @@ pub enum Hits {
     SameWithoutLoss,
     /// Only there, and where fragments are stored.
     SameForTriangles,
-    /// Wherever it is: it decides whether something is a hit, or what it stands for.
+    /// Always: it decides whether something is a hit, or what it represents.
     MayChange,
 }
 

@@ -84,7 +84,7 @@ pub const OPTIONS: &[OptionRow] = &[
         SameForTriangles,
         Values::Whole(1, 1024),
         &["8", "64"],
-        "With --views cube of bricks: depth slices, the same for all columns, 1 to 1024",
+        "Bricks with --views cube: depth slices, the same for all columns, 1 to 1024",
     ),
     row(
         "block",
@@ -105,10 +105,10 @@ pub const OPTIONS: &[OptionRow] = &[
             &[
                 ("cube", "Six faces around the centre"),
                 ("cube+camera", "The same, and what the camera sees, with cells of its own"),
-                ("camera", "What the camera sees and nothing else"),
+                ("camera", "Only what the camera sees"),
                 (
                     "axes",
-                    "Three along the axes, which do not depend on the eye; of bricks one box of cells that serves all three",
+                    "Three along the axes, whatever the eye; for bricks one box of cells that serves all three",
                 ),
             ],
             "Which projections are drawn",
@@ -123,8 +123,8 @@ pub const OPTIONS: &[OptionRow] = &[
             ("dll", "One doubly linked list per cell"),
             ("llb", "Linked list per depth bucket"),
             ("dllb", "Doubly linked list per depth bucket"),
-            ("sb", "One behind the other, counted first"),
-            ("paged", "Linked pages of several"),
+            ("sb", "Contiguous, counted first"),
+            ("paged", "Linked pages of several entries"),
         ],
         "How a cell's fragments or triangles are kept",
     ),
@@ -134,7 +134,7 @@ pub const OPTIONS: &[OptionRow] = &[
             "inline",
             Method,
             Same,
-            "Keep what a fragment carries within its list [the other word: --decoupled]",
+            "Keep the payload of a fragment within its list [opposite: --decoupled]",
         )
     },
     row(
@@ -156,7 +156,7 @@ pub const OPTIONS: &[OptionRow] = &[
                 ("index", "The primitive's index"),
                 ("attributes", "Surface attributes, quantised as published"),
                 ("normal", "The shading normal alone, quantised as published for ambient occlusion"),
-                ("plane", "The plane of its triangle in full, and nothing to shade by"),
+                ("plane", "The plane of its triangle in full, without surface attributes"),
             ],
             "What a fragment carries",
         )
@@ -166,10 +166,10 @@ pub const OPTIONS: &[OptionRow] = &[
         Method,
         MayChange,
         &[
-            ("exact", "Centre of the cell inside, decided by the shared function"),
-            ("conservative", "Every cell it reaches into; of fragments, where nothing else stands for it"),
-            ("edge-on", "The same of triangles that no cell keeps or that are seen edge-on"),
-            ("hardware", "Whatever the rasterizer covers"),
+            ("exact", "Those whose centre is inside, decided by the shared function"),
+            ("conservative", "Every cell it reaches into; with fragments, where no fragment represents it"),
+            ("edge-on", "The same for triangles that no cell keeps or that are seen edge-on"),
+            ("hardware", "Those that the rasterizer covers"),
         ],
         "Which cells a triangle is kept in",
     ),
@@ -220,7 +220,7 @@ pub const OPTIONS: &[OptionRow] = &[
         MayChange,
         &[
             ("samples", "A fixed number of samples along the ray"),
-            ("dda", "A step for each cell of the longer axis"),
+            ("dda", "One step per cell of the longer axis"),
             ("exact", "Every cell that the ray crosses"),
             ("pyramid", "The same, skipping blocks of cells that hold nothing at the ray's depths"),
             ("jump", "To half a pixel beyond the point where the ray leaves a tile"),
@@ -253,10 +253,10 @@ pub const OPTIONS: &[OptionRow] = &[
         Method,
         MayChange,
         &[
-            ("clipped", "Those of all of it that lies in the tile"),
+            ("clipped", "Those of its part in the tile"),
             ("corners", "Those of its plane at the corners of the tile"),
         ],
-        "Lists of triangles: what the depths of a triangle in a tile are",
+        "Lists of triangles: which depths a triangle has in a tile",
     ),
     words(
         "depth",
@@ -281,7 +281,7 @@ pub const OPTIONS: &[OptionRow] = &[
         SameForTriangles,
         &[
             ("all", "In all; a voxel is searched along the axis of its averaged normal"),
-            ("voxel", "In that of its voxel's averaged normal"),
+            ("voxel", "In the one along the axis of its voxel's averaged normal"),
             (
                 "triangle",
                 "In the one that its triangle faces most; a voxel is searched along the axes of all its triangles",
@@ -303,7 +303,7 @@ pub const OPTIONS: &[OptionRow] = &[
         &[("single", "All in one pass, then sorted"), ("peel", "One after the other, by depth peeling")],
         "How the layers of a depth cube are made",
     ),
-    switch("single-layer", Method, MayChange, "Keep the nearest fragments of each cell alone"),
+    switch("single-layer", Method, MayChange, "Keep only the nearest fragments of each cell"),
     words(
         "builder",
         Speed,
@@ -314,7 +314,7 @@ pub const OPTIONS: &[OptionRow] = &[
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
         ],
-        "What builds the structure, and how",
+        "How the structure is built",
     ),
     row(
         "leaf",
@@ -322,7 +322,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(1, 16),
         &["1", "16"],
-        "With --builder sah: maximum triangles of a leaf, 1 to 16",
+        "With --builder sah: maximum triangles per leaf, 1 to 16",
     ),
     switch("sort", Speed, Same, "Sort the fragments of a cell by depth"),
     switch("skip", Speed, SameWithoutLoss, "Skip empty space"),
@@ -342,7 +342,7 @@ pub const OPTIONS: &[OptionRow] = &[
         ],
         "What a block of cells stores of the depths in it",
     ),
-    switch("corners", Speed, Same, "Keep triangles' corners once more, one behind the other"),
+    switch("corners", Speed, Same, "Keep a contiguous copy of triangles' corners"),
     words(
         "addressing",
         Speed,
@@ -356,7 +356,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(1, 1024),
         &["256", "1024"],
-        "With --build peel: maximum layers, a scene with more is refused, 1 to 1024",
+        "With --build peel: maximum layers, 1 to 1024; a scene with more is an error",
     ),
     row(
         "capacity",
@@ -365,7 +365,7 @@ pub const OPTIONS: &[OptionRow] = &[
         Same,
         Values::Whole(0, u32::MAX),
         &["0", "1", "1000"],
-        "Capacity at first, fragments or list entries; it grows when it is too small",
+        "Initial capacity, fragments or list entries; it grows when it is too small",
     ),
     switch(
         "ids",

@@ -56,8 +56,8 @@ pub struct System {
     /// The published preset's `payload` for renders that ask for occlusion alone; absent where the paper has
     /// none of its own for it.
     pub occlusion_payload: Option<&'static str>,
-    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has a cell a pixel
-    /// (`camera-resolution`); absent where the paper draws none.
+    /// The published preset's `views` where a perspective camera looks at the scene, whose view then has one cell per
+    /// pixel (`camera-resolution`); absent where the paper draws none.
     pub camera_views: Option<&'static str>,
     /// Options with which its published preset needs no scene: by default fragments carry what a scene's materials say.
     pub without_scene: &'static [(&'static str, &'static str)],
@@ -124,7 +124,7 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// Looks a system and preset up by name and checks options and their values.
+    /// Looks up a system and a preset by name and checks options and their values.
     ///
     /// # Errors
     /// Whatever the registry does not have, by name.
@@ -212,7 +212,7 @@ impl Spec {
         self.counters
     }
 
-    /// Units of work that a ray may spend in a dispatch; the shared default where absent.
+    /// Units of work that a ray may spend per dispatch; the shared default where absent.
     pub fn work_budget(&self) -> Option<u32> {
         self.work_budget
     }

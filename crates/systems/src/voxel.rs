@@ -67,7 +67,7 @@ pub(crate) fn names() -> Vec<&'static str> {
     crate::given::names(OPTIONS)
 }
 
-/// Cells along a side of a view of the repaired structure where nothing else is asked for.
+/// Default number of cells along a side of a view of the repaired structure.
 pub(crate) const RESOLUTION: u32 = 512;
 
 /// Voxels along a side of both papers. With another resolution than theirs the first one's rule follows it.

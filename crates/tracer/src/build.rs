@@ -19,7 +19,7 @@ pub struct BuildOutcome {
     pub passes: Vec<PassTiming>,
     /// Times the structure had to grow.
     pub regrows: u32,
-    /// Milliseconds of the last build as the host saw it, its own part, submission and wait included.
+    /// Milliseconds of the last build as measured on the host: its own part, submission and wait.
     pub host_milliseconds: f64,
     /// Milliseconds of [`Structure::prepare_build`] within that: what the host did before it recorded.
     pub prepare_milliseconds: f64,
@@ -55,7 +55,7 @@ pub fn build_until_complete(
                 tracing::debug!(
                     structure = structure.name(),
                     bytes = sizes.bytes(),
-                    "grows to what the build asked for"
+                    "grows to the demand of the build"
                 );
                 structure.resize(device, &sizes)?;
                 outcome.regrows += 1;

@@ -21,7 +21,7 @@ pub enum TracerError {
         /// Rebuilds made.
         rebuilds: u32,
     },
-    /// A structure was asked to replay a ray that does not log steps.
+    /// A replay was requested of a structure that does not log steps.
     #[error("{structure} does not log steps; create it with `Counters::Steps` to replay a ray")]
     NoSteps {
         /// Name of the structure.

@@ -8,13 +8,13 @@ use rasray_ads::Structure;
 /// Rays of the first submission to a structure that has not been timed yet.
 const FIRST: u32 = 1024;
 
-/// Fewer are never submitted at once.
+/// Minimum number of rays per submission, unless fewer are left.
 const LEAST: u32 = 64;
 
-/// Seconds that one submission should take at most: far below what any driver or timeout allows.
+/// Maximum duration of one submission in seconds: far below what any driver or timeout allows.
 const SECONDS: f64 = 1.0;
 
-/// By how much a submission may exceed the one before.
+/// Maximum ratio of a submission to the one before.
 const GROWTH: u32 = 8;
 
 /// Maximum number of rays of a submission per structure, adapted to the time of the last one: a million triangles
@@ -23,7 +23,7 @@ const GROWTH: u32 = 8;
 #[derive(Debug, Default)]
 pub(crate) struct Shares(Mutex<HashMap<Contestant, u32>>);
 
-/// One value of a structure, by its address: two of one kind may have different scenes and options. A later value at
+/// A structure, identified by its address: two of one kind may have different scenes and options. A later value at
 /// the same address starts from its predecessor's share and corrects it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Contestant(usize);

@@ -3,20 +3,14 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, BuildTarget, LargePass, ListSort, Scan, SceneBinding, ViewDraw, Visit, Visits,
+    AdsError, BuildPipelines, BuildTarget, LargePass, Lengths, ListSort, SceneBinding, ViewDraw, Visit,
+    Visits,
 };
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
 use crate::layout::{list_count, long_capacity};
 use crate::{Axes, Config, Header, Marking, Payload, Pool, Storage};
-
-/// What counts the lengths of contiguous lists and turns them into places.
-#[derive(Debug)]
-struct Lengths {
-    count: Visit,
-    scan: Scan,
-}
 
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
 #[derive(Debug)]
@@ -39,18 +33,17 @@ impl Build {
         config: &Config,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        let alpha = scene.is_some_and(|scene| scene.alpha_masked);
         let stored = config.payload != Payload::Index;
         if stored {
             SceneBinding::for_payload(scene, "attributes")?;
         }
-        let masked = if alpha { ".alpha" } else { "" };
+        let masked = SceneBinding::mask_suffix(scene);
         let variant = if stored { ".attributes" } else { masked };
         let visits = Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) };
         let voxels = || visits.visit("build_columns", "build_2_voxels", "");
-        let lengths = || -> Result<Lengths, AdsError> {
+        let lengths = || {
             let count = visits.visit("build_raster", "build_4_count", masked)?;
-            Ok(Lengths { count, scan: Scan::new(pipelines, "build_5_scan")? })
+            Lengths::new(pipelines, count, "build_5_scan")
         };
         let sort = || ListSort::new(pipelines, "build_7_sort", "", "build_8_sort_long");
         Ok(Self {
@@ -97,8 +90,7 @@ impl Build {
             axes(recorder);
         }
         if let Some(lengths) = &self.lengths {
-            lengths.count.record(recorder, target, &views);
-            lengths.scan.record(recorder, target, "voxel/build_5_scan", lists, 0, shaders);
+            lengths.record(recorder, target, &views, lists, shaders);
         }
         self.store.record(recorder, target, &views);
         if config.axes == Axes::All {

@@ -1,6 +1,6 @@
 //! Options of voxels with axis A-buffers, and the presets.
 
-use rasray_ads::{Addressing, AdsError, Builder, Counters};
+use rasray_ads::{Addressing, AdsError, Builder, Counters, check_range, check_work_budget};
 use rasray_shaders_glsl::constant_ids::voxel as ids;
 use rasray_shaders_glsl::constants::voxel as numbers;
 
@@ -15,13 +15,13 @@ pub enum Axes {
     Triangle,
 }
 
-/// What makes a voxel one in which something lies.
+/// What makes a voxel occupied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Marking {
-    /// The fragments in it alone, in the pass that counts or stores them. What a triangle reaches into
-    /// between the centres of cells is taken for empty. Needs [`Axes::All`].
+    /// Only the fragments in it, in the pass that counts or stores them. A voxel that a triangle reaches into
+    /// only between the centres of cells counts as empty. Needs [`Axes::All`].
     Fragments,
-    /// The triangles that reach into it, in a pass before: no voxel with a part of one is taken for empty.
+    /// The triangles that reach into it, in a pass before: no voxel with a part of one counts as empty.
     Triangles,
 }
 
@@ -58,7 +58,7 @@ pub enum Coverage {
 /// How the lists of cells are kept. Changes no hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
-    /// Fragments one behind the other: counted, then stored. Once sorted such lists can be bisected.
+    /// Contiguous fragments: counted, then stored. Once sorted, such lists can be bisected.
     Contiguous,
     /// Each fragment linked to the one before it in its list; stored at once.
     Linked,
@@ -100,7 +100,7 @@ pub enum Payload {
     Mirror,
 }
 
-/// Everything that may be chosen.
+/// All options.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Config {
     /// Cells along a side of each view, 1 to 8192.
@@ -113,13 +113,13 @@ pub struct Config {
     pub voxels: Option<Marking>,
     /// How rays step within a voxel.
     pub march: March,
-    /// Steps in a voxel, 1 to 64; only for [`March::Samples`].
+    /// Steps per voxel, 1 to 64; only for [`March::Samples`].
     pub samples: u32,
     /// When a fragment counts.
     pub accept: Accept,
     /// Which cells keep a triangle.
     pub coverage: Coverage,
-    /// Who puts triangles into cells. Changes no hit.
+    /// How triangles are binned into cells. Changes no hit.
     pub builder: Builder,
     /// What a fragment carries.
     pub payload: Payload,
@@ -169,8 +169,8 @@ impl Config {
         }
     }
 
-    /// Hu et al.: everything in all views, linked in one pass and sorted, what is shaded in each fragment, three steps
-    /// in a voxel, and parities.
+    /// Hu et al.: everything in all views, linked in one pass and sorted, surface attributes in each fragment, three
+    /// steps per voxel, and parities.
     pub fn published_hu(resolution: u32) -> Self {
         Self {
             axes: Axes::All,
@@ -210,7 +210,7 @@ impl Config {
         self.sort && self.storage != Storage::Paged
     }
 
-    /// Whether a search of a list is a few halvings, however long it is; else it may have to read all of it.
+    /// Whether a list is searched by bisection; else a search may have to read all of it.
     pub(crate) fn bisects(&self) -> bool {
         self.sort && self.storage == Storage::Contiguous
     }
@@ -220,19 +220,16 @@ impl Config {
     /// # Errors
     /// The first option out of range, or the combination that is not possible.
     pub fn validate(&self) -> Result<(), AdsError> {
-        let range = |option, value: u32, lowest, highest, expected| {
-            if (lowest..=highest).contains(&value) {
-                Ok(())
-            } else {
-                Err(AdsError::Option { option, value: value.to_string(), expected })
-            }
-        };
-        range("resolution", self.resolution, 1, 8192, "1 to 8192 cells along a side")?;
-        range("grid", self.grid.unwrap_or(1), 1, numbers::VOXEL_GRID_LIMIT, "1 to 1024 voxels along a side")?;
-        range("samples", self.samples, 1, 64, "1 to 64 steps per voxel")?;
-        range("page", self.page, 1, 8, "1 to 8 fragments per page")?;
-        let budget = self.work_budget.unwrap_or(u32::MAX);
-        range("work budget", budget, 1, u32::MAX, "1 unit or more a dispatch, or rays make no progress")?;
+        check_range("resolution", self.resolution, 1..=8192, "1 to 8192 cells along a side")?;
+        check_range(
+            "grid",
+            self.grid.unwrap_or(1),
+            1..=numbers::VOXEL_GRID_LIMIT,
+            "1 to 1024 voxels along a side",
+        )?;
+        check_range("samples", self.samples, 1..=64, "1 to 64 steps per voxel")?;
+        check_range("page", self.page, 1..=8, "1 to 8 fragments per page")?;
+        check_work_budget(self.work_budget, false)?;
         if self.accept == Accept::Plane && self.march == March::Samples {
             return Err(AdsError::Option {
                 option: "accept",
@@ -244,14 +241,14 @@ impl Config {
             return Err(AdsError::Option {
                 option: "builder",
                 value: self.builder.name().to_owned(),
-                expected: "the binning builder does not draw: with coverage `hardware` take builder raster",
+                expected: "the binning builder does not draw: use builder `raster` with coverage `hardware`",
             });
         }
         if self.marking() == Marking::Fragments && self.axes != Axes::All {
             return Err(AdsError::Option {
                 option: "voxels",
                 value: "fragments".to_owned(),
-                expected: "fragments mark voxels where all views keep all of them: take triangles, or the axes `all`",
+                expected: "fragments mark voxels only with the axes `all`; with others use `triangles`",
             });
         }
         let decided = self.axes == Axes::Triangle && self.accept == Accept::Plane;

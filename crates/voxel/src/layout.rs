@@ -10,7 +10,7 @@ pub fn list_count(resolution: u32) -> u64 {
     3 * u64::from(resolution) * u64::from(resolution)
 }
 
-/// What a build found: how much of each pool it asked for.
+/// The demand of a build: how much of each pool it needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Demand {
     /// Fragments, or pages of them.
@@ -21,10 +21,10 @@ pub struct Demand {
     pub large: u64,
 }
 
-/// What a configuration allocates to hold what a build may ask for.
+/// What a configuration allocates for a demand.
 ///
 /// # Errors
-/// An option is out of range, or a pool has more elements than 32-bit numbers can name.
+/// An option is out of range, or a pool has more elements than 32-bit indices can address.
 pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     let voxels = u64::from(config.grid()).pow(3);
@@ -88,7 +88,7 @@ pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
     }
 }
 
-/// Turns of the loops over the cells of a view, or over the columns of voxels and the few of each that a
+/// Iterations of the loops over the cells of a view, or over the columns of voxels and the few of each that a
 /// triangle reaches into in the view it faces most.
 pub(crate) fn widest_view(config: &Config) -> u64 {
     let cells = |side: u32| (u64::from(side) + 2).pow(2);
@@ -104,7 +104,7 @@ pub(crate) fn first_plan(config: &Config) -> Result<Sizes, AdsError> {
 /// Bytes for counted voxels, cells, entries and long lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// Per eight voxels a word of 4; and 12 a voxel where normals are averaged.
+    /// Per eight voxels a word of 4; and 12 per voxel where normals are averaged.
     pub voxels: u64,
     /// Per cell of three views: 4.
     pub lists: u64,
@@ -124,7 +124,7 @@ impl FormulaBytes {
     }
 }
 
-/// The page's formula. It does not look at [`plan`], so that the two check each other.
+/// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
     let grid = u64::from(config.grid());
     let cells = u64::from(config.resolution) * u64::from(config.resolution) * 3;
@@ -202,7 +202,7 @@ mod tests {
         assert!(nameless.contains("accept") && nameless.contains("payload"), "{nameless}");
         let many = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&Config::robust(64), many).unwrap_err().to_string().contains("fragments"));
-        // A word of a list names fewer pages than 32 bits could.
+        // A word of a list can address fewer pages than 32 bits could.
         let paged = Config { storage: Storage::Paged, page: 1, ..Config::robust(64) };
         let many = Demand { entries: u64::from(PAGE_LIMIT) + 1, ..Demand::default() };
         assert!(plan(&paged, many).unwrap_err().to_string().contains("fragments"));

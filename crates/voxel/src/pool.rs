@@ -13,7 +13,7 @@ rasray_ads::pool_names! {
         Lists = "lists",
         /// Fragments, or pages of them.
         Fragments = "fragments",
-        /// Sums of the scan, and what a build remembers.
+        /// Sums of the scan, long lists, and the large-triangle queue.
         Scratch = "scratch",
     }
 }

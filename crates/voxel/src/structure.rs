@@ -15,8 +15,8 @@ use crate::layout::{
 };
 use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
 
-/// Lists as long as the longest that a ray is given the rounds to read.
-const LONG_LISTS_A_RAY: u32 = 64;
+/// Lists of maximum length that a ray gets rounds for.
+const LONG_LISTS_PER_RAY: u32 = 64;
 
 /// A voxel grid over three axis A-buffers, made from a [`Config`].
 pub type Voxels = Pooled<Build>;
@@ -130,15 +130,15 @@ impl Design for Build {
     }
 
     fn varies(config: &Config, name: &str) -> bool {
-        // Pages that are begun.
+        // The number of pages varies with the order of threads.
         name == "fragments" && config.storage == Storage::Paged
     }
 
     fn first_rounds(parts: &Parts<Config>, header: &Header) -> u32 {
         let config = &parts.config;
-        // Three views' cells and the voxels along a ray, and lists that hold every triangle, where they are
-        // not bisected at most so many as are as long as the longest: there each point of a parity reads one,
-        // where a voxel is entered, the steps in it, halvings, and for the nearest.
+        // The cells of three views and the voxels along a ray, and lists: with bisection one that holds every
+        // triangle, else LONG_LISTS_PER_RAY of maximum length. A parity without bisection reads a list at each of its
+        // points: the entry of the voxel, its steps, the halvings, and the nearest fragment.
         let budget = u64::from(parts.work_budget);
         let steps = 12 * u64::from(config.resolution) + 6 * u64::from(config.grid());
         let points = match (config.accept, config.march) {
@@ -151,7 +151,7 @@ impl Design for Build {
         let triangles = parts.geometry.triangle_count();
         let longest = match config.bisects() {
             true => triangles,
-            false => header.longest.saturating_mul(LONG_LISTS_A_RAY).min(triangles),
+            false => header.longest.saturating_mul(LONG_LISTS_PER_RAY).min(triangles),
         };
         let entries = reads * u64::from(longest);
         16 + (steps + entries).div_ceil(budget).min(u64::from(u32::MAX) - 16) as u32

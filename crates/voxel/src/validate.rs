@@ -34,24 +34,24 @@ pub struct Fragment {
 #[non_exhaustive]
 pub enum Fault {
     /// A list reaches beyond the pool, or ends before it begins.
-    #[error("list {list} leads to {place}, which is not in the pool, or not behind its beginning")]
+    #[error("list {list} leads to {place}, which is outside of the pool or before its beginning")]
     Dangling {
         /// The list: view, row and column as one number.
         list: usize,
         /// Where it ends, or what it leads to: a fragment or a page.
         place: u32,
     },
-    /// A word that leads to a page says that none of its slots is used, or more than there are.
-    #[error("list {list}: of page {page} {used} slots are used")]
+    /// A word that leads to a page has no used slot, or more than a page has.
+    #[error("list {list}: the word of page {page} has {used} used slots")]
     Page {
         /// The list.
         list: usize,
         /// Number of the page.
         page: u32,
-        /// Slots in use, as it is said.
+        /// Used slots according to the word.
         used: u32,
     },
-    /// A list comes back to itself.
+    /// A list is a cycle.
     #[error("list {list} is longer than all that is stored")]
     Circle {
         /// The list.
@@ -73,7 +73,7 @@ pub enum Fault {
         /// Fragments found in lists.
         listed: usize,
     },
-    /// A fragment names no triangle.
+    /// A fragment has an invalid triangle index.
     #[error("list {list}: there is no triangle {primitive}")]
     Primitive {
         /// The list.
@@ -81,7 +81,7 @@ pub enum Fault {
         /// What is stored.
         primitive: u32,
     },
-    /// A sorted list is not in order, or names a triangle twice.
+    /// A sorted list is not in order, or contains a triangle twice.
     #[error("list {list}: fragment {fragment:?} is out of order")]
     Order {
         /// The list.
@@ -89,15 +89,15 @@ pub enum Fault {
         /// The fragment.
         fragment: Fragment,
     },
-    /// A depth lies outside of the cube or is no number.
-    #[error("list {list}: {z} is no depth of the cube")]
+    /// A depth lies outside of the cube or is NaN.
+    #[error("list {list}: the depth {z} is outside of the cube")]
     Depth {
         /// The list.
         list: usize,
-        /// The depth, as text: it may be no number.
+        /// The depth, as text: it may be NaN.
         z: String,
     },
-    /// A voxel that is searched holds nothing, or one that holds something is not searched.
+    /// An empty voxel is searched, or an occupied one is not.
     #[error("voxel {voxel} has the bits {bits:04b}")]
     Voxel {
         /// The voxel.
@@ -127,7 +127,7 @@ impl Contents {
     /// Where the fragments of a list are, in the order in which they are read.
     ///
     /// # Errors
-    /// The list leaves the pool or comes back to itself.
+    /// The list leaves the pool or is a cycle.
     pub fn places(&self, list: usize) -> Result<Vec<u32>, Fault> {
         match self.config.storage {
             Storage::Contiguous => {
@@ -192,15 +192,15 @@ impl Contents {
     /// The fragments of a list, in the order in which they are read.
     ///
     /// # Errors
-    /// The list leaves the pool or comes back to itself.
+    /// The list leaves the pool or is a cycle.
     pub fn list(&self, list: usize) -> Result<Vec<Fragment>, Fault> {
         Ok(self.places(list)?.into_iter().map(|place| self.fragment(place)).collect())
     }
 }
 
 /// Checks of a complete build that every counted fragment is in one list, has a depth within the cube and,
-/// where it names a triangle, names one of `triangles`, that lists are sorted where they should be, and that
-/// voxels are searched iff something lies in them.
+/// where it has a triangle index, that of one of `triangles`, that lists are sorted where they should be, and that
+/// voxels are searched if and only if they hold something.
 ///
 /// # Errors
 /// The first fault found.
@@ -208,7 +208,7 @@ pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     let stored = contents.header.fragments as usize;
     let sorted = contents.config.sorts() && contents.header.unsorted == 0;
     let side = contents.header.cell * contents.header.resolution as f32 * 1.0001;
-    // Without a name fragments of one depth may stand in any order.
+    // Fragments of one depth without a triangle index may be in any order.
     let named = contents.config.payload != Payload::Material;
     let mut listed = 0;
     let mut seen = vec![false; contents.stored() as usize];

@@ -3,8 +3,8 @@
 //! This crate exists to hold the link line that Debian 12's libshaderc needs (see its build script)
 //! and the options that every module of rasray is compiled with: Vulkan 1.2, no optimisation, debug names kept,
 //! `#include` resolved from root folders, by way of folders that macros name. Drivers optimise a module once more
-//! whatever it comes as: optimised here it takes seven times as long to compile, and drivers as long to make a pipeline
-//! of it.
+//! whatever it comes as: optimised here, a module takes seven times as long to compile, and drivers need as long as
+//! before to make a pipeline of it.
 //!
 //! # A shader of one's own
 //!
@@ -158,7 +158,7 @@ fn options(roots: Vec<PathBuf>, module: &Module<'_>) -> Result<CompileOptions<'s
     let defines = module.defines.to_owned();
     options.set_include_callback(move |requested, kind, from, _depth| {
         let resolved_name = resolved(requested, &defines);
-        // Asked for with quotes and not found, a file is asked for once more as if it stood in angle brackets.
+        // A file that is requested with quotes and not found is requested again as if it were in angle brackets.
         if kind == IncludeType::Standard {
             return Err(format!(
                 "{from}: cannot include {resolved_name}: no root folder has it, or it is not in quotes"

@@ -1,4 +1,4 @@
-//! What a module can do without: functions that nothing calls, variables that nothing names, text for people.
+//! What a module can do without: functions that nothing calls, variables that nothing uses, debug text.
 //!
 //! GLSL that is included whole leaves most of itself unused, and a compiler that does not optimise hands all of it on.
 //! Drivers would drop it again, but a variable that is there counts as used where a device limits the buffers of a
@@ -57,7 +57,7 @@ pub fn without_debug_text(words: &[u32]) -> Vec<u32> {
     filtered(words, |instruction| (!DEBUG.contains(&operation(instruction))).then(|| instruction.into()))
 }
 
-/// A module without the functions that its entry points do not reach, and without the variables that only those name.
+/// A module without the functions that its entry points do not reach, and without the variables that only those use.
 pub(crate) fn only_reached(words: &[u32]) -> Vec<u32> {
     let functions = Functions::of(words);
     let reached = functions.reached();
@@ -157,7 +157,7 @@ fn result(instruction: &[u32]) -> Option<u32> {
     }
 }
 
-/// Ids in an instruction of a function among which are all variables that it names.
+/// Ids in an instruction of a function, all variables that it uses among them.
 fn variables_named(instruction: &[u32]) -> impl Iterator<Item = u32> {
     let operation = operation(instruction);
     let operands = if NAMES_NO_VARIABLE.contains(&operation) { &[] } else { &instruction[1..] };
@@ -204,7 +204,7 @@ mod tests {
         for (function, calls) in [(1, Some(2)), (2, None), (3, Some(2))] {
             words.extend(op(OP_FUNCTION, &[20, function, 0, 21]));
             words.extend(op(OP_LABEL, &[function + 40]));
-            // The result of 3 is 33; a number that equals a variable's id names none.
+            // The result of 3 is 33; a number that equals a variable's id is none.
             words.extend(op(81, &[20, function + 30, 22, 14]));
             words.extend(op(62, &[function + 10, function + 30]));
             if let Some(called) = calls {

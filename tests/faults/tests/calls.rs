@@ -36,12 +36,12 @@ fn inventory(device: &Device) -> Inventory {
     Inventory { objects, bytes: device.allocated_bytes(), bytes_given_out: device.bytes_given_out() }
 }
 
-/// Names for debuggers are a courtesy: nothing depends on whether they could be stored.
+/// Names for debuggers are optional: nothing depends on whether they could be stored.
 fn is_courtesy(call: &str) -> bool {
     call == "vkSetDebugUtilsObjectNameEXT"
 }
 
-/// What an error must say: the call, and something beside it that it was for.
+/// What an error must say: the call, and what it was for.
 fn check_message(injected: Injected, error: &GpuError) {
     let text = error.to_string();
     assert!(text.contains(injected.call), "{injected:?}: `{text}` does not name the call");
@@ -59,7 +59,7 @@ fn check_message(injected: Injected, error: &GpuError) {
 }
 
 /// Indices of the calls to fail: `count` spread over the run, or all of them. The functions differ as much as they
-/// can: of each stretch of the run, the first call of the function that was chosen least so far.
+/// can: of each section of the run, the first call of the function that was chosen least so far.
 fn chosen(calls: &[&'static str], count: usize) -> Vec<usize> {
     let mut times: BTreeMap<&str, usize> = BTreeMap::new();
     let length = calls.len().div_ceil(count);

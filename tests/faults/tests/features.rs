@@ -202,7 +202,7 @@ fn texels_beyond_one_binding_lie_in_several_or_are_fewer() {
 /// A limit that is too small, and what the error then says.
 type Small = (fn(&mut Limits), &'static str);
 
-/// Each limit that a pass meets, too small for it: an error that names what was asked for, and no message of the layer.
+/// Each limit that a pass needs, made too small: an error that states what was requested, and no message of the layer.
 #[test]
 fn small_limits_are_errors_with_a_name() {
     let small: [Small; 8] = [

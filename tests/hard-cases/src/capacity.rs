@@ -102,7 +102,7 @@ fn long_lists(context: &Context) -> Content {
     let layers = context.parameter as usize;
     let triangles = (0..layers).flat_map(|layer| plate(z(layer), z(layer))).collect();
     let (rays, expect) = context.answered(|random, index| {
-        // From before each layer, so that lists are walked to every depth.
+        // From before each layer, so that lists are read to every depth.
         let layer = index % layers;
         let (x, y) = (random.between(-1.5, 1.5), random.between(-1.5, 1.5));
         let answer = if (x - y).abs() < 1e-3 {

@@ -215,7 +215,7 @@ impl Entry {
 }
 
 impl Context {
-    /// As many rays as asked for; each from its own stream of random numbers and its index.
+    /// The requested number of rays; each from its own stream of random numbers and its index.
     pub fn rays(&self, ray: impl Fn(&mut Stream, usize) -> Ray) -> Vec<Ray> {
         (0..self.scale.rays).map(|index| ray(&mut self.stream(index), index)).collect()
     }

@@ -53,7 +53,7 @@ fn coincident(context: &Context) -> Content {
     let copies = context.parameter as usize;
     let triangles = (0..copies).flat_map(|_| plate(5.0, 5.0)).collect();
     let (rays, expect) = context.answered(|random, _| {
-        // Off the diagonal, where two ids of one copy meet.
+        // Off the diagonal, where two ids of one copy touch.
         let (x, y) = (random.between(-4.9, 4.9), random.between(-4.9, 4.9));
         let answer = if (x - y).abs() < 1e-3 {
             AIMED

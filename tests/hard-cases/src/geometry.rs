@@ -82,7 +82,7 @@ pub(super) fn along(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
     std::array::from_fn(|axis| a[axis] + b[axis] * s)
 }
 
-/// A ray from one point to another, which it meets at t = 1.
+/// A ray from one point to another, which it reaches at t = 1.
 pub(super) fn aim(origin: [f32; 3], target: [f32; 3]) -> Ray {
     Ray::towards(origin, target)
 }

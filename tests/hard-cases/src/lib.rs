@@ -7,7 +7,7 @@
 //! The truth comes from the oracle at run time; where a case's answer is known by
 //! construction it is stated as well, and a test holds the oracle against it.
 //!
-//! A ray depends on (case, seed, index) alone, never on how many rays are asked for, so that a failure
+//! A ray depends on (case, seed, index) alone, never on the number of rays, so that a failure
 //! is replayed with [`replay`].
 
 mod capacity;

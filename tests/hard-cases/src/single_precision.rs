@@ -1,11 +1,11 @@
-//! A careful single-precision tracer, one triangle after the other: what a device can be asked to do.
-//! If the oracle does not admit its answers, the oracle asks for more than single precision holds.
+//! A careful single-precision tracer, one triangle after the other: what a device can be required to do.
+//! If the oracle does not admit its answers, the oracle requires more than single precision holds.
 
 use super::*;
 use rasray_metrics::DeviceHit;
 use rasray_reference::oracle::Oracle;
 
-/// Most products of rays and triangles that a case is tested with.
+/// Maximum product of rays and triangles that a case is tested with.
 const TESTS: usize = 500_000;
 
 /// Watertight test by shearing (Woop, Benthin, Wald 2013) that decides edges by comparing products.

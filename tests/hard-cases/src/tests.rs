@@ -117,7 +117,7 @@ fn most_rays_of_most_cases_are_unambiguous() {
         let oracle = Oracle::new(&positions, &indices, None).expect("buffers are well formed");
         let verdicts = oracle.closest_batch(&case.rays);
         let hits: Vec<_> = verdicts.iter().map(device_hit).collect();
-        let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit a verdict");
+        let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit per verdict");
         assert!(confusion.is_clean(), "{id}: {confusion:?}");
         let share = confusion.ambiguous as f64 / confusion.rays as f64;
         let limit = if id == "Z2-6" { 0.8 } else { 0.05 };

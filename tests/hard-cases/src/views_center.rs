@@ -52,7 +52,7 @@ fn seams(context: &Context) -> Content {
         };
         if index / 12 % 2 == 0 {
             let size = 1.0 + (index / 24 % 64) as f32 / 64.0;
-            // Every fourth runs along the line where three faces meet.
+            // Every fourth runs along the line where three faces touch.
             let rest = [0.0, size, random.between(-1.0, 1.0), random.between(-0.1, 0.1)][index / 24 % 4];
             return Ray::new([0.0; 3], on_seam(size, rest));
         }

@@ -36,7 +36,7 @@ fn square(low: f32, high: f32, z: f32, turned: bool) -> [Triangle; 2] {
     if turned { quad(a, d, c, b) } else { quad(a, b, c, d) }
 }
 
-/// A ray at a point inside a triangle of a plate across z, from this far beside it along z.
+/// A ray at a point inside a triangle of a plate across z, from this far next to it along z.
 fn at_plate(
     random: &mut super::Stream,
     triangles: &[Triangle],

@@ -2,21 +2,21 @@ use super::{Curve, Deviation, Law};
 
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const EDGE_ON: &str = "its plane holds the eye or nearly so, so that few cells' centres are covered or none";
-const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of what falls towards them";
-const THICK: &str = "fragments are voxels of one thickness: rays meet the one in front before what lies closely behind it, or where they pass behind it";
+const HALF_OPEN: &str = "a sample counts only if its depth lies in the half-open interval of a step, so that rays pass between the samples of surfaces that face them obliquely";
+const THICK: &str = "fragments are voxels of one thickness: rays hit the one in front before what lies closely behind it, or where they pass behind it";
 const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
 const SHELL: &str = "both sides of the shell lie within one step";
-const LEAVING: &str = "a ray that leaves a surface meets the samples beside its own";
+const LEAVING: &str = "a ray that leaves a surface hits the samples next to its own";
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
 
 const FEW_CELLS: &str = "triangles of two or three cells, of which the turned view covers other centres";
 
 const FAR_PLATES: &str =
     "plates so far off that they fill a few cells only, all of whose centres are near an edge";
-const CORNER: &str = "rays at the ends of the diagonal, where centres of cells lie beside the quad";
-const LEFT_PLATES: &str = "plates so near to where rays begin that these count as leaving them";
+const CORNER: &str = "rays at the ends of the diagonal, where centres of cells lie outside of the quad";
+const LEFT_PLATES: &str = "plates so near to where rays begin that they count as their origin";
 const NEIGHBOURS: &str =
-    "rays that begin on a surface, not a cell off it, meet the planes of the triangles beside theirs";
+    "rays that begin on a surface, not a cell off it, hit the planes of the neighbouring triangles";
 const NEEDLE: &str = "inside of a needle a thousandth thick, nearly all of which is seen edge-on";
 const DUST: &str = "triangles far smaller than cells: those without a cell's centre are lost";
 
@@ -35,25 +35,25 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
     chances("C5", BORDER, 85.0),
     line("P5", "a neighbour's plane may stand before the point that a ray leaves from", 2.5),
     line("E2-400", "poles, whose triangles are far narrower than cells", 1.5),
-    line("E8", "both triangles are open but for the edge that rays meet", 2.6),
+    line("E8", "both triangles are open except at the edge that rays hit", 2.6),
     line("X2", FAR_PLATES, 19.0),
     line("X3", FAR_PLATES, 28.0),
-    line("X6", "a cube of a few cells, met at its silhouette as well", 2.8),
+    line("X6", "a cube of a few cells, hit at its silhouette as well", 2.8),
     line("X7", FAR_PLATES, 33.0),
     line("X9", FAR_PLATES, 2.1),
     line("X10", FAR_PLATES, 3.9),
-    line("X12", "half of the rays meet a corner, a fiftieth of the triangle in size", 38.0),
+    line("X12", "half of the rays hit a corner, a fiftieth of the triangle in size", 38.0),
     line("T1", BORDER, 11.0),
     line("T3", BORDER, 2.9),
     line("T4", BORDER, 5.0),
     chances("P1", "spheres inside spheres, seen from outside, half of each at grazing angles", 70.0),
-    line("P7", "rays that leave a surface at grazing angles meet the cells beside their own", 16.0),
+    line("P7", "rays that leave a surface at grazing angles hit the cells next to their own", 16.0),
 ];
 
-/// Planes in 16 x 16 cells a face.
+/// Planes in 16 x 16 cells per face.
 pub(super) const ROBUST_16: &[Deviation] = &[deviation("Z6-pixel", THIN, 0.99, 1.0)];
 
-/// Planes in 64 x 64 cells a face.
+/// Planes in 64 x 64 cells per face.
 pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -70,7 +70,7 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.524, 0.826),
 ];
 
-/// The same with what is lost and what is seen edge-on kept beside centres.
+/// The same with lost triangles and those seen edge-on in conservative lists.
 pub(super) const EDGE_ON_64: &[Deviation] = &[deviation("V16", THIN, 0.39, 0.63)];
 
 /// The same where fragments carry the planes themselves.
@@ -93,7 +93,7 @@ pub(super) const PLANES_64: &[Deviation] = &[
     deviation("P7", NEIGHBOURS, 0.55, 0.9),
 ];
 
-/// Planes in 64 x 64 cells of what a camera sees that looks away from the axes.
+/// Planes in 64 x 64 cells of the view of a camera that looks away from the axes.
 pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -115,7 +115,7 @@ pub(super) const CAMERA_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.69, 1.0),
 ];
 
-/// The same cells of a cube's faces, and twice as many a side of what that camera sees.
+/// The same cells of a cube's faces, and twice as many along a side of that camera's view.
 pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
     deviation("G1", THIN, 0.69, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -132,7 +132,7 @@ pub(super) const CUBE_CAMERA_64: &[Deviation] = &[
     deviation("T2", NEEDLE, 0.5, 0.85),
 ];
 
-/// Planes in 128 x 128 cells a face.
+/// Planes in 128 x 128 cells per face.
 pub(super) const ROBUST_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -150,7 +150,7 @@ pub(super) const ROBUST_128: &[Deviation] = &[
     deviation("C3-random", DUST, 0.007, 0.011),
 ];
 
-/// Planes in 256 x 256 cells a face.
+/// Planes in 256 x 256 cells per face.
 pub(super) const ROBUST_256: &[Deviation] = &[
     deviation("G1", THIN, 0.695, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -166,11 +166,11 @@ pub(super) const ROBUST_256: &[Deviation] = &[
     deviation("C3-random", DUST, 0.008, 0.012),
 ];
 
-/// Samples in 16 x 16 cells a face.
+/// Samples in 16 x 16 cells per face.
 pub(super) const PUBLISHED_16: &[Deviation] =
     &[deviation("Z6-pixel", THIN, 0.99, 1.0), deviation("Z7", THICK, 0.286, 0.446)];
 
-/// Samples in 128 x 128 cells a face.
+/// Samples in 128 x 128 cells per face.
 pub(super) const PUBLISHED_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

@@ -5,11 +5,10 @@ use super::Deviation;
 use super::deviations::deviation;
 
 const AXES: &str = "normals that face all axes alike: the axis that a voxel is searched along is not the one that its triangles are kept in";
-const LEANING: &str =
-    "surfaces that lean by more than the tolerance over a cell leave gaps about their corners";
+const LEANING: &str = "surfaces with a slope above the tolerance per cell have gaps around their corners";
 const CENTRE: &str = "t is that of a fragment at its cell's centre, in a triangle that holds the eye";
 const SEAM: &str = "rays along the seams of three views, where neither may cover a cell's centre";
-const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is passed by";
+const PASSED: &str = "a hit on the edge between two tiles counts in neither where one is skipped";
 
 /// Of ambiguous rays the share of inadmissible answers may be this many times what bounds wrong answers to
 /// others. Where that allows half of them or more, nothing is demanded of ambiguous ones.

@@ -3,12 +3,12 @@
 use super::Deviation;
 use super::deviations::deviation;
 
-const EDGE_ON: &str = "a plane seen nearly edge-on is met by few of a tile's corners, so that depths and buckets leave part of it out";
-const PASSED: &str = "tiles crossed in less than half a pixel are passed by, and a hit that lies in one does not count elsewhere";
+const EDGE_ON: &str = "a plane seen nearly edge-on is hit by the rays of few of a tile's corners, so that depths and buckets miss part of it";
+const PASSED: &str = "tiles crossed in less than half a pixel are skipped, and a hit that lies in one does not count elsewhere";
 const GAPS: &str = "tiles whose centre a triangle does not cover do not list it";
 const THIN: &str = "thinner than a tile, so that no tile's centre is covered";
 
-/// Of the rays of a case, where nothing else is said.
+/// Shares of the rays of a case, unless stated otherwise.
 pub(super) const SHARE: f64 = 0.05;
 
 /// All rules, with every tile listing what reaches into it.
@@ -28,7 +28,7 @@ pub(super) const PUBLISHED: &[Deviation] = &[
     deviation("X9", PASSED, 0.051, 0.079),
 ];
 
-/// The same in 16 x 16 tiles a face.
+/// The same in 16 x 16 tiles per face.
 pub(super) const PUBLISHED_16: &[Deviation] = &[];
 
 /// The same with the tiles whose centres the rasterizer covers, of a pixel each.

@@ -4,19 +4,19 @@ use super::deviations::{deviation, line};
 use super::{Deviation, Law};
 
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
-const SILHOUETTE: &str = "silhouettes: a plane stands for what is beside it in its cell";
-const BORDER: &str = "triangles of few cells, whose planes stand out beside them by up to a cell";
+const SILHOUETTE: &str = "silhouettes: a plane represents what is next to it in its cell";
+const BORDER: &str = "triangles of few cells, whose planes protrude by up to a cell";
 const AT_SURFACE: &str =
-    "rays start at the surface, where a neighbour's plane may stand before what they meet";
+    "rays start at the surface, where a neighbour's plane may lie in front of what they hit";
 
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
-const LEANING: &str = "fragments of what leans by more than the tolerance over a cell have gaps, others are met up to the tolerance early";
+const LEANING: &str = "fragments of surfaces with a slope above the tolerance per cell have gaps, others are hit up to the tolerance early";
 const CENTRE: &str =
-    "t is that of a fragment at its cell's centre: off by up to half a cell's rise of what leans";
+    "t is that of a fragment at its cell's centre: off by up to the rise of the surface over half a cell";
 const BESIDE: &str =
-    "triangles of few cells, whose fragments are met where their cells end, not where they do";
-const SHELL: &str = "what lies closer together than the tolerance or the spacing of 16-bit depths is one";
-const LEAVING: &str = "a ray that leaves a surface meets the fragments beside its own";
+    "triangles of few cells, whose fragments are hit up to the end of their cells, not of the triangles";
+const SHELL: &str = "surfaces closer together than the tolerance or the spacing of 16-bit depths are one";
+const LEAVING: &str = "a ray that leaves a surface hits the fragments next to its own";
 const DETAIL: &str = "detail smaller than a cell, most of which covers no cell's centre";
 
 /// Cases whose errors fall with the size of a cell as others do, from a higher start.
@@ -41,7 +41,7 @@ pub(super) const ROBUST_LAWS: &[Law] = &[
     line("P7", AT_SURFACE, 1.8),
 ];
 
-/// Fragments' own depths in 64 x 64 cells a view.
+/// Fragments' own depths in 64 x 64 cells per view.
 pub(super) const SLOPE_64: &[Deviation] = &[
     deviation("G11", CENTRE, 0.342, 0.534),
     deviation("G12", CENTRE, 0.069, 0.108),
@@ -64,14 +64,14 @@ pub(super) const SLOPE_64: &[Deviation] = &[
     deviation("T4", CENTRE, 0.047, 0.074),
 ];
 
-/// Tolerance, 16-bit depths and the rasterizer's coverage in 16 x 16 cells a view.
+/// Tolerance, 16-bit depths and the rasterizer's coverage in 16 x 16 cells per view.
 pub(super) const PUBLISHED_16: &[Deviation] = &[
     deviation("Z6", SHELL, 0.704, 1.0),
     deviation("Z6-pixel", THIN, 0.99, 1.0),
     deviation("Z7", DETAIL, 0.4, 0.626),
 ];
 
-/// The same in 64 x 64 cells a view.
+/// The same in 64 x 64 cells per view.
 pub(super) const PUBLISHED_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

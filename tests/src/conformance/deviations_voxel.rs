@@ -6,18 +6,18 @@ use super::{Deviation, Law};
 const THIN: &str = "thinner than a cell, so that no cell's centre is covered";
 const SMALL: &str = "parts smaller than a cell of the cube that holds the whole scene";
 const CELL: &str = "triangles as large as a cell: whether they cover a centre depends on where they lie";
-const SIDE: &str = "flat scenes lie in the cube's middle, where voxels meet: a stretch that begins on the surface begins on either side of it";
-const EVEN: &str = "surfaces that coincide in even numbers turn no parity, and opposite normals no axis";
-const STEPS: &str = "t is where a parity turns, at a fragment's depth or a cell's side: up to a cell from a surface that leans";
+const SIDE: &str = "flat scenes lie in the cube's middle, where voxels touch: a segment that begins on the surface begins on either side of it";
+const EVEN: &str = "an even number of coincident surfaces changes no parity, and opposite normals no axis";
+const STEPS: &str = "t is where a parity changes, at a fragment's depth or a cell's side: up to a cell from an oblique surface";
 const LEAVING: &str = "a ray that leaves a surface begins on either side of its samples";
-const SEVERAL: &str = "several surfaces within one step: an even number turns no parity, and the votes of one take the other's axis";
-const EDGE: &str = "at edges a voxel is searched along the axis of one of the surfaces that meet there";
+const SEVERAL: &str = "several surfaces within one step: an even number changes no parity, and the votes of one surface decide the axis of the other";
+const EDGE: &str = "at edges a voxel is searched along the axis of one of the surfaces that touch there";
 
 const BORDER: &str = "triangles of few cells, whose borders are a cell wide";
 const COARSE: &str = "coordinates are so coarse that neighbouring triangles lean against each other far more than the surface bends";
 const SEAM: &str =
-    "triangles that meet are kept in different views: at their edge neither may cover a cell's centre";
-const GRAZING: &str = "met at grazing angles, where borders are wide";
+    "adjacent triangles are kept in different views: at their edge neither may cover a cell's centre";
+const GRAZING: &str = "hit at grazing angles, where borders are wide";
 
 /// Cases whose errors fall with the size of a cell as others do, from a higher start.
 pub(super) const LAWS: &[Law] = &[
@@ -47,11 +47,11 @@ pub(super) const LAWS: &[Law] = &[
     line("P1", BORDER, 6.5),
 ];
 
-/// Planes in 16 x 16 cells a view.
+/// Planes in 16 x 16 cells per view.
 pub(super) const ROBUST_16: &[Deviation] =
     &[deviation("Z6-pixel", SMALL, 0.99, 1.0), deviation("Z7", SMALL, 0.4, 0.626)];
 
-/// Planes in 64 x 64 cells a view.
+/// Planes in 64 x 64 cells per view.
 pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -70,7 +70,7 @@ pub(super) const ROBUST_64: &[Deviation] = &[
     deviation("T2", SMALL, 0.99, 1.0),
 ];
 
-/// Planes in 128 x 128 cells a view.
+/// Planes in 128 x 128 cells per view.
 pub(super) const ROBUST_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -161,7 +161,7 @@ pub(super) const HU_128: &[Deviation] = &[
     deviation("P7", LEAVING, 0.286, 0.448),
 ];
 
-/// Parities in 16 x 16 cells, one view a voxel.
+/// Parities in 16 x 16 cells, one view per voxel.
 pub(super) const SELECTIVE_16: &[Deviation] = &[
     deviation("C10", EVEN, 0.99, 1.0),
     deviation("Z6", SEVERAL, 0.787, 1.0),
@@ -169,7 +169,7 @@ pub(super) const SELECTIVE_16: &[Deviation] = &[
     deviation("Z7", SMALL, 0.4, 0.626),
 ];
 
-/// Parities in 128 x 128 cells, one view a voxel.
+/// Parities in 128 x 128 cells, one view per voxel.
 pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("G1", THIN, 0.699, 1.0),
     deviation("G2", THIN, 0.99, 1.0),
@@ -238,7 +238,7 @@ pub(super) const SELECTIVE_128: &[Deviation] = &[
     deviation("P7", LEAVING, 0.296, 0.464),
 ];
 
-/// The published rules in 128 x 128 cells a view, traversed exactly.
+/// The published rules in 128 x 128 cells per view, traversed exactly.
 pub(super) const PARITY_128: &[Deviation] = &[
     deviation("G1", THIN, 0.7, 1.0),
     deviation("G2", THIN, 0.99, 1.0),

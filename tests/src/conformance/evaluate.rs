@@ -16,7 +16,7 @@ pub fn confidence() -> f64 {
 /// What of a measurement breaks the row's demand on this case; empty if nothing does.
 ///
 /// Rates are known up to their interval at [`confidence`]: a limit is broken where all of the interval lies beyond.
-/// Exact rows have no such room: one wrong answer is a fault.
+/// Exact rows have no such tolerance: one wrong answer is a fault.
 pub fn evaluate(row: &Row, prepared: &Prepared, measured: &Measured) -> Vec<String> {
     let mut faults = Vec::new();
     let case = &prepared.case;

@@ -48,5 +48,5 @@ pub fn compare(
 ) -> Measured {
     let tolerance = Tolerance { depth: depth_tolerance, rounding };
     Measured::of(&prepared.case, &prepared.verdicts, hits, tolerance, |index| prepared.is_unseen(index))
-        .expect("there is one hit a ray")
+        .expect("there is one hit per ray")
 }

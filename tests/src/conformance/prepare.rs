@@ -31,7 +31,7 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Asks the oracle and uploads what a loader keeps.
+    /// Queries the oracle and uploads what a loader keeps.
     ///
     /// # Panics
     /// If the device fails or the oracle refuses the triangles.
@@ -64,7 +64,7 @@ impl Prepared {
         }
     }
 
-    /// Whether a ray is not evaluated: only what the camera sees is, and of all that it may meet something lies outside.
+    /// Whether a ray is not evaluated: only what the camera sees is, and something that it may hit lies outside.
     pub fn is_unseen(&self, index: usize) -> bool {
         let Some(camera) = self.viewpoint.camera.filter(|_| self.only_camera) else { return false };
         let (ray, verdict) = (&self.case.rays[index], &self.verdicts[index]);

@@ -2,8 +2,8 @@ use rasray_ads::{Domain, Hit, QueueCounters, Ray, RayQueue, Structure, TraceMode
 
 use crate::harness::Bench;
 
-/// Traces in at most `rounds` dispatches, however many the structure thinks are enough, and returns what
-/// the queue holds afterwards, also where rays were given up or met a structure that was not ready.
+/// Traces in at most `rounds` dispatches, whatever number the structure states, and returns what
+/// the queue holds afterwards, also where rays were given up or the structure was not ready.
 ///
 /// # Panics
 /// If the device fails.

@@ -16,7 +16,7 @@ pub enum Demand {
     /// The share of missed, false and (by `depth_tolerance`) wrong hits falls with the size of a cell: it is at
     /// most `per_cell / resolution`, or what `laws` says for the case.
     Law {
-        /// Cells a side of a face.
+        /// Cells along a side of a face.
         resolution: u32,
         /// Of the unambiguous rays, times the resolution.
         per_cell: f64,
@@ -104,8 +104,8 @@ pub enum Cases {
     Deep,
 }
 
-/// Cases whose hundreds of layers fill every cell: fragment structures meet them at a low resolution, since
-/// millions of fragments would show nothing else.
+/// Cases whose hundreds of layers fill every cell: fragment structures trace them at a low resolution, since
+/// millions of fragments would show nothing more.
 pub const DEEP: &[&str] = &["C10", "Z6", "Z6-pixel", "Z7"];
 
 impl Cases {
@@ -225,7 +225,7 @@ impl Row {
                 let law = laws.iter().find(|law| law.case == case);
                 let limit = self.largest_rate(case);
                 let reason = law.map_or_else(String::new, |law| format!(": {}", law.reason));
-                format!("at most {limit:.4} with {resolution} cells a side{reason}")
+                format!("at most {limit:.4} with {resolution} cells along a side{reason}")
             }
             (Demand::Loss { share, .. }, None) => format!("at most {share}"),
         }

@@ -18,7 +18,7 @@ const fn published(
 
 /// All of them.
 pub(super) const ROWS: &[Row] = &[
-    // 16 coarse tiles a side, few buckets, linked lists.
+    // 16 coarse tiles along a side, few buckets, linked lists.
     Row::exact(
         "dirt-lists-16",
         "dirt",

@@ -28,7 +28,7 @@ pub(super) const ROWS: &[Row] = &[
         tier: Tier::Full,
         ..ldc("ldc-robust-256", Preset::Robust, &[("resolution", "256")], Cases::Shallow, ldc_law(256), &[])
     },
-    // Fragments met by their own depth, give or take what their triangles lean over half a cell.
+    // Fragments are hit at their own depth, plus or minus the rise of their triangles over half a cell.
     ldc(
         "ldc-slope-64",
         Preset::Robust,

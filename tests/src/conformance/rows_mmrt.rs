@@ -6,7 +6,7 @@ use super::deviations;
 use super::row::{Cases, Demand, Deviation, Row, Tier, published_law};
 
 const fn robust_law(resolution: u32) -> Demand {
-    // One ray in a hundred at 64 cells a side.
+    // One ray in a hundred at 64 cells along a side.
     Demand::Law { resolution, per_cell: 0.64, depth_tolerance: 1e-3, laws: deviations::ROBUST_LAWS }
 }
 
@@ -78,7 +78,7 @@ pub(super) const ROWS: &[Row] = &[
         robust_law(64),
         deviations::CAMERA_64,
     ),
-    // Planes, and beside them the triangles that are lost or seen edge-on.
+    // Planes, and in addition the triangles that are lost or seen edge-on.
     Row {
         tier: Tier::Full,
         ..mmrt(

@@ -52,7 +52,7 @@ fn integrate(cosine_o: f64, roughness: f64, value: impl Fn(f64, f64, f64) -> f64
 /// What facets of one roughness do with the light of a white sky.
 #[derive(Clone, Copy)]
 struct Facets {
-    /// Share that facets of reflectance 1 lose in one scattering, under the cosine asked for.
+    /// Share that facets of reflectance 1 lose in one scattering, under the given cosine.
     lost: f64,
     /// What facets of reflectance (1 - o.h)^5 send back.
     schlick: f64,
@@ -78,7 +78,7 @@ impl Facets {
     /// What facets of this reflectance at normal incidence send back, after however many scatterings.
     fn reflected(&self, f0: f64) -> f64 {
         let once = f0 * (1.0 - self.lost - self.schlick) + self.schlick;
-        // Light that is lost meets facets again, each time with their mean reflectance.
+        // Light that is lost hits facets again, each time with their mean reflectance.
         let mean = f0 + (1.0 - f0) / 21.0;
         let returned = mean * mean * (1.0 - self.mean_lost) / (1.0 - mean * self.mean_lost);
         once + returned * self.lost

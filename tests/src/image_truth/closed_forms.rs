@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn closure_and_reciprocity() {
-        // A flat box 2 by 3 by 5: from the face 2 by 3, opposite and two of each kind beside it.
+        // A flat box 2 by 3 by 5: from the face 2 by 3, opposite and two of each kind next to it.
         let sum = parallel_rectangles(2.0, 3.0, 5.0)
             + 2.0 * perpendicular_rectangles(2.0, 3.0, 5.0)
             + 2.0 * perpendicular_rectangles(3.0, 2.0, 5.0);

@@ -96,7 +96,7 @@ pub fn octahedron_sphere(centre: DVec3, radius: f64, level: u32, material: usize
     }
 }
 
-/// Corners of a mesh, three a triangle.
+/// Corners of a mesh, three per triangle.
 #[cfg(test)]
 pub(super) fn triangles(mesh: &Mesh) -> Vec<[DVec3; 3]> {
     let corner = |index: u32| DVec3::from(mesh.positions[index as usize].map(f64::from));

@@ -17,7 +17,7 @@ use crate::harness::Bench;
 pub enum System {
     /// Every triangle: exact.
     BruteForce,
-    /// The A-buffer's robust preset with this many cells a side.
+    /// The A-buffer's robust preset with this many cells along a side.
     MmrtRobust(u32),
 }
 
@@ -167,7 +167,7 @@ impl<'a> Studio<'a> {
         }
     }
 
-    /// The image's mean over `samples` samples a pixel, an even number.
+    /// The image's mean over `samples` samples per pixel, an even number.
     ///
     /// # Panics
     /// If the device fails or a sample was not finite.

@@ -2,7 +2,7 @@ use rasray_systems::OptionRow;
 
 use super::Subject;
 
-/// Whether a subject takes an option's value, alone or beside a value of one of `others`.
+/// Whether a subject takes an option's value, alone or together with a value of one of `others`.
 pub fn takes(
     subject: &Subject,
     mut others: impl Iterator<Item = &'static OptionRow>,
@@ -15,7 +15,7 @@ pub fn takes(
         })
 }
 
-/// The options of a subject that may not change a hit, each with the values that it takes alone or beside one
+/// The options of a subject that may not change a hit, each with the values that it takes alone or together with one
 /// other choice of these: pages go with paged lists only.
 pub fn speed_options(subject: &Subject) -> Vec<(&'static str, Vec<&'static str>)> {
     let mut rows = subject.spec.system().options();

@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn only_pairs_that_go_with_nothing_are_left_out() {
-        // The second value of the first option asks for that of the second and refuses that of the third.
+        // The second value of the first option requires that of the second and excludes that of the third.
         let allowed = |row: &[usize]| row[0] == 0 || (row[1] == 1 && row[2] == 0);
         let Pairs { rows, refused } = pairwise(&[2, 2, 2, 3], allowed);
         assert!(rows.iter().all(|row| allowed(row)), "{rows:?}");

@@ -11,7 +11,7 @@ use crate::tier::is_full;
 /// Where views are centred.
 pub const EYE: [f32; 3] = [0.125, -0.25, 0.375];
 
-/// Rays a comparison: what the full tier affords, and what every run does.
+/// Rays per comparison: in the full tier, and in every run.
 pub fn ray_count() -> usize {
     if is_full() { 2000 } else { 400 }
 }

@@ -11,7 +11,7 @@ pub type Row = (&'static str, &'static str, &'static [(&'static str, &'static st
 /// Cells along a side of views.
 const CELLS: &str = "24";
 
-/// Options of presets beside so many cells and those that need no scene.
+/// Options of presets in addition to the number of cells and to those that need no scene.
 const BESIDE: &[Row] = &[
     ("mmrt", "robust", &[("capacity", "40000")]),
     ("mmrt", "published", &[("capacity", "40000")]),
@@ -29,7 +29,7 @@ const LARGE: &[Row] = &[
     ("mmrt", "robust", &[("payload", "plane"), ("resolution", "24"), ("capacity", "40000")]),
 ];
 
-/// Rows beside the presets of the registry.
+/// Rows in addition to the presets of the registry.
 fn more() -> impl Iterator<Item = &'static Row> {
     MORE.iter().chain(if is_full() { LARGE } else { &[] })
 }

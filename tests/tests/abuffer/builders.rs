@@ -78,15 +78,15 @@ fn both_builders_store_the_same_fragments() {
             };
             let [drawn, computed] = Builder::ALL
                 .map(|builder| built(&bench, &triangles, Config { builder, ..config }, eye, &rays));
-            let name = format!("{storage:?}, {coverage:?}, {views:?}, {resolution} cells a side");
-            // A view of few cells is gone through at once.
+            let name = format!("{storage:?}, {coverage:?}, {views:?}, {resolution} cells along a side");
+            // A view of few cells is traversed in one dispatch.
             assert_eq!(computed.contents.header.large_demand > 0, resolution > 1, "{name}");
             assert_eq!(drawn.contents.header.large_demand, 0, "{name}");
             assert_eq!(drawn.stored, computed.stored, "{name}");
             assert_eq!(drawn.contents.header.lost, computed.contents.header.lost, "{name}");
             assert!(drawn.hits == computed.hits, "{name}: other hits");
             assert!(drawn.hits.iter().any(|hit| hit[1] != u32::MAX), "{name}: nothing is hit");
-            // Sorted contiguous lists have one order; what is decoupled stands where threads put it.
+            // Sorted contiguous lists have one order; decoupled payload is where threads put it.
             if storage == Storage::Sb {
                 assert!(drawn.contents.lists == computed.contents.lists, "{name}: other lists");
                 compared += 1;
@@ -96,7 +96,7 @@ fn both_builders_store_the_same_fragments() {
     assert_eq!(compared, if is_full() { 6 } else { 1 });
 }
 
-/// What has no capacity among the triangles with many cells is counted and grown, and nothing is answered until it has.
+/// Large triangles beyond the capacity of their queue are counted, the queue grows, and no ray is answered before.
 #[test]
 fn every_edge_capacity_of_large_triangles() {
     let bench = Bench::new();

@@ -31,15 +31,15 @@ type Change = fn(Config) -> Config;
 /// How many of [`CHANGES`] are tried in the quick tier: the first ones try every option in company.
 const IN_COMPANY: usize = 8;
 
-/// One change a row.
+/// One change per row.
 const CHANGES: &[(&str, Change)] = &[
-    ("sb, address, 7 units a dispatch", |config| Config {
+    ("sb, address, 7 units per dispatch", |config| Config {
         storage: Storage::Sb,
         addressing: Addressing::Address,
         work_budget: Some(7),
         ..config
     }),
-    ("paged, 8 a page, 1 bucket, 7 units a dispatch", |config| Config {
+    ("paged, 8 per page, 1 bucket, 7 units per dispatch", |config| Config {
         storage: Storage::Paged,
         page: 8,
         buckets: 1,
@@ -53,9 +53,14 @@ const CHANGES: &[(&str, Change)] = &[
         sort: false,
         ..config
     }),
-    ("ll, 64 units a dispatch", |config| Config { storage: Storage::Ll, work_budget: Some(64), ..config }),
-    ("paged, 1 a page, inline", |config| Config { storage: Storage::Paged, page: 1, inline: true, ..config }),
-    ("paged, address, room for one page at first", |config| Config {
+    ("ll, 64 units per dispatch", |config| Config { storage: Storage::Ll, work_budget: Some(64), ..config }),
+    ("paged, 1 per page, inline", |config| Config {
+        storage: Storage::Paged,
+        page: 1,
+        inline: true,
+        ..config
+    }),
+    ("paged, address, capacity for one page at first", |config| Config {
         storage: Storage::Paged,
         addressing: Addressing::Address,
         fragments: Some(1),
@@ -76,7 +81,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("ll", |config| Config { storage: Storage::Ll, ..config }),
     ("ll, sort off", |config| Config { storage: Storage::Ll, sort: false, ..config }),
     ("dll", |config| Config { storage: Storage::Dll, ..config }),
-    ("dll, 7 units a dispatch", |config| Config { storage: Storage::Dll, work_budget: Some(7), ..config }),
+    ("dll, 7 units per dispatch", |config| Config { storage: Storage::Dll, work_budget: Some(7), ..config }),
     ("llb", |config| Config { storage: Storage::Llb, ..config }),
     ("llb, inline, address", |config| Config {
         storage: Storage::Llb,
@@ -89,29 +94,33 @@ const CHANGES: &[(&str, Change)] = &[
     ("sb", |config| Config { storage: Storage::Sb, ..config }),
     ("sb, inline", |config| Config { storage: Storage::Sb, inline: true, ..config }),
     ("sb, sort off", |config| Config { storage: Storage::Sb, sort: false, ..config }),
-    ("sb, room for nothing at first", |config| Config { storage: Storage::Sb, fragments: Some(0), ..config }),
+    ("sb, capacity for nothing at first", |config| Config {
+        storage: Storage::Sb,
+        fragments: Some(0),
+        ..config
+    }),
     ("paged", |config| Config { storage: Storage::Paged, ..config }),
-    ("paged, 2 a page, sort off", |config| Config {
+    ("paged, 2 per page, sort off", |config| Config {
         storage: Storage::Paged,
         page: 2,
         sort: false,
         ..config
     }),
     ("address", |config| Config { addressing: Addressing::Address, ..config }),
-    ("address, 7 units a dispatch", |config| Config {
+    ("address, 7 units per dispatch", |config| Config {
         addressing: Addressing::Address,
         work_budget: Some(7),
         ..config
     }),
-    ("2 units a dispatch", |config| Config { work_budget: Some(2), ..config }),
-    ("7 units a dispatch", |config| Config { work_budget: Some(7), ..config }),
-    ("64 units a dispatch", |config| Config { work_budget: Some(64), ..config }),
-    ("room for nothing at first", |config| Config { fragments: Some(0), ..config }),
-    ("room for one fragment at first", |config| Config { fragments: Some(1), ..config }),
+    ("2 units per dispatch", |config| Config { work_budget: Some(2), ..config }),
+    ("7 units per dispatch", |config| Config { work_budget: Some(7), ..config }),
+    ("64 units per dispatch", |config| Config { work_budget: Some(64), ..config }),
+    ("capacity for nothing at first", |config| Config { fragments: Some(0), ..config }),
+    ("capacity for one fragment at first", |config| Config { fragments: Some(1), ..config }),
     ("counters", |config| Config { counters: Counters::Sums, ..config }),
 ];
 
-/// What of a hit may not change. With interval acceptance a and b name the fragment's place in the pool,
+/// What of a hit may not change. With interval acceptance a and b are the fragment's place in the pool,
 /// which is the order in which threads came.
 fn key(config: &Config, hit: &Hit) -> [u32; 4] {
     let [a, b] = if config.accept.needs_triangles() { [hit.a.to_bits(), hit.b.to_bits()] } else { [0; 2] };
@@ -155,7 +164,7 @@ fn no_change_changes_a_hit(base: Config) {
     let (triangles, rays) = (scene(true), rays(600));
     let expected = answers(&bench, base, &triangles, &rays);
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
-    assert!(hit > 150 && hit < 600, "{hit} of 600 rays hit: too few or too many to tell anything");
+    assert!(hit > 150 && hit < 600, "{hit} of 600 rays hit: too few or too many to compare");
     for (index, (closest, occluded)) in expected.closest.iter().zip(&expected.occluded).enumerate() {
         assert_eq!(
             closest[1] != rasray_ads::PRIMITIVE_NONE,
@@ -163,7 +172,7 @@ fn no_change_changes_a_hit(base: Config) {
             "ray {index}: closest against occluded"
         );
     }
-    // The published march meets the same lists.
+    // The published march reads the same lists.
     let quick = if base.march == March::Exact { IN_COMPANY } else { IN_COMPANY / 2 };
     for (name, change) in first(CHANGES, quick) {
         let config = change(base);
@@ -205,7 +214,7 @@ fn sloped_hits_do_not_depend_on_the_storage() {
     }
 }
 
-/// A step a cell is what samples do where there are enough; it looks at fewer cells than a ray crosses.
+/// With enough samples the march takes one step per cell; it visits fewer cells than a ray crosses.
 #[test]
 fn a_dda_is_a_march_of_enough_samples() {
     let bench = Bench::new();
@@ -227,8 +236,8 @@ fn a_dda_is_a_march_of_enough_samples() {
     assert!(sampled > 0 && sampled < exact, "{sampled} of {exact} cells");
 }
 
-/// Skips pass by cells that hold nothing at a ray's depths, and by nothing else: cells that are searched are
-/// the same, with the same stays of the ray, whatever fragments stand for.
+/// Skips leave out cells that hold nothing at a ray's depths, and no others: the searched cells and the intervals of
+/// the ray in them are the same, whatever fragments represent.
 #[test]
 fn skips_change_no_hit() {
     let bench = Bench::new();

@@ -51,7 +51,7 @@ fn cells(contents: &Contents) -> Vec<Vec<(u32, u32)>> {
     ordered.collect()
 }
 
-/// How many times as far as the nearest a fragment of the same layer may be.
+/// Maximum ratio of the distance of a fragment of the same layer to that of the nearest.
 const LAYER: f32 = 1.0 + 4.8e-7;
 
 /// The nearest of a cell's fragments.
@@ -78,7 +78,7 @@ fn compare(
     for (cell, (all, kept)) in of_all.iter().zip(&kept).enumerate() {
         assert_eq!(&nearest(all), kept, "cell {cell} of {single:?}");
     }
-    // Triangles that are nowhere the nearest are named as lost.
+    // Triangles that are nowhere the nearest are counted as lost.
     let triangles = |cells: &[Vec<(u32, u32)>]| {
         cells.iter().flatten().map(|(_, primitive)| *primitive).collect::<HashSet<_>>().len() as u64
     };
@@ -175,12 +175,12 @@ fn through_centres_a_single_layer_is_enough() {
         let hits = |structure: &ABuffer, rays: &[Ray]| bench.trace(structure, rays).hits;
         let key = |hit: &Hit| (hit.t.to_bits(), hit.primitive);
         let (seen, kept) = (hits(&of_all, &from_eye), hits(&of_single, &from_eye));
-        let met = kept.iter().filter(|hit| hit.is_hit()).count();
+        let found = kept.iter().filter(|hit| hit.is_hit()).count();
         let same = seen.iter().zip(&kept).filter(|(all, single)| key(all) == key(single)).count();
-        println!("{storage:?}: {met} of {} met, {same} the same", from_eye.len());
-        assert!(met > from_eye.len() * 9 / 10, "{storage:?}: {met} met");
+        println!("{storage:?}: {found} of {} hit, {same} the same", from_eye.len());
+        assert!(found > from_eye.len() * 9 / 10, "{storage:?}: {found} hit");
         assert_eq!(same, from_eye.len(), "{storage:?}");
-        // Elsewhere what is behind is not met.
+        // Elsewhere what is behind is not hit.
         let (seen, kept) = (hits(&of_all, &anywhere), hits(&of_single, &anywhere));
         let count = |hits: &[Hit]| hits.iter().filter(|hit| hit.is_hit()).count();
         assert!(count(&kept) < count(&seen) * 9 / 10, "{} of {}", count(&kept), count(&seen));

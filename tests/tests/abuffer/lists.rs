@@ -29,7 +29,7 @@ fn quad(x: [f32; 2], y: [f32; 2], z: f32) -> [Triangle; 2] {
 }
 
 /// Layers in cell 8 of 16, which spans 0 to 1/8 in x/z, drawn in a scrambled order; they leave its border free. The
-/// two triangles of a layer meet in the cell's centre and leave a fragment each.
+/// two triangles of a layer share the cell's centre and have a fragment each.
 fn layers(count: usize) -> Vec<Triangle> {
     let mut order: Vec<usize> = (0..count).collect();
     let mut random = Random::new(7);
@@ -97,7 +97,7 @@ fn a_deep_cell_is_sorted_by_every_storage() {
         well_formed(&contents).unwrap_or_else(|fault| panic!("{config:?}: {fault}"));
         let hits = bench.trace(&structure, &rays).hits;
         for (ray, (hit, expected)) in hits.iter().zip(&expected).enumerate() {
-            // Two triangles of a quad meet in its diagonal: the layer is what counts.
+            // Two triangles of a quad share its diagonal: only the layer is compared.
             assert_eq!(hit.primitive / 2, expected.primitive / 2, "{config:?}, {:?}", rays[ray]);
             let difference = (hit.t - expected.t).abs();
             assert!(difference <= 1.0e-6, "{config:?}, ray {ray}: {} for {}", hit.t, expected.t);
@@ -105,7 +105,7 @@ fn a_deep_cell_is_sorted_by_every_storage() {
     }
 }
 
-/// Lists that are short enough each, and too many nodes for the thread that sorts several: what is left over
+/// Lists that are short enough each, and too many nodes for the thread that sorts several: the rest
 /// is sorted with the long ones.
 #[test]
 fn lists_that_one_thread_cannot_sort_together_are_sorted() {
@@ -121,7 +121,7 @@ fn lists_that_one_thread_cannot_sort_together_are_sorted() {
         let config = Config { storage, ..Config::robust(16) };
         let structure = abuffer(&bench, config, &triangles, [0.0; 3]);
         let header = structure.header().expect("the header is readable");
-        // A cell has a fragment a layer, two on the diagonal.
+        // A cell has one fragment per layer, two on the diagonal.
         assert!(header.long_demand > 0 && header.long_demand < 16 * 16, "{}", header.long_demand);
         assert_eq!(header.unsorted, 0);
         let contents = structure.download(bench.device()).expect("the device works");

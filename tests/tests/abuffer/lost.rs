@@ -22,7 +22,7 @@ fn scene() -> Vec<Triangle> {
     let mut random = Random::new(41);
     let mut triangles = Vec::new();
     for _ in 0..60 {
-        // Corners that are combinations of two directions lie in one plane with the eye but for rounding.
+        // Corners that are combinations of two directions lie in one plane with the eye except for rounding.
         let (u, v) = (random.direction(), random.direction());
         let mut corner = || {
             let (s, t) = (random.between(1.0, 4.0), random.between(1.0, 4.0));
@@ -52,7 +52,7 @@ fn built(bench: &Bench, config: Config, triangles: &[Triangle]) -> ABuffer {
     structure
 }
 
-/// The count is that of the triangles that no fragment names, whoever decides coverage and however fragments are kept.
+/// The count is that of the triangles without a fragment, whatever the coverage and the storage.
 #[test]
 fn triangles_without_a_fragment_are_counted() {
     let bench = Bench::new();
@@ -98,7 +98,7 @@ fn rays(triangles: &[Triangle]) -> Vec<Ray> {
     rays
 }
 
-/// The share of rays that meet what no fragment names, and that of all others, which are answered right.
+/// The shares of rays answered right: of those that hit triangles without a fragment, and of all others.
 fn right_shares(named: &HashSet<u32>, hits: &[Hit], expected: &[Hit]) -> [f64; 2] {
     let mut counts = [[0_u32; 2]; 2];
     for (hit, expected) in hits.iter().zip(expected).filter(|(_, expected)| expected.is_hit()) {
@@ -109,8 +109,8 @@ fn right_shares(named: &HashSet<u32>, hits: &[Hit], expected: &[Hit]) -> [f64; 2
     counts.map(|[right, all]| f64::from(right) / f64::from(all))
 }
 
-/// With all that reaches into a cell kept there hits are those of brute force, bit for bit, and nothing is lost; exact
-/// coverage loses nearly all that no fragment names.
+/// With all triangles kept in every cell that they reach into, hits are those of brute force, bit for bit; exact
+/// coverage loses nearly all triangles without a fragment.
 #[test]
 fn conservative_coverage_finds_what_brute_force_finds() {
     let bench = Bench::new();
@@ -135,13 +135,15 @@ fn conservative_coverage_finds_what_brute_force_finds() {
         let contents = exact.download(bench.device()).expect("the device works");
         let named: HashSet<u32> = contents.data[..contents.header.demand as usize].iter().copied().collect();
         let shares = right_shares(&named, &bench.trace(&exact, &rays).hits, &expected);
-        println!("{resolution} cells, right of lost and of named without what is beside centres: {shares:?}");
+        println!(
+            "{resolution} cells, right of lost and of stored triangles without conservative lists: {shares:?}"
+        );
         assert!(shares[0] < 0.3, "{shares:?}");
     }
 }
 
-/// What is lost, and what is seen edge-on, is sent to where rays can hit it: nothing is lost then, what no
-/// fragment names is found like other triangles, and conservative lists hold far less than with conservative coverage.
+/// Lost triangles and those seen edge-on go to conservative lists: nothing is lost then, triangles without a fragment
+/// are found like others, and conservative lists hold far fewer than with conservative coverage.
 #[test]
 fn edge_on_triangles_are_found() {
     let bench = Bench::new();
@@ -177,10 +179,10 @@ fn edge_on_triangles_are_found() {
         let shares = [&without, &with]
             .map(|structure| right_shares(&named, &bench.trace(structure, &rays).hits, &expected));
         println!(
-            "{resolution} cells: {conservative_lists:?} in conservative lists, right of lost and of named {shares:?}"
+            "{resolution} cells: {conservative_lists:?} in conservative lists, right of lost and of stored triangles {shares:?}"
         );
         if resolution == 1 {
-            // Every plane stands for a whole face.
+            // Every plane represents a whole face.
             continue;
         }
         assert!(
@@ -192,7 +194,7 @@ fn edge_on_triangles_are_found() {
     }
 }
 
-/// Nor do they change one where the conservative list holds what is lost alone, whoever builds.
+/// Nor do they change a hit where the conservative list holds only lost triangles, with either builder.
 #[test]
 fn conservative_lists_of_what_is_lost_are_searched_to_their_end() {
     let bench = Bench::new();
@@ -228,7 +230,7 @@ fn conservative_lists_of_what_is_lost_are_searched_to_their_end() {
 fn conservative_lists_are_searched_to_their_end() {
     let bench = Bench::new();
     let mut triangles = scene();
-    // All of it within a cell or two beside a large room.
+    // All of it within a cell or two next to a large room.
     triangles.extend(closed_box([-90.0; 3], [90.0; 3]));
     let small: Vec<Triangle> = scene()[60..]
         .iter()
@@ -272,7 +274,7 @@ fn conservative_lists_are_searched_to_their_end() {
     }
 }
 
-/// More triangles than there are marks for are no answer, but a reason to grow.
+/// More triangles than there are marks for make the build incomplete, and marks grow.
 #[test]
 fn marks_grow_with_the_geometry() {
     let bench = Bench::new();

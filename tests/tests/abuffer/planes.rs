@@ -1,5 +1,5 @@
-//! The payload of planes: what is stored is the plane of the fragment's triangle, rays hit it as they would meet the
-//! triangle's, and no ray asks for the triangle.
+//! The payload of planes: the plane of the fragment's triangle is stored, rays hit it as they would hit that of the
+//! triangle, and no ray reads the triangle.
 
 use rasray_abuffer::{
     ABuffer, Accept, Addressing, Builder, Config, Coverage, Fragment, March, Payload, Storage, well_formed,
@@ -95,7 +95,8 @@ fn stored_planes_are_those_of_the_triangles() {
     }
 }
 
-/// Where index acceptance meets a plane, so does a stored one, but for where a plane ends beyond its triangle.
+/// Where rays hit a plane with the payload `index`, they hit the stored one, except where a plane ends beyond its
+/// triangle.
 #[test]
 fn stored_planes_are_met_where_those_of_triangles_are() {
     let bench = Bench::new();
@@ -109,8 +110,8 @@ fn stored_planes_are_met_where_those_of_triangles_are() {
         (named, stored) => named == stored,
     };
     let same = named.iter().zip(&stored).filter(|(named, stored)| agrees(named, stored)).count();
-    println!("{same} of {} rays meet the same point", rays.len());
-    assert!(same >= rays.len() * 995 / 1000, "{same} of {} rays meet the same point", rays.len());
+    println!("{same} of {} rays hit the same point", rays.len());
+    assert!(same >= rays.len() * 995 / 1000, "{same} of {} rays hit the same point", rays.len());
     assert!(stored.iter().all(|hit| !hit.is_hit() || hit.primitive == PRIMITIVE_UNKNOWN));
 }
 
@@ -144,7 +145,7 @@ fn storages_and_builders_change_no_hit() {
     }
 }
 
-/// Planes that meet in a line through the centres of cells: one depth, one t, and the same first words.
+/// Planes that intersect in a line through the centres of cells: one depth, one t, and the same first words.
 fn crossing(reversed: bool) -> Vec<Triangle> {
     let mut triangles = Vec::new();
     for layer in 0..6 {
@@ -187,12 +188,12 @@ fn ties_are_broken_by_all_words() {
             let ties = cells.iter().filter(|fragments| is_tie(fragments)).count();
             assert!(ties >= rays.len(), "{storage:?}: {ties} cells with ties");
             let hits = bench.trace(&structure, &rays).hits;
-            let met = hits.iter().map(|hit| {
+            let found = hits.iter().map(|hit| {
                 assert_eq!(hit.primitive, PRIMITIVE_UNKNOWN);
                 contents.fragment(hit.a.to_bits()).expect("it is stored").payload.to_vec()
             });
-            let met: Vec<_> = met.collect();
-            assert_eq!(expected.get_or_insert_with(|| met.clone()), &met, "{storage:?}, {reversed}");
+            let found: Vec<_> = found.collect();
+            assert_eq!(expected.get_or_insert_with(|| found.clone()), &found, "{storage:?}, {reversed}");
         }
     }
 }

@@ -53,7 +53,7 @@ fn keys(hits: &[Hit]) -> Vec<[u32; 4]> {
     hits.iter().map(|hit| [hit.t.to_bits(), hit.primitive, hit.a.to_bits(), hit.b.to_bits()]).collect()
 }
 
-/// Where a camera sees what a face does, with as many cells, it finds what the face does, bit for bit.
+/// A camera that sees the same as a face, with as many cells, finds the same hits, bit for bit.
 #[test]
 fn a_camera_along_an_axis_is_a_face() {
     let bench = Bench::new();
@@ -75,7 +75,7 @@ fn a_camera_along_an_axis_is_a_face() {
     }
 }
 
-/// Nothing outside of the pyramid is stored or met, whatever way a ray goes there.
+/// Nothing outside of the pyramid is stored or hit, whatever the path of a ray.
 #[test]
 fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     let bench = Bench::new();
@@ -84,7 +84,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     let config = Config { views: Views::Camera, camera_resolution: [40, 19], ..Config::robust(8) };
     let structure = built(&bench, config, &triangles, at_eye(camera));
     let contents = contents(&bench, &structure);
-    // Of an even and an odd number the smaller grows by one.
+    // Of an even and an odd number, the smaller one is increased by one.
     assert_eq!(cell_count(&config), 42 * 22);
     assert_eq!(contents.lists.len() as u64, 2 * 4 * 42 * 22);
     let mut random = Random::new(13);
@@ -104,7 +104,7 @@ fn a_camera_alone_knows_what_it_sees_and_nothing_else() {
     assert!(found > 100 && found < 1500, "{found} of 2000 rays hit");
 }
 
-/// A view that is turned and wider than high answers as well as the law of fragments has it, and as the cube does.
+/// A view that is rotated and wider than high follows the law of fragments, and is as exact as the cube.
 #[test]
 fn a_turned_camera_keeps_the_law_of_fragments() {
     let bench = Bench::new();
@@ -160,7 +160,7 @@ fn a_view_of_a_camera_needs_one() {
             let error = error.expect_err("there is no camera");
             assert!(matches!(error, TracerError::Ads(_)) && error.to_string().contains("views"), "{error}");
         }
-        // The eye alone leaves nothing behind that answers.
+        // After a build with the eye alone nothing is answered.
         let hits = trace_in_rounds(&bench, &structure, &seen_rays(ALONG_Z, 10), TraceMode::Closest, 2);
         assert_eq!(hits.1.not_ready, 10);
         assert!(hits.0.iter().all(|hit| hit.primitive == PRIMITIVE_NONE));

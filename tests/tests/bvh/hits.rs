@@ -110,12 +110,16 @@ fn configurations(builder: Builder) -> Vec<(String, Config, Option<u32>)> {
     for (budget, rounds) in [(1, 1200), (2, 700), (3, 500), (7, 250), (64, 40)] {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             let config = Config { work_budget: Some(budget), addressing, ..base };
-            configurations.push((format!("{budget} units a dispatch, {addressing:?}"), config, Some(rounds)));
+            configurations.push((
+                format!("{budget} units per dispatch, {addressing:?}"),
+                config,
+                Some(rounds),
+            ));
         }
     }
     if builder == Builder::Sah {
         for leaf in [1, 2, 8, 16] {
-            configurations.push((format!("{leaf} triangles a leaf"), Config { leaf, ..base }, None));
+            configurations.push((format!("{leaf} triangles per leaf"), Config { leaf, ..base }, None));
         }
     }
     configurations
@@ -127,7 +131,7 @@ fn options_change_no_hit(builder: Builder) {
     let (geometry, rays) = (bench.geometry(&triangles), rays(&triangles));
     let expected = reference_answers(&bench, &geometry, &rays);
     let hit = expected.occluded.iter().filter(|occluded| **occluded).count();
-    assert!(hit > RAYS / 4 && hit < RAYS, "{hit} of {RAYS} rays hit: too few or too many to tell anything");
+    assert!(hit > RAYS / 4 && hit < RAYS, "{hit} of {RAYS} rays hit: too few or too many to compare");
     for (name, config, rounds) in configurations(builder) {
         let found = of_bvh(&bench, config, &geometry, &rays, rounds);
         same(&expected, &found, &rays, &format!("{builder:?}, {name}"));
@@ -144,7 +148,7 @@ fn by_morton_codes_no_option_changes_a_hit() {
     options_change_no_hit(Builder::Lbvh);
 }
 
-/// A ray that meets thousands of boxes needs more rounds than rays are given at first: it gets them and an answer.
+/// A ray that hits thousands of boxes needs more rounds than rays are given at first: it gets them and an answer.
 #[test]
 fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
     let bench = Bench::new();
@@ -167,7 +171,7 @@ fn rays_through_coincident_triangles_are_given_the_rounds_they_need() {
         };
         same(&expected, &found, &rays, &format!("{builder:?}"));
         assert!(bvh.rounds() > first);
-        // It ends: no ray can need more than meeting every box takes.
+        // It ends: no ray can need more rounds than a ray that hits every box.
         while bvh.allow_more_rounds() {}
         assert!(u64::from(bvh.rounds()) <= 4 * 2000 / 16 + 2);
     }

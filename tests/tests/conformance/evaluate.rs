@@ -1,4 +1,4 @@
-//! The evaluation of conformance notices what it is there for, and nothing else.
+//! The evaluation of conformance reports exactly the faults that it is for.
 
 use rasray_metrics::{DeviceHit, Rate, Truth};
 use rasray_tests::conformance::{
@@ -252,7 +252,7 @@ fn false_alarms_are_as_rare_as_stated() {
         let alarm = least(total, limit, confidence()).expect("some rate is beyond the limit");
         let tail = binomial_tail(total, alarm, limit);
         assert!(tail <= share, "{total} rays, {limit}: {tail:e} is more than {share:e}");
-        // Bounds of 95 % a comparison would raise the alarm in every other run.
+        // Bounds of 95 % per comparison would raise the alarm in every other run.
         let naive = least(total, limit, 0.95).expect("some rate is beyond the limit");
         let tail = binomial_tail(total, naive, limit);
         assert!(tail > 1e4 * share, "{total} rays, {limit}: {tail:e}");

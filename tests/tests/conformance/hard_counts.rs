@@ -94,7 +94,7 @@ fn ten_million_triangles_are_traced_or_refused() {
         let hits = named(&hits);
         let oracle = Oracle::new(&positions, &indices, None).expect("well formed");
         let verdicts = oracle.closest_batch(&case.rays);
-        let confusion = HitConfusion::measure(&verdicts, &hits, 1e-3).expect("one hit a ray");
+        let confusion = HitConfusion::measure(&verdicts, &hits, 1e-3).expect("one hit per ray");
         println!("{id}: {confusion:?}");
         assert_eq!(confusion.non_finite.count, 0, "{id}: {confusion:?}");
         if let Some(most) = most_missed {
@@ -103,7 +103,7 @@ fn ten_million_triangles_are_traced_or_refused() {
             // Without every tenth hit it would not do.
             let gaps: Vec<_> =
                 hits.iter().enumerate().map(|(ray, hit)| hit.filter(|_| ray % 10 != 0)).collect();
-            let worse = HitConfusion::measure(&verdicts, &gaps, 1e-3).expect("one hit a ray");
+            let worse = HitConfusion::measure(&verdicts, &gaps, 1e-3).expect("one hit per ray");
             assert!(worse.missed.interval().expect("rays hit")[0] > most);
         }
         for (system, options) in TRIANGLES {
@@ -125,7 +125,7 @@ fn ten_million_triangles_are_traced_or_refused() {
                 }
             };
             let hits = named(&bench.trace(structure.as_ref(), &rays).hits);
-            let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit a ray");
+            let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit per ray");
             let bytes = structure.report().expect("the header is readable").bytes();
             println!("{name}: {} MiB, {confusion:?}", bytes >> 20);
             assert!(confusion.is_clean(), "{name}: {confusion:?}");

@@ -44,10 +44,10 @@ fn assert_rate(name: &str, rate: Rate, expected: f64, bias: f64) {
     );
 }
 
-/// P(hit) = |m_r| / |m_p - m_r| for slopes of ray and wall in depth a cell: a half where they are opposite.
+/// P(hit) = |m_r| / |m_p - m_r| for slopes of ray and wall in depth per cell: a half where they are opposite.
 /// The law is of first order in the size of a cell; what is left of it is below 2 / resolution.
 #[test]
-fn half_of_the_rays_that_meet_a_wall_head_on_pass_between_its_samples() {
+fn half_of_the_rays_that_hit_a_wall_head_on_pass_between_its_samples() {
     let bench = Bench::new();
     let prepared = prepare(&bench, "V4", 20_000);
     for resolution in [64, 256] {
@@ -59,10 +59,10 @@ fn half_of_the_rays_that_meet_a_wall_head_on_pass_between_its_samples() {
     assert!(missed.value().expect("rays hit") < 2.0 / 256.0, "{missed:?}");
 }
 
-/// With the depths that the wall takes in each cell nothing that meets it is lost, whatever the resolution, and t is
+/// With the depths that the wall takes in each cell no ray that hits it is lost, whatever the resolution, and t is
 /// wrong by what the ray takes through a cell: it falls as the cell's size. Without them half is lost.
 #[test]
-fn slopes_close_the_gaps_of_a_wall_met_head_on() {
+fn slopes_close_the_gaps_of_a_wall_hit_head_on() {
     let bench = Bench::new();
     let prepared = prepare(&bench, "V4", 5_000);
     let median = |resolution: u32| {
@@ -77,14 +77,14 @@ fn slopes_close_the_gaps_of_a_wall_met_head_on() {
     assert!(fine > 0.0 && (3.0..5.0).contains(&(coarse / fine)), "{coarse} and {fine}");
 }
 
-/// With a thickness of one cell's depth at the wall, nothing that meets the wall is lost; with half of it,
+/// With a thickness of one cell's depth at the wall, no ray that hits the wall is lost; with half of it,
 /// three quarters are found: P(hit) = (|m_r| + thickness) / |m_p - m_r|.
 #[test]
 fn thickness_closes_the_gaps_by_its_share() {
     const RESOLUTION: u32 = 256;
     let bench = Bench::new();
     let mut prepared = prepare(&bench, "V4", 40_000);
-    // Depth a cell is z^2 / 5 times its width, so the thickness fits one depth: rays that hit near it.
+    // Depth per cell is z^2 / 5 times its width, so the thickness fits one depth: rays that hit near it.
     let near = |z: f32| (z - 5.0).abs() < 0.1;
     let is_near: Vec<bool> = prepared.rays.iter().map(|ray| near(ray.origin[2] + ray.direction[2])).collect();
     prepared.retain(|index| is_near[index]);
@@ -94,12 +94,12 @@ fn thickness_closes_the_gaps_by_its_share() {
         let config =
             Config { accept: Accept::Thickness, thickness: Some(share * per_cell), ..interval(RESOLUTION) };
         let missed = run(&bench, config, &prepared).confusion.missed;
-        // Depth a cell varies by 4 % over the depths kept.
+        // Depth per cell varies by 4 % over the depths kept.
         assert_rate("thickness", missed, 1.0 - found, 0.03);
     }
 }
 
-/// A half-open interval of a single depth is empty: rays parallel to the image plane meet no sample, and
+/// A half-open interval of a single depth is empty: rays parallel to the image plane hit no sample, and
 /// every plane.
 #[test]
 fn rays_parallel_to_the_image_plane_need_planes() {
@@ -180,7 +180,7 @@ fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
     for resolution in [64, 128, 256] {
         let fares = inside_a_sphere(&bench, &triangles, resolution, 30_000);
         // A miss needs more than an edge between hit and centre: the ray must also leave the cell before it
-        // meets the plane that stands for both sides, which only oblique rays do.
+        // hits the plane that represents both sides, which only oblique rays do.
         assert!(
             fares.missed * 10 <= fares.wrong.count,
             "at {resolution}: {} missed, {:?}",

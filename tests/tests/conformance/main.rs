@@ -1,4 +1,4 @@
-//! Every system in every preset against the exact oracle on hard cases, and the judge that says so.
+//! Every system in every preset against the exact oracle on hard cases, and tests of the evaluation itself.
 
 mod evaluate;
 mod hard_counts;

@@ -19,7 +19,7 @@ use crate::report;
 /// Rays of a case for rows that find triangles without loss.
 const RAYS: Counts<usize> = Counts { quick: 2000, software: 20_000, full: 150_000 };
 
-/// Rays times triangles of a case, at most, for rows that find triangles without loss and build something.
+/// Maximum product of rays and triangles of a case, for rows that find triangles without loss and build something.
 const TESTS: Counts<usize> = Counts { quick: 1_000_000_000, software: 2_000_000_000, full: 10_000_000_000 };
 
 /// The share of that for brute force, which tests every triangle against every ray.
@@ -77,14 +77,14 @@ fn wanted_rows() -> Vec<&'static Row> {
     for row in others {
         println!("left out: {}, which RASRAY_ROWS does not name", row.name);
     }
-    assert!(!wanted.is_empty(), "RASRAY_ROWS names no row");
+    assert!(!wanted.is_empty(), "RASRAY_ROWS matches no row");
     wanted
 }
 
 /// Holds rows against their cases.
 fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: &mut Held) {
     let placeholder = bench.geometry(&[[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]]]);
-    // Those that meet only some of the rays come last.
+    // Those that trace only some of the rays come last.
     let mut rows = rows.to_vec();
     rows.sort_by_key(|row| (row.is_exact(), row.system == "brute-force"));
     let mut rows: Vec<_> = rows.into_iter().map(|row| (row, row.make(bench, &placeholder))).collect();
@@ -222,12 +222,12 @@ fn every_preset_has_a_row_and_every_deviation_names_a_case() {
     }
     for id in ids {
         let rows = ROWS.iter().filter(|row| row.cases.contain(id)).count();
-        assert!(rows >= 3, "{id} is met by {rows} rows only");
+        assert!(rows >= 3, "only {rows} rows are held to {id}");
     }
 }
 
 /// Triangles a hundred million times smaller than their distance from the ray, whose edges rounding cannot tell
-/// apart: only a structure that tests every triangle meets them.
+/// apart: only a structure that tests every triangle tests them.
 #[test]
 fn tiny_triangles_far_from_a_ray_are_not_hit() {
     let bench = Bench::new();

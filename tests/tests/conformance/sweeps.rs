@@ -29,7 +29,7 @@ fn slope(p: [f64; 3], d: [f64; 3]) -> f64 {
     d[2] * p[2] * p[2] / (d[0] * p[2] - p[0] * d[2])
 }
 
-/// A ray across the tilted plane of V2 in the first row of pixels, with the share of rays like it that meet a sample.
+/// A ray across the tilted plane of V2 in the first row of pixels, with the share of rays like it that hit a sample.
 fn across(random: &mut Random, along: [f64; 3]) -> (Ray, f64) {
     let at = f64::from(random.between(-2.9, 2.9));
     let hit = [at * along[0], 0.001, 5.0 + at * along[2]];
@@ -43,10 +43,10 @@ fn across(random: &mut Random, along: [f64; 3]) -> (Ray, f64) {
 }
 
 /// P(hit) = min(1, |m_r| / |m_p - m_r|) for the slopes of ray and plane, in groups of rays of like P: the
-/// steeper the plane, the fewer of the rays that meet it meet a sample. A plane that is narrower than a pixel
+/// steeper the plane, the fewer of the rays that hit it hit a sample. A plane that is narrower than a pixel
 /// has no sample at all.
 #[test]
-fn planes_are_met_as_often_as_their_slope_says() {
+fn planes_are_hit_as_often_as_their_slope_says() {
     const GROUPS: usize = 4;
     let bench = Bench::new();
     let mut steepest = f64::INFINITY;
@@ -85,7 +85,7 @@ fn planes_are_met_as_often_as_their_slope_says() {
             assert!(low - bias <= law && law <= high + bias, "{id}: {rate:?} where the law says {law}");
         }
         let mean = expected.iter().sum::<f64>() / expected.len() as f64;
-        assert!(mean < steepest, "{id}: {mean} of the rays meet a sample, {steepest} of a plane less steep");
+        assert!(mean < steepest, "{id}: {mean} of the rays hit a sample, {steepest} of a plane less steep");
         steepest = mean;
     }
     for id in ["V2-4", "V2-5", "V2-6"] {
@@ -169,7 +169,7 @@ fn outermost(size: u32) -> Vec<Triangle> {
 }
 
 /// Rays at points of the face within these triangles, every other one from the eye. None starts as close as a
-/// pixel is wide: planes let go of those.
+/// pixel is wide: planes exclude those.
 fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
     let mut rays = Vec::with_capacity(RAYS);
     while rays.len() < RAYS {
@@ -186,12 +186,12 @@ fn aimed(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
 }
 
 /// Share of rays that the published steps may leave out: a step that ends behind the geometry may begin in one of a few
-/// large pixels and end in the next. 0.017 with three pixels a side.
+/// large pixels and end in the next. 0.017 with three pixels along a side.
 const STEPPED_OVER: f64 = 0.03;
 
-/// Views of one, three, five and 511 pixels a side with geometry in the outermost pixels only: where
-/// triangles are found every hit is brute force's, elsewhere no ray passes but for a few over published steps. Published voxels are left out:
-/// what they lose of a flat scene has other reasons (the deviations of V16).
+/// Views of one, three, five and 511 pixels along a side with geometry in the outermost pixels only: where
+/// triangles are found every hit is brute force's, elsewhere no ray passes except a few over published steps. Published
+/// voxels are left out: what they lose of a flat scene has other reasons (the deviations of V16).
 #[test]
 fn views_of_odd_sizes_keep_their_outermost_pixels() {
     let bench = Bench::new();
@@ -216,7 +216,7 @@ fn views_of_odd_sizes_keep_their_outermost_pixels() {
                     options.extend(given.map(|(name, word)| ((*name).to_owned(), (*word).to_owned())));
                 }
                 let spec = Spec::new(system.name, preset.name(), options).expect("the options are valid");
-                let name = format!("{} {}, {size} pixels a side", system.name, preset.name());
+                let name = format!("{} {}, {size} pixels along a side", system.name, preset.name());
                 let mut structure = spec.create(bench.device(), &geometry, None).expect("pipelines are made");
                 let hits = bench.build_and_trace(structure.as_mut(), [0.0; 3], &rays);
                 if structure.kind() == StructureKind::Primitive && preset == Preset::Robust {

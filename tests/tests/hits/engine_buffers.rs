@@ -22,7 +22,7 @@ struct Layout {
     counted: bool,
 }
 
-/// As [`Geometry`] takes them without asking for more.
+/// As [`Geometry`] takes them without options.
 const PACKED: Layout =
     Layout { name: "packed", stride: 12, format: IndexFormat::U32, per_draw: false, counted: false };
 
@@ -207,9 +207,9 @@ fn triangles_beyond_the_count_of_the_device_do_not_exist() {
     }
 }
 
-/// Draws that the device wrote are not to be trusted: what they name and is not there is counted.
+/// Draws that the device wrote are not trusted: invalid indices in them are counted.
 #[test]
-fn draws_that_name_what_is_not_there_are_counted() {
+fn draws_with_invalid_indices_are_counted() {
     let bench = Bench::new();
     let device = bench.device();
     let triangles = closed_box([-1.0; 3], [1.0; 3]);

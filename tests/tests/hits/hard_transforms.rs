@@ -101,7 +101,7 @@ fn image(bench: &Bench, transformed: &Transformed, eye: DVec3) -> Vec<AovPixel> 
 }
 
 /// Largest angle of a pixel's normal from that of the face as it is placed in double precision, and how many
-/// pixels meet the mesh.
+/// pixels see the mesh.
 fn worst_pixel(pixels: &[AovPixel], transformed: &Transformed, eye: DVec3) -> (f64, usize) {
     let mesh = &transformed.scene.meshes[0];
     let hits: Vec<_> = pixels.iter().filter(|pixel| pixel.primitive != PRIMITIVE_NONE).collect();
@@ -130,7 +130,7 @@ fn normals_of_pixels_face_the_eye() {
         let transformed = placed(id);
         let pixels = image(&bench, &transformed, eye);
         let (worst, hits) = worst_pixel(&pixels, &transformed, eye);
-        assert!(hits > 100, "{id}: {hits} pixels meet the mesh");
+        assert!(hits > 100, "{id}: {hits} pixels see the mesh");
         assert!(worst < 1e-5, "{id} from {eye}: {worst} rad");
         // Normals that do not face the ray, as mirrored faces' would without care, are noticed.
         let turned: Vec<_> =

@@ -13,7 +13,7 @@ use rasray_tests::tier::is_full;
 use rasray_tracer::build_until_complete;
 
 /// The share of rays that structures of fragments may answer wrongly among a million small triangles, at 512
-/// cells a side.
+/// cells along a side.
 const FRAGMENTS_OFF: f64 = 0.05;
 
 fn rays(count: usize) -> Vec<Ray> {
@@ -32,7 +32,7 @@ fn a_pool_beyond_a_binding_is_reached_by_address() {
     let mut triangles: Vec<Triangle> = sphere([0.5, 0.25, 0.75], 1.0, 24);
     triangles.extend(closed_box([-4.0; 3], [4.0; 3]));
     let geometry = bench.geometry(&triangles);
-    // A word a list: 202 million bytes of lists.
+    // One word per list: 202 million bytes of lists.
     let config = Config { tile: 1, buckets: 8, ..Config::robust(1024) };
     let described = PrimitiveLists::new(bench.device(), config, &geometry, None);
     if limit >= 202 << 20 {
@@ -101,7 +101,7 @@ fn every_system_reaches_large_pools_by_address() {
         }
         let is_other = |(hit, truth): &(&Hit, &Hit)| hit.primitive != truth.primitive;
         let off = hits.iter().zip(&truth).filter(is_other).count();
-        println!("{system}: {off} of {} rays name another triangle", rays.len());
+        println!("{system}: {off} of {} rays hit another triangle", rays.len());
         assert!(off <= rays.len() / 100, "{system}: {off}");
     }
 }
@@ -202,7 +202,7 @@ fn a_million_triangles_are_found_alike() {
             println!("{name}: the same hits");
             continue;
         }
-        // Triangles are finer than cells: what is met must lie where the surface is.
+        // Triangles are finer than cells: hits must lie on the surface.
         let is_near = |(hit, truth): &(&Hit, &Hit)| (hit.t - truth.t).abs() < 0.05;
         let off = rays.len() - hits.iter().zip(&expected).filter(is_near).count();
         let share = off as f64 / rays.len() as f64;

@@ -11,7 +11,7 @@ use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 use rasray_tracer::{BatchTracer, build_until_complete};
 
-/// Square plates one behind the other along z, from one metre to two, drawn in a scrambled order.
+/// Square plates in a row along z, from one metre to two, drawn in a scrambled order.
 fn plates(count: usize) -> Vec<Triangle> {
     let plate = |index: usize| {
         let z = 1.0 + (index * 619 % count) as f32 / count as f32;

@@ -17,7 +17,7 @@ use rasray_tracer::{BatchTracer, build_until_complete};
 
 const RAYS: usize = 1500;
 
-/// Options with which systems promise every hit, beside the presets that do.
+/// Options with which systems promise every hit, in addition to the presets that do.
 const EXACT: &[(&str, &[(&str, &str)])] = &[
     ("dirt", &[("resolution", "64")]),
     ("hu", &[("resolution", "64"), ("coverage", "conservative")]),
@@ -85,7 +85,7 @@ fn masks_are_looked_up_where_rays_meet_triangles() {
     let presets: Vec<Subject> =
         Subject::all().into_iter().filter(|subject| subject.kind == StructureKind::Primitive).collect();
     for name in KEEPERS {
-        assert!(presets.iter().any(|subject| subject.name() == *name), "{name} promises every hit no more");
+        assert!(presets.iter().any(|subject| subject.name() == *name), "{name} no longer promises every hit");
     }
     for spec in presets.into_iter().map(|subject| subject.spec).chain(exact()) {
         let name = format!("{} {:?}", spec.system().name, spec.options());

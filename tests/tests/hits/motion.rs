@@ -1,5 +1,5 @@
 //! Hits do not know where a scene lies where that is exact, nor how a ray is cut: scenes scaled by powers of
-//! two and turned by right angles, rays split in two, segments asked from both ends. Structures that find
+//! two and turned by right angles, rays split in two, segments traced from both ends. Structures that find
 //! triangles, hits compared bit for bit. And of all structures: where the device moved the vertices, hits are those of a
 //! structure that was made for where they are.
 
@@ -130,7 +130,7 @@ fn a_segment_is_occluded_from_both_ends_or_from_none() {
     }
 }
 
-/// The host states where the triangles were, the device measures where they are.
+/// The host states where the triangles were, the device computes where they are.
 #[test]
 fn positions_that_the_device_moved_are_built_where_they_are() {
     let bench = Bench::new();

@@ -11,7 +11,7 @@ use rasray_tests::tier::Counts;
 
 const RAYS: Counts<usize> = Counts { quick: 20_000, software: 100_000, full: 1_000_000 };
 
-/// Triangles by brute force at most: each costs every ray a test.
+/// Maximum number of triangles for brute force: each costs every ray a test.
 const BRUTE_FORCE: usize = 10_000;
 
 fn on(triangles: &[Triangle], count: usize) -> Vec<Ray> {
@@ -59,9 +59,9 @@ fn assert_clean(bench: &Bench, name: &str, triangles: &[Triangle], rays: &[Ray])
             .iter()
             .map(|hit| hit.is_hit().then_some(DeviceHit { t: hit.t, primitive: Some(hit.primitive) }))
             .collect();
-        let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit a ray");
+        let confusion = HitConfusion::measure(&verdicts, &hits, 0.0).expect("one hit per ray");
         assert!(confusion.is_clean(), "{name}, {}: {confusion:?}", subject.name());
-        // Most rays start within rounding of their triangle; what is ambiguous beside them must stay rare.
+        // Most rays start within rounding of their triangle; other ambiguous rays must stay rare.
         let share = confusion.ambiguous as f64 / confusion.rays as f64;
         println!("{name}, {}: {} rays, {:.1} % ambiguous", subject.name(), confusion.rays, 100.0 * share);
         tried += 1;

@@ -12,7 +12,7 @@ const EYE: [f32; 3] = [0.25, -0.125, 0.5];
 
 const MODES: [TraceMode; 2] = [TraceMode::Closest, TraceMode::Occluded];
 
-/// Units of work a dispatch: so few that rays pause, and enough for their rounds.
+/// Units of work per dispatch: so few that rays pause, and enough for their rounds.
 fn budget(kind: StructureKind) -> u32 {
     if kind == StructureKind::Fragment { 40 } else { 5 }
 }
@@ -27,7 +27,7 @@ fn rays(count: usize) -> Vec<Ray> {
     let mut random = Random::new(0x0077_6F72_6B00);
     let mut rays: Vec<Ray> =
         (0..count).map(|_| Ray::new(random.point(-3.0, 3.0), random.direction())).collect();
-    // Slots that ask nothing are filed too.
+    // Inactive slots are written too.
     rays[7].t_max = -1.0;
     rays[8].direction = [0.0; 3];
     rays
@@ -65,8 +65,8 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(off.work.is_empty() && sums.work.is_empty());
             assert_eq!(per_ray.work.len(), rays.len());
             assert_eq!(off.counters, QueueCounters::default());
-            // Threads fill lists in another order in each build: any hit ends at the first that is met, and whether a
-            // triangle is one of the last two tested, which are not tested again, depends on what stands before it.
+            // Threads fill lists in another order in each build: any hit ends at the first one, and whether a
+            // triangle is one of the last two tested, which are not tested again, depends on the entries before it.
             if mode == TraceMode::Closest {
                 let of_any_order = |counters: QueueCounters| QueueCounters { tests: 0, ..counters };
                 assert_eq!(of_any_order(sums.counters), of_any_order(per_ray.counters), "{name}, {mode:?}");
@@ -76,7 +76,7 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
             assert!(per_ray.counters.cells + per_ray.counters.tests > 2000, "{:?}", per_ray.counters);
             assert!(per_ray.work.iter().all(|work| work.rounds >= 1));
             let nothing = RayWork { rounds: 1, ..RayWork::default() };
-            assert_eq!([per_ray.work[7], per_ray.work[8]], [nothing; 2], "{name}: rays that ask nothing");
+            assert_eq!([per_ray.work[7], per_ray.work[8]], [nothing; 2], "{name}: inactive rays");
             if name != "brute-force robust" {
                 assert!(per_ray.work.iter().any(|work| work.rounds > 1), "{name}: no ray paused");
             }
@@ -100,7 +100,7 @@ fn work_per_ray_adds_up_to_the_sums_and_changes_no_hit() {
     }
 }
 
-/// A structure that counts per ray may meet a queue without capacity for it: nothing is written past its end.
+/// A structure that counts per ray may trace a queue without capacity for it: nothing is written past its end.
 #[test]
 fn a_queue_without_a_buffer_for_work_is_left_alone() {
     let bench = Bench::new();

@@ -40,7 +40,7 @@ fn abuffer(bench: &Bench, geometry: &Geometry, config: Config) -> Box<dyn Struct
     Box::new(structure)
 }
 
-/// Storages and coverages beside those of presets, which make other traversals of them.
+/// Storages and coverages in addition to those of presets, which traverse differently.
 const MORE: [Row; 6] = [
     ("bvh", "robust", &[("builder", "lbvh")]),
     ("dirt", "robust", &[("storage", "llb")]),
@@ -84,7 +84,7 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
     let bench = Bench::new();
     let geometry = bench.geometry(&scene());
     let mut rays = rays(0x7265_706C_6179, 40);
-    // Some end before they meet anything.
+    // Some end before they hit anything.
     rays.iter_mut().step_by(2).for_each(|ray| ray.t_max = 2.0);
     let tracer = tracer(&bench);
     let counted = structures(&bench, &geometry, Counters::PerRay);
@@ -102,13 +102,13 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
                 let hit = replay.hit.expect("the ray finishes");
                 assert_eq!(hit.is_hit(), expected.hits[index].is_hit(), "{context}");
                 missed += usize::from(!hit.is_hit());
-                // Threads fill lists in another order in each build, and any hit ends at the first that is met.
+                // Threads fill lists in another order in each build, and any hit ends at the first one.
                 if mode == TraceMode::Closest || !hit.is_hit() {
                     assert_eq!(replay.work, expected.work[index], "{context}");
                     assert_eq!(key(&hit), key(&expected.hits[index]), "{context}");
                 }
                 let best = replay.steps.iter().rev().find(|step| step.kind() == StepKind::Best);
-                // Fragments that keep a plane alone do not say which triangle they are of.
+                // Fragments that keep only a plane have no triangle.
                 let found = hit.is_hit() && hit.primitive != PRIMITIVE_UNKNOWN;
                 assert_eq!(best.is_some(), hit.is_hit(), "{context}");
                 let primitive = best.and_then(|step| step.primitive());
@@ -129,8 +129,8 @@ fn the_steps_are_the_work_and_end_in_the_hit() {
             }
             let name = logged.name();
             assert!((5..30).contains(&missed), "{name} {mode:?}: {missed} of {} rays miss", rays.len());
-            let meet = rays.len() - missed;
-            assert!(noticed >= meet, "{name} {mode:?}: work for {noticed} rays, {meet} meet something");
+            let hitting = rays.len() - missed;
+            assert!(noticed >= hitting, "{name} {mode:?}: work for {noticed} rays, {hitting} hit something");
             let is_bounded = logged.name() != "brute-force";
             assert_eq!(paused, is_bounded, "{}: a small budget makes rays pause", logged.name());
         }
@@ -152,7 +152,7 @@ fn cell_of(p: [f64; 3]) -> (u32, i32, i32) {
 /// What the replay of a ray says about a hit that was lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Loss {
-    /// The triangle was met in a cell and refused there.
+    /// The triangle was tested in a cell and refused there.
     Refused((u32, i32, i32), TestVerdict),
     /// The cell of the hit was never searched.
     NotVisited((u32, i32, i32)),
@@ -164,11 +164,11 @@ fn loss(replay: &Replay, truth: &Verdict) -> Option<Loss> {
     let (primitive, t) = truth.outcome.hit()?;
     let p = point(&replay.ray, t);
     let cell = cell_of(std::array::from_fn(|axis| p[axis] - f64::from(EYE[axis])));
-    let met = replay.steps_of(primitive);
-    if met.iter().any(|(_, step)| step.verdict() == Some(TestVerdict::Accepted)) {
+    let tested = replay.steps_of(primitive);
+    if tested.iter().any(|(_, step)| step.verdict() == Some(TestVerdict::Accepted)) {
         return None;
     }
-    let refused = met.iter().find_map(|(place, step)| Some((place.as_ref()?.cell()?, step.verdict()?)));
+    let refused = tested.iter().find_map(|(place, step)| Some((place.as_ref()?.cell()?, step.verdict()?)));
     if let Some((cell, verdict)) = refused {
         return Some(Loss::Refused(cell, verdict));
     }
@@ -214,8 +214,8 @@ fn the_replay_of_a_lost_hit_shows_the_cell_that_lost_it() {
                 ),
             }
         }
-        // Planes answer about half of those rays right (the others meet what is edge-on or small as seen from the eye), and
-        // of what they find nothing is said to be lost: the explanation is the option, not the explainer.
+        // Planes answer about half of those rays right (the others hit triangles that are edge-on or small as seen from
+        // the eye), and no loss is reported for these: the option explains the loss, not the replay.
         let mut found = 0;
         for &index in &lost {
             let (ray, truth) = (&rays[index], &truths[index]);

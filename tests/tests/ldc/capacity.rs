@@ -34,7 +34,7 @@ fn trace(bench: &Bench, structure: &LayeredDepthCube, rays: &[Ray]) -> Vec<Hit> 
     hits
 }
 
-/// Capacity for so many fragments and triangles beside centres.
+/// Capacity for that many fragments and triangles of conservative lists.
 fn capacity(fragments: u64, conservative: u64) -> Demand {
     Demand { fragments, conservative, layers: 64, ..Demand::default() }
 }
@@ -80,14 +80,14 @@ fn every_edge_capacity(config: Config) {
         structure.resize(bench.device(), &sizes).expect("it fits");
         let mut status = bench.build_once(&mut structure, EYE);
         let fits = fragment_capacity >= fragments && conservative_capacity >= conservative;
-        assert_eq!(status.complete, fits, "room for {fragment_capacity} and {conservative_capacity}");
-        assert_eq!(demand(&status, "fragments"), fragments, "room for {fragment_capacity}");
-        // What stands for what is known only where all fragments fit.
+        assert_eq!(status.complete, fits, "capacity for {fragment_capacity} and {conservative_capacity}");
+        assert_eq!(demand(&status, "fragments"), fragments, "capacity for {fragment_capacity}");
+        // Which fragments represent a triangle is known only where all fragments fit.
         let counted = if fragment_capacity >= fragments { conservative } else { 0 };
         assert_eq!(
             demand(&status, "conservative"),
             counted,
-            "room for {fragment_capacity} and {conservative_capacity}"
+            "capacity for {fragment_capacity} and {conservative_capacity}"
         );
         if !fits {
             for mode in [TraceMode::Closest, TraceMode::Occluded] {
@@ -95,11 +95,11 @@ fn every_edge_capacity(config: Config) {
                 assert_eq!(
                     counters.not_ready as usize,
                     rays.len(),
-                    "room for {fragment_capacity} and {conservative_capacity}"
+                    "capacity for {fragment_capacity} and {conservative_capacity}"
                 );
                 assert!(
                     hits.iter().all(|hit| !hit.is_hit()),
-                    "a partial answer with room for {fragment_capacity}"
+                    "a partial answer with capacity for {fragment_capacity}"
                 );
             }
         }
@@ -226,7 +226,7 @@ fn every_fault_of_a_list_is_noticed() {
             Depth::Bits16 => c.depths[place / 2] = 0x7E00_7E00,
         });
         assert!(matches!(lost, Fault::Depth { .. }), "{lost:?}");
-        // A slice that a block of either level does not name: the last word of the first level, and the very last.
+        // A slice that is missing in a block of either level: the last word of the first level, and the very last.
         let blocks = good.blocks.len();
         for words in [0..4, blocks - 12..blocks] {
             let missing =

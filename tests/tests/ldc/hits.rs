@@ -47,8 +47,8 @@ fn tilted_box() -> Vec<Triangle> {
     closed_box([-2.0, -1.9, -1.7], [2.0, 1.8, 1.6]).into_iter().map(|triangle| triangle.map(turn)).collect()
 }
 
-/// Walls of a room meet at edges between views. Robust cubes lose no ray at any resolution; without what is kept
-/// beside the centres rays leave through the edges, fewer the smaller cells are. Rays start farther from the walls than
+/// Walls of a room touch at edges between views. Robust cubes lose no ray at any resolution; without conservative
+/// lists rays leave through the edges, fewer the smaller cells are. Rays start farther from the walls than
 /// two cells: closer to its origin a plane may be the one that a ray leaves.
 #[test]
 fn no_ray_leaves_a_closed_room_through_its_edges() {
@@ -69,11 +69,14 @@ fn no_ray_leaves_a_closed_room_through_its_edges() {
     }
     let open = |resolution| escaped(Config { coverage: Coverage::Exact, ..Config::robust(resolution) });
     let (coarse, fine) = (open(16), open(128));
-    assert!(coarse > 2 * fine && fine > 0, "{coarse} of 2000 rays leave at 16 cells a side, {fine} at 128");
+    assert!(
+        coarse > 2 * fine && fine > 0,
+        "{coarse} of 2000 rays leave at 16 cells along a side, {fine} at 128"
+    );
 }
 
-/// A lamp let into a ceiling lies in one plane with it: within a cell of its border 99 of 100 rays hit what
-/// is there.
+/// A lamp let into a ceiling lies in one plane with it: within a cell of its border 99 of 100 rays hit the
+/// right one.
 #[test]
 fn a_lamp_is_not_taken_for_its_ceiling() {
     let bench = Bench::new();
@@ -84,7 +87,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     build_until_complete(bench.device(), &mut structure, [0.0; 3], Timing::None)
         .expect("the build completes");
     let every_triangle = BruteForce::new(bench.device(), geometry, binding, false).expect("pipelines");
-    // The lamp's corners in `cornell`, metres; rays end up to a cell of 17 mm beside its border, on either side.
+    // The lamp's corners in `cornell`, metres; rays end up to a cell of 17 mm from its border, on either side.
     let (half, near, far, height) = (0.065, -0.227, -0.332, 0.5488);
     let mut random = Random::new(17);
     let rays: Vec<Ray> = (0..2000)
@@ -108,7 +111,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     };
     let (found, expected) = (lit(&structure), lit(&every_triangle));
     let lamps = expected.iter().filter(|(lit, _)| *lit).count();
-    assert!(lamps > rays.len() / 3 && lamps < 2 * rays.len() / 3, "{lamps} rays meet the lamp");
+    assert!(lamps > rays.len() / 3 && lamps < 2 * rays.len() / 3, "{lamps} rays hit the lamp");
     let mut wrong = 0;
     for ((found, t), (expected, t_expected)) in found.iter().zip(&expected) {
         if found != expected {
@@ -118,7 +121,7 @@ fn a_lamp_is_not_taken_for_its_ceiling() {
     }
     println!("{wrong} of {} rays take one for the other", rays.len());
     // Planes of both are at the same t but for rounding, by which the wrong one may be nearer: every ray ends at t = 1.
-    // Where fragments of any draw stand for a triangle, 139 rays are wrong.
+    // Where fragments of any draw represent a triangle, 139 rays are wrong.
     assert!(wrong <= rays.len() / 100, "{wrong} rays take one for the other");
 }
 
@@ -159,7 +162,7 @@ fn errors_on_a_closed_mesh_fall_with_the_size_of_a_cell() {
             let right = (f64::from(hit.t) - t).abs() <= 1.0e-6 * t;
             assert!(right || hit.primitive != primitive, "{hit:?} at {t}");
         }
-        // A plane stands for both sides of an edge, and counts a little beyond its cell.
+        // A plane represents both sides of an edge, and counts a little beyond its cell.
         assert_eq!(missed, 0, "at {resolution}: {wrong} wrong of {total}");
         shares.push(f64::from(wrong) / f64::from(total));
     }
@@ -177,7 +180,7 @@ fn a_deep_cell_finds_every_layer() {
     for (layers, is_long) in [(500, false), (10_000, true)] {
         assert_eq!(layers > SHORT_LIST_LIMIT as usize, is_long);
         let depth = |layer: usize| 1.0 + layer as f32 * 1.0e-4;
-        // The cube is 2.1 m wide: of 8 cells a side the first is 0.26 m wide. Layers are not in order.
+        // The cube is 2.1 m wide: of 8 cells along a side the first is 0.26 m wide. Layers are not in order.
         let triangle_of = |layer: usize| layer * 7919 % layers;
         let mut triangles: Vec<Triangle> = vec![[[0.0; 3]; 3]; layers];
         for layer in 0..layers {
@@ -279,7 +282,7 @@ fn pauses_change_no_hit() {
         };
         let expected = answers(None, 2);
         for (budget, rounds) in [(2, 800), (13, 120)] {
-            assert_eq!(answers(Some(budget), rounds), expected, "{budget} units a dispatch, {config:?}");
+            assert_eq!(answers(Some(budget), rounds), expected, "{budget} units per dispatch, {config:?}");
         }
     }
 }

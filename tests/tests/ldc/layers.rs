@@ -35,7 +35,7 @@ struct Layers {
     /// Depth and triangle of each fragment of each cell.
     lists: Vec<Vec<(u32, u32)>>,
     blocks: Vec<u32>,
-    /// Triangles beside the centre of each cell, whatever the order of links.
+    /// Triangles of each cell's conservative list, whatever the order of links.
     conservative: Vec<Vec<u32>>,
 }
 
@@ -115,7 +115,7 @@ fn layers_beyond_the_maximum_are_counted_and_refused() {
     let (_, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 2);
     assert_eq!(counters.not_ready, 1, "no partial answer");
     let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-        panic!("more layers are asked for")
+        panic!("more layers are requested")
     };
     let refused = structure.resize(bench.device(), &sizes).expect_err("more layers than may be").to_string();
     assert!(

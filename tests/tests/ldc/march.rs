@@ -55,7 +55,7 @@ fn a_traversal_resumes_wherever_it_was_stopped() {
         let (mut squares, mut without_rows, mut outside) = (0, 0, [0; 2]);
         for (ray, traversal) in rays.iter().zip(traversals.chunks(2)) {
             let [Some(whole), Some(stopped)] = traversal else {
-                panic!("{ray:?} comes to more than {limit} squares")
+                panic!("{ray:?} visits more than {limit} squares")
             };
             assert_eq!(whole, stopped, "{ray:?}, squares {first} to {last}");
             squares += whole.len();

@@ -1,4 +1,4 @@
-//! Capacity for fragments that carry what a scene has at them, at every edge capacity: attributes, normals, and the
+//! Capacity for fragments with a payload from the scene, at every edge capacity: attributes, normals, and the
 //! triangles that are kept for diagnostics. What is shaded afterwards is what ample capacity had.
 
 use rasray_ads::{Ray, Sizes, Structure};
@@ -8,7 +8,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::pictures::{rays_inside, stage};
 use rasray_tests::tier::{in_turn, is_full};
 
-/// Cells a side of each view.
+/// Cells along a side of each view.
 const RESOLUTION: u32 = 24;
 
 /// The scene that fragments are read from.
@@ -18,8 +18,8 @@ fn room(bench: &Bench) -> (GpuScene, Vec<Ray>) {
     (scene, rays)
 }
 
-/// Where rays hit something, and what is shaded there, to the bit. Fragments without ids are told apart by
-/// what they carry: their place in a pool follows the order of threads.
+/// Where rays hit something, and what is shaded there, to the bit. Fragments without ids are identified by
+/// their payload: their place in a pool follows the order of threads.
 fn shaded(bench: &Bench, structure: &dyn Structure, rays: &[Ray]) -> Vec<Option<[u32; 10]>> {
     let shaded: Vec<_> = bench
         .surfaces(structure, rays)

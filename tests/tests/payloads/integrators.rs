@@ -66,7 +66,7 @@ fn every_system_renders_what_brute_force_renders() {
     for system in SYSTEMS.iter().filter(|system| system.name != "brute-force") {
         for preset in system.presets {
             let name = format!("{} {}", system.name, preset.name());
-            // Coarse views do for a room of 38 triangles.
+            // Coarse views suffice for a room of 38 triangles.
             let few = ["mmrt", "hu", "selective", "ldc"].contains(&system.name);
             let options = few.then(|| ("resolution".to_owned(), "256".to_owned()));
             let spec = Spec::new(system.name, preset.name(), options).expect("the options are valid");

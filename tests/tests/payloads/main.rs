@@ -1,4 +1,4 @@
-//! What fragments carry beside depths, and the integrators that read it.
+//! The payload of fragments, and the integrators that read it.
 
 mod capacity;
 mod integrators;

@@ -51,16 +51,16 @@ fn mean(bench: &Bench, scene: &GpuScene, structure: &mut dyn Structure) -> f32 {
 }
 
 #[test]
-fn secondary_rays_meet_fragments_without_ids() {
+fn secondary_rays_hit_fragments_without_ids() {
     let bench = Bench::new();
     let scene = stage(&bench, "cornell", SIZE);
-    // `hu` meets more of the triangle that a ray leaves where it cannot exclude it, and has a test of its own.
+    // `hu` hits more of the triangle that a ray leaves where it cannot exclude it, and has a test of its own.
     for system in ["mmrt", "selective", "ldc"] {
         let mean_of = |payload| {
             let options = [("resolution", "256"), ("payload", payload)];
             mean(&bench, &scene, made(&bench, &scene, system, &options).as_mut())
         };
-        // The same rules with and without ids: rays start a little apart, so a few meet something else.
+        // The same rules with and without ids: rays start a little apart, so a few hit something else.
         let (with_ids, without_ids) = (mean_of("index"), mean_of("attributes"));
         println!("{system}: {with_ids} with ids, {without_ids} without");
         assert!(with_ids < 0.9, "{system}: walls occlude: {with_ids}");
@@ -72,7 +72,7 @@ fn secondary_rays_meet_fragments_without_ids() {
 }
 
 /// Parities lose little of a room, so that occlusion is near the truth with ids and without. All rays start a
-/// cell off a surface; only those that know its triangle exclude it, and the others may meet it again.
+/// cell off a surface; only those that know its triangle exclude it, and the others may hit it again.
 /// A-buffers by their paper's rules are as near; where fragments have no thickness they lose most of the walls,
 /// which shows that the comparison would notice.
 #[test]
@@ -131,8 +131,8 @@ fn difference(left: [f32; 3], right: [f32; 3]) -> f32 {
 }
 
 /// What the paper stores for ambient occlusion is enough for it: hits are those of all attributes, bit for bit, and so are
-/// normals but for one ray in a hundred where fragments meet at one t: a ray that enters a cell behind several of them
-/// within their thickness meets all of these where it enters.
+/// normals except for one ray in a hundred where fragments have the same t: a ray that enters a cell behind several of
+/// them within their thickness hits all of these where it enters.
 #[test]
 fn normals_alone_serve_ambient_occlusion() {
     let bench = Bench::new();
@@ -148,7 +148,7 @@ fn normals_alone_serve_ambient_occlusion() {
             ("attributes", "dllb", "off", "raster", "hardware"),
             ("normal", "dllb", "off", "raster", "hardware"),
         ] {
-            // Every way to keep lists where triangles have masks; elsewhere one, and in the full tier all.
+            // Every storage where triangles have masks; elsewhere one, and in the full tier all.
             let is_usual = storage == "dllb" && coverage == "exact" && name == "cornell";
             if !is_usual && !is_full() && name != "atrium:detail=0.25" {
                 continue;
@@ -221,8 +221,8 @@ fn both_builders_store_the_same_attributes() {
     }
 }
 
-/// Rays hit fragments where they would if those named their triangles, and see their colours and normals, but for the
-/// quantisation, and what a fragment has of its material beside these.
+/// Rays hit fragments where they would if those had triangle ids, and see their colours and normals, except for the
+/// quantisation and the other material terms that a fragment stores.
 #[test]
 fn stored_surfaces_are_those_of_the_triangles() {
     const HALF_A_STEP: f32 = 0.51 / 255.0;
@@ -247,7 +247,7 @@ fn stored_surfaces_are_those_of_the_triangles() {
                     (hit.t.to_bits(), surface.primitive, met)
                 };
                 assert!(stored.iter().map(key).eq(by_address.iter().map(key)), "{system} by address");
-                // However lists are made and kept: fragments without ids are told apart by their words. Systems
+                // However lists are made and kept: fragments without ids are identified by their words. Systems
                 // of voxels share what keeps lists, so that the quick tier tries one way for each.
                 let kept = match system {
                     "mmrt" => &[("storage", "sb"), ("storage", "ll"), ("storage", "paged")][..],
@@ -307,7 +307,7 @@ fn stored_surfaces_are_those_of_the_triangles() {
             let turn = (2.0 * turned / met as f32).max(0.0).sqrt();
             println!("{system}, {name}: {met} fragments, turned by {turn}, {other} of another surface");
             assert!(met > rays.len() / 8, "{system}, {name}: {met} fragments");
-            assert!(name != "cornell" || lamps > 5, "{system}: the lamp is met {lamps} times");
+            assert!(name != "cornell" || lamps > 5, "{system}: the lamp is hit {lamps} times");
             assert!(turn < largest_turn, "{system}, {name}: normals turned by {turn}");
             // Of fragments at one t ids take another one than words do: in corners, where a ray enters a cell
             // within the tolerance of both walls.
@@ -316,7 +316,7 @@ fn stored_surfaces_are_those_of_the_triangles() {
     }
 }
 
-/// Ids kept for diagnostics name the triangle of a hit and change nothing else: t and surfaces are the same to the bit.
+/// Ids kept for diagnostics give the triangle of a hit and change nothing else: t and surfaces are the same to the bit.
 #[test]
 fn ids_name_triangles_and_change_nothing_else() {
     let bench = Bench::new();
@@ -328,7 +328,7 @@ fn ids_name_triangles_and_change_nothing_else() {
     build_until_complete(bench.device(), tree.as_mut(), scene.eye(), Timing::None)
         .expect("the build completes");
     let truth = bench.surfaces(tree.as_ref(), &rays);
-    // What is stored beside what, in company; the full tier takes it apart.
+    // Several choices at once; the full tier tries them separately.
     let apart: &[(&str, &[(&str, &str)])] = &[
         ("mmrt", &[]),
         ("mmrt", &[("storage", "sb"), ("inline", "on")]),
@@ -374,14 +374,14 @@ fn ids_name_triangles_and_change_nothing_else() {
             if off.primitive == PRIMITIVE_UNKNOWN {
                 let near = (on.t - true_hit.t).abs() < 0.02 && true_hit.primitive != PRIMITIVE_NONE;
                 compared.0 += usize::from(near);
-                // The two triangles of a wall follow each other; either's plane is met all over the wall.
+                // The two triangles of a wall follow each other; either's plane is hit all over the wall.
                 compared.1 += usize::from(near && on.primitive / 2 == true_hit.primitive / 2);
             } else {
                 assert_eq!(off.primitive, on.primitive, "{name}");
             }
         }
-        println!("{name}: {} of {} name the wall, {diagnostic} bytes", compared.1, compared.0);
-        // Where walls meet, a fragment may be a neighbour's; more often where fragments are as thick as cells are wide.
+        println!("{name}: {} of {} hit the wall, {diagnostic} bytes", compared.1, compared.0);
+        // Where walls touch, a fragment may be a neighbour's; more often where fragments are as thick as cells.
         let thick = *system == "mmrt" && !options.contains(&("accept", "plane"));
         let least = if thick { 0.9 } else { 0.95 };
         assert!(compared.0 > 500 && compared.1 as f64 >= least * compared.0 as f64, "{name}: {compared:?}");

@@ -83,7 +83,10 @@ fn bricks_grow(config: Config) {
         structure.resize(bench.device(), &sizes).expect("it fits");
         let mut status = bench.build_once(&mut structure, EYE);
         let fits = records_capacity >= records && cells_capacity >= cells;
-        assert_eq!(status.complete, fits, "room for {records_capacity} records and {cells_capacity} lists");
+        assert_eq!(
+            status.complete, fits,
+            "capacity for {records_capacity} records and {cells_capacity} lists"
+        );
         assert_eq!(demand(&status, "records"), records);
         if !fits {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, TraceMode::Closest, 4);
@@ -96,7 +99,7 @@ fn bricks_grow(config: Config) {
             status = bench.build_once(&mut structure, EYE);
             assert!(
                 status.complete,
-                "grown from room for {records_capacity} records and {cells_capacity} lists"
+                "grown from capacity for {records_capacity} records and {cells_capacity} lists"
             );
         }
         assert_eq!((demand(&status, "records"), demand(&status, "lists")), (records, cells));
@@ -135,7 +138,7 @@ fn bytes_are_those_of_the_formula() {
     for config in Views::ALL.map(config) {
         let mut structure: Bricks = made(&bench, config, &geometry);
         let nothing = Demand { triangles: triangles.len() as u64, grid: [GRID; 3], ..Demand::default() };
-        // Lists of bricks are known once all records fit: their room is exact in the second round.
+        // Lists of bricks are known once all records fit: their capacity is exact in the second round.
         let mut sizes = plan(&config, &nothing).expect("in range");
         for _ in 0..2 {
             structure.resize(bench.device(), &sizes).expect("it fits");
@@ -190,7 +193,7 @@ fn every_fault_of_a_brick_is_noticed() {
     assert!(matches!(broken(|c| c.lists[20] = u32::MAX), Fault::Dangling { .. }));
     assert!(matches!(broken(|c| c.entries[0] = u32::MAX), Fault::Primitive { .. }));
     assert!(matches!(broken(|c| c.header.demand += 1), Fault::Count { .. }));
-    // The first list with two entries names its first triangle twice.
+    // The first list with two entries has its first triangle twice.
     let twice = broken(|c| {
         let lists = &c.lists;
         let list = (1..lists.len()).find(|&k| lists[k] >= lists[k - 1] + 2).expect("a list");

@@ -246,7 +246,7 @@ fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
     }
 }
 
-/// Another geometry may ask for more bricks; what was given fewer than it asks for makes no half structure.
+/// Another geometry may need more bricks; with fewer than it needs, no partial structure is built.
 #[test]
 fn missing_capacity_for_bricks_is_noticed() {
     let bench = Bench::new();

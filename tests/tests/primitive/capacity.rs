@@ -75,7 +75,7 @@ fn bytes_are_those_of_the_formula() {
         let mut structure: PrimitiveLists = made(&bench, config, &geometry);
         let status = bench.build_once(&mut structure, EYE);
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("there is no room for entries")
+            panic!("there is no capacity for entries")
         };
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
@@ -121,7 +121,7 @@ fn every_fault_of_a_list_is_noticed() {
         assert!(matches!(broken(|c| c.lists[20] = u32::MAX), Fault::Dangling { .. }));
         assert!(matches!(broken(|c| c.entries[0] = u32::MAX), Fault::Primitive { .. }));
         assert!(matches!(broken(|c| c.header.demand += 1), Fault::Count { .. }));
-        // The first list with two entries names its first triangle twice.
+        // The first list with two entries has its first triangle twice.
         let twice = broken(|c| match c.config.storage {
             Storage::Contiguous => {
                 let lists = &c.lists;

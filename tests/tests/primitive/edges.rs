@@ -42,7 +42,7 @@ pub fn made<D: Design>(bench: &Bench, config: D::Config, geometry: &Geometry) ->
     Pooled::new(bench.device(), config, geometry, None).expect("the options are valid")
 }
 
-/// Capacity for so many entries and near triangles, and ample capacity for all else.
+/// Capacity for that many entries and near triangles, and ample capacity for all else.
 pub trait Capacity: Sized {
     fn capacity(entries: u64, near: u64, triangles: &[Triangle]) -> Self;
 }
@@ -80,11 +80,11 @@ where
         structure.resize(bench.device(), &plan(capacity, near_capacity)).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
         let fits = capacity >= entries && near_capacity >= near;
-        assert_eq!(status.complete, fits, "room for {capacity} and {near_capacity}");
+        assert_eq!(status.complete, fits, "capacity for {capacity} and {near_capacity}");
         assert_eq!(
             (demand(&status, "entries"), demand(&status, "near")),
             (entries, near),
-            "room for {capacity}"
+            "capacity for {capacity}"
         );
         if fits {
             assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
@@ -96,12 +96,12 @@ where
             assert_eq!(
                 counters.not_ready as usize,
                 rays.len(),
-                "room for {capacity} and {near_capacity}, {mode:?}"
+                "capacity for {capacity} and {near_capacity}, {mode:?}"
             );
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {capacity}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with capacity for {capacity}");
         }
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("room for {capacity} does not grow")
+            panic!("capacity for {capacity} does not grow")
         };
         assert_eq!((sizes.elements("entries"), sizes.elements("near")), (entries, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -111,7 +111,7 @@ where
     }
 }
 
-/// Pools for fewer triangles than there are make no half structure.
+/// With pools for fewer triangles than there are, no partial structure is built.
 pub fn missing_capacity_for_triangles<D>(config: D::Config)
 where
     D: Design,

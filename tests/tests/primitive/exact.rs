@@ -44,7 +44,7 @@ impl Made {
         structure
     }
 
-    /// The same in what changes no hit: the other builder, pools by address, no blocks of tiles.
+    /// The same with options that change no hit: the other builder, pools by address, no blocks of tiles.
     fn otherwise(self) -> Self {
         let other = |builder| match builder {
             Builder::Raster => Builder::Binning,
@@ -240,8 +240,8 @@ fn every_published_rule_loses_hits() {
     let structure = lists(&bench, accept, &triangles, EYES[0]);
     let lost = differences(&bench.trace(structure.as_ref(), &rays).hits, &expected).len();
     println!("accept: {lost} of {} hits differ", rays.len());
-    // Rounding alone moves a hit to another tile. That the rule is there shows beside the jump, where it
-    // refuses what a tile passed by would have had.
+    // Rounding alone moves a hit to another tile. The rule has an effect together with the jump, where it
+    // refuses hits that a skipped tile would have had.
     assert!(!accept.is_exact() && lost < rays.len() / 1000, "{lost} of {} hits differ", rays.len());
     let jumping = Config { march: March::Jump, ..fine };
     let refusing = Config { accept: Accept::Tile, ..jumping };
@@ -306,7 +306,7 @@ fn triangles_around_the_eye_are_found() {
             let near = status.demand("near").expect("the pool is counted") as usize;
             let right =
                 if made.has_near_region_list() { near > 20 && near < triangles.len() / 2 } else { near == 0 };
-            assert!(right, "{made:?}: {near} triangles are in the near list");
+            assert!(right, "{made:?}: {near} triangles are in the near-region list");
             let what = format!("eye at {eye:?}, {made:?}");
             assert_exact(&what, &bench, structure.as_ref(), &rays, &expected);
         }

@@ -17,7 +17,7 @@ fn rays() -> Vec<Ray> {
     (0..RAYS).map(|_| Ray::new(random.point(-9.0, 9.0), random.direction())).collect()
 }
 
-/// Builds, and checks that the bytes are those of the formula: hits, and how much of the pool of pairs was asked for.
+/// Builds, and checks that the bytes are those of the formula: hits, and the demand for the large-triangle queue.
 fn built(bench: &Bench, structure: &mut dyn Structure, name: &str) -> (Vec<[u32; 4]>, u64) {
     build_until_complete(bench.device(), structure, [0.0; 3], Timing::None).expect("the build completes");
     let report = structure.report().expect("the header is readable");

@@ -37,7 +37,7 @@ fn center_ray(x: i32, y: i32, resolution: u32) -> Ray {
     Ray::new([0.0; 3], [cell_center(x, resolution), cell_center(y, resolution), 1.0])
 }
 
-/// A triangle as a face sees it. The oracle is asked there: which axis a test shears along decides its
+/// A triangle as a face sees it. The oracle is queried there: which axis a test shears along decides its
 /// rounding, and in border cells the depth is not the longest axis.
 fn seen_by(triangle: &Triangle, face: u32) -> Triangle {
     triangle.map(|p| face_from_world(p.map(f64::from), face).map(|x| x as f32))

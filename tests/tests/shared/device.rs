@@ -1,5 +1,5 @@
-//! The device floor: what is missing is named, what was not asked for is not enabled, and structures run
-//! with exactly what they ask for.
+//! The device floor: missing features are named, features that were not requested are not enabled, and structures run
+//! with exactly what they require.
 
 use std::collections::BTreeSet;
 
@@ -31,7 +31,7 @@ fn the_floor_is_enough_and_nothing_else_is_enabled() {
         assert_eq!(device.has(feature), floor.contains(&feature), "{feature}");
     }
     assert_eq!(device.enabled().into_iter().collect::<BTreeSet<_>>(), floor);
-    // Addresses exist only where they were asked for.
+    // Addresses exist only where they were requested.
     let buffer = device.create_buffer_with("values", BufferUsage::STORAGE, &[0_u8; 64]).expect("memory");
     assert_eq!(buffer.address(), None);
     assert_eq!(device.validation_messages(), Vec::<String>::new());
@@ -98,7 +98,7 @@ fn geometry(device: &Device) -> Geometry {
     Geometry::new(device, desc).expect("geometry fits")
 }
 
-/// Builds and traces; all rays from the inside of the sphere meet it.
+/// Builds and traces; all rays from the inside of the sphere hit it.
 fn runs(device: &Device, structure: &mut dyn Structure) {
     build_until_complete(device, structure, [0.1, 0.2, 0.3], Timing::None).expect("the build completes");
     let rays: Vec<Ray> = (0..64)
@@ -115,9 +115,9 @@ fn runs(device: &Device, structure: &mut dyn Structure) {
     }
 }
 
-/// A device with what the structure asks for, and a check that this is all it has.
+/// A device with what the structure requires, and a check that this is all it has.
 fn exact_device(requirements: &Requirements) -> Device {
-    let device = create(requirements).expect("a device with what the structure asks for");
+    let device = create(requirements).expect("a device with what the structure requires");
     let allowed: BTreeSet<Feature> = requirements
         .required
         .iter()
@@ -140,7 +140,7 @@ fn brute_force_runs_on_the_floor() {
 }
 
 #[test]
-fn the_abuffer_runs_with_exactly_what_it_asks_for() {
+fn the_abuffer_runs_with_exactly_what_it_requires() {
     for addressing in [Addressing::Descriptor, Addressing::Address] {
         let config = Config { addressing, ..Config::robust(32) };
         let requirements = ABuffer::requirements_of(&config);
@@ -166,7 +166,7 @@ fn the_abuffer_says_which_feature_an_option_lacks() {
 
 /// That validation is silent means something: it speaks where a feature is used that was not enabled.
 #[test]
-fn using_what_was_not_asked_for_is_noticed() {
+fn using_what_was_not_requested_is_noticed() {
     let device = exact_device(&Requirements::floor());
     let result = ABuffer::new(&device, Config::robust(32), &geometry(&device), None);
     let messages = device.validation_messages();

@@ -12,7 +12,7 @@ use rasray_tests::visits::{exact_grid_chords, point, run_kernel, runs, unresolve
 
 type Cell = [i32; 3];
 
-/// At most 3 size + 1 steps, each with at most the 3 cells beside it and their twins beyond the boundary.
+/// At most 3 size + 1 steps, each with at most the 3 cells next to it and the same beyond the boundary.
 fn visit_limit(size: u32) -> usize {
     7 * (3 * size as usize + 1) + 8
 }
@@ -194,7 +194,7 @@ fn signed_zeros_traverse_along_an_axis() {
         }
     }
     let visits = check("X4", &[Ray::new([0.5, 20.25, 7.75], [1.0, -0.0, 0.0])], 64).concat();
-    assert_eq!(visits.len(), 64, "an axis walk through the middle of cells touches no others");
+    assert_eq!(visits.len(), 64, "an axis traversal through the middle of cells touches no others");
 }
 
 /// X5: a direction that is zero is no ray.

@@ -12,7 +12,7 @@ use rasray_tests::visits::{
 
 use crate::march_cases;
 
-/// Most visits of one ray. A traversal is monotone in columns and rows, and a line crosses at most three
+/// Maximum number of visits of one ray. A traversal is monotone in columns and rows, and a line crosses at most three
 /// faces at length, so there are at most 4 (resolution + 2) steps and a few for the border. Each visits at
 /// most the eight cells around it as well, which happens only where cells are as small as rounding.
 fn visit_limit(resolution: u32) -> usize {
@@ -60,7 +60,7 @@ fn traverse(bench: &Bench, rays: &[Ray], resolution: u32, near: f32) -> Vec<Vec<
 /// What is wrong with the visits of a ray; `None` if nothing is.
 fn fault(ray: &Ray, visits: &[Visit], resolution: u32, near: f32, random: &mut Random) -> Option<String> {
     if ray.t_min >= ray.t_max {
-        return (!visits.is_empty()).then(|| "an empty range is walked".to_owned());
+        return (!visits.is_empty()).then(|| "an empty range is traversed".to_owned());
     }
     let mut by_cell: HashMap<FaceCell, Vec<[f32; 2]>> = HashMap::new();
     let mut reached = ray.t_min;
@@ -75,7 +75,7 @@ fn fault(ray: &Ray, visits: &[Visit], resolution: u32, near: f32, random: &mut R
         by_cell.entry((visit.face, visit.x, visit.y)).or_default().push([visit.t_low, visit.t_high]);
     }
     if reached < ray.t_max {
-        return Some(format!("the walk ends at {reached}"));
+        return Some(format!("the traversal ends at {reached}"));
     }
     for chord in exact_face_chords(ray, resolution, near) {
         let spans = by_cell.get(&chord.cell).map_or(&[][..], Vec::as_slice);
@@ -223,7 +223,7 @@ fn every_ray_that_crosses_the_near_region_visits_it() {
             Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
         })
         .collect();
-    let mut met = 0;
+    let mut inside = 0;
     for (ray, visits) in rays.iter().zip(traverse(&bench, &rays, 16, near)) {
         // Samples of the ray in double precision decide whether, and where, it is inside.
         for step in 0..400 {
@@ -235,10 +235,10 @@ fn every_ray_that_crosses_the_near_region_visits_it() {
                 .any(|v| v.face == FACE_NEAR && f64::from(v.t_low) <= t && t <= f64::from(v.t_high));
             assert!(depth <= 1.0e-5 || listed, "{ray:?} is in the box at t = {t}: {visits:?}");
             assert!(depth >= -1.0e-5 || !listed, "{ray:?} is outside of the box at t = {t}");
-            met += usize::from(listed);
+            inside += usize::from(listed);
         }
     }
-    assert!(met > 10_000, "only {met} samples were inside: the test tests nothing");
+    assert!(inside > 10_000, "only {inside} samples were inside: the test tests nothing");
 }
 
 /// The checker itself: a traversal that loses a cell, or claims too little of one, is found out.

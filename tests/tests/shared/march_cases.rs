@@ -87,7 +87,7 @@ pub fn across_the_view(resolution: u32) -> Vec<Ray> {
     rays
 }
 
-/// V5: in the planes where two faces meet, from the eye, through it, and beside it.
+/// V5: in the planes where two faces touch, from the eye, through it, and next to it.
 pub fn seams() -> Vec<Ray> {
     let mut rays = Vec::new();
     for axis in 0..3 {

@@ -64,7 +64,7 @@ fn every_entry_is_in_its_list_once() {
                     assert!(!std::mem::replace(&mut seen[thread], true), "thread {thread} is listed twice");
                 }
             }
-            assert!(seen.iter().all(|seen| *seen), "{list_count} lists, {page} a page: an entry is lost");
+            assert!(seen.iter().all(|seen| *seen), "{list_count} lists, {page} per page: an entry is lost");
             let mut slots = slots;
             slots.sort_unstable();
             assert!(slots.windows(2).all(|pair| pair[0] < pair[1]), "a slot was given twice");
@@ -72,16 +72,16 @@ fn every_entry_is_in_its_list_once() {
     }
 }
 
-/// Threads that do not meet begin no more pages than they need, and demand is counted past the end of the pool.
+/// Threads that do not collide begin no more pages than they need, and demand is counted past the end of the pool.
 #[test]
-fn demand_is_exact_where_threads_do_not_meet_and_counted_past_the_end() {
+fn demand_is_exact_where_threads_do_not_collide_and_counted_past_the_end() {
     const LISTS: usize = 640;
     let bench = Bench::new();
-    // One thread a list: a page each, whatever there is capacity for.
+    // One thread per list: a page each, whatever the capacity.
     let lists: Vec<u32> = (0..LISTS as u32).collect();
     for capacity in [0, 1, 100, LISTS as u32] {
         let (words, slots) = fill(&bench, &lists, LISTS, 4, capacity);
-        assert_eq!(words[0] as usize, LISTS, "room for {capacity}");
+        assert_eq!(words[0] as usize, LISTS, "capacity for {capacity}");
         assert!(slots.iter().all(|slot| slot % 4 == 3), "a page is filled from its end");
         let stored = words[1 + LISTS..].chunks_exact(5).filter(|page| page[4] != 0).count();
         assert_eq!(stored, capacity as usize);

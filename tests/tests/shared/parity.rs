@@ -28,7 +28,7 @@ fn rays() -> Vec<Ray> {
     (0..RAYS).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect()
 }
 
-/// The answers of both structures to every ray; one that filed none leaves a hit that no trace answers.
+/// The answers of both structures to every ray; where none was stored, a hit that no trace answers.
 fn side_by_side(
     bench: &Bench,
     shader: &Shader,
@@ -98,8 +98,8 @@ impl Traced {
         let mut structure = spec.create(bench.device(), &geometry, None).expect("the options are valid");
         build_until_complete(bench.device(), &mut *structure, [0.0; 3], Timing::None).expect("it is built");
         let hits = bench.trace(&*structure, &rays()).hits;
-        let met = hits.iter().filter(|hit| hit.is_hit()).count();
-        assert!((RAYS / 4..RAYS).contains(&met), "{}: {met} of {RAYS} rays hit", spec.system().name);
+        let hit = hits.iter().filter(|hit| hit.is_hit()).count();
+        assert!((RAYS / 4..RAYS).contains(&hit), "{}: {hit} of {RAYS} rays hit", spec.system().name);
         Self { structure, hits }
     }
 }

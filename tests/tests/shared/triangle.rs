@@ -130,8 +130,8 @@ fn huge_and_straight(random: &mut Random) -> Case {
     Case { triangle, origin, direction }
 }
 
-/// A triangle met almost along itself, with one corner at the depth of the origin: the weights of the corners
-/// are lost in rounding, and the corner beside the origin hides in no product how far the others are.
+/// A triangle hit at a grazing angle, with one corner at the depth of the origin: the weights of the corners
+/// are lost in rounding, and no product with the corner next to the origin hides the distance of the others.
 fn grazed(random: &mut Random) -> Case {
     let step = 2.0_f32.powi(-(6 + random.bits() as i32 % 12));
     let scale = [1.0_f32, 3.0, 10.0][random.bits() as usize % 3];

@@ -32,7 +32,7 @@ fn trace(bench: &Bench, structure: &Voxels, rays: &[Ray]) -> Vec<Hit> {
     hits
 }
 
-/// Capacity for so many fragments.
+/// Capacity for that many fragments.
 fn capacity(entries: u64) -> Demand {
     Demand { entries, ..Demand::default() }
 }
@@ -58,7 +58,7 @@ fn every_edge_capacity(config: Config) {
             .resize(bench.device(), &plan(&config, capacity(entries)).expect("in range"))
             .expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
-        assert_eq!(status.complete, entries == demand, "room for {entries}");
+        assert_eq!(status.complete, entries == demand, "capacity for {entries}");
         assert_eq!((status.pools[0].demand, status.pools[0].capacity), (demand, entries));
         if entries == demand {
             assert_eq!(structure.check(&status, 0).expect("sizes that do"), Check::Complete);
@@ -67,13 +67,13 @@ fn every_edge_capacity(config: Config) {
         }
         for mode in [TraceMode::Closest, TraceMode::Occluded] {
             let (hits, counters) = trace_in_rounds(&bench, &structure, &rays, mode, 4);
-            assert_eq!(counters.not_ready as usize, rays.len(), "room for {entries}, {mode:?}");
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {entries}");
+            assert_eq!(counters.not_ready as usize, rays.len(), "capacity for {entries}, {mode:?}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with capacity for {entries}");
         }
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("room for {entries} does not grow")
+            panic!("capacity for {entries} does not grow")
         };
-        // Pages come with a little more capacity: how many are begun depends on which threads meet.
+        // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
         let extra = if config.storage == Storage::Paged { demand / 64 } else { 0 };
         assert_eq!(sizes.elements("fragments"), demand + extra);
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -144,7 +144,7 @@ fn bytes_are_those_of_the_formula() {
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(
             matches!(structure.check(&status, 0).expect("sizes that do"), Check::Grow(_)),
-            "there is no room for anything"
+            "there is no capacity for anything"
         );
         let sizes = plan(&config, capacity(status.pools[0].demand)).expect("in range");
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -167,13 +167,13 @@ fn bytes_are_those_of_the_formula() {
     }
 }
 
-/// Ten thousand fragments in a cell are sorted a share a dispatch, once there is capacity for the names of such
+/// Ten thousand fragments in a cell are sorted in part per dispatch, once there is capacity for such
 /// lists, or stay as they are; planes find each layer, and parities the same whatever the order.
 #[test]
 fn lists_of_ten_thousand_are_searched() {
     const LAYERS: usize = 10_000;
     let bench = Bench::new();
-    // Two cells a side: one plate covers one centre. From far to near, and not in order.
+    // Two cells along a side: one plate covers one centre. From far to near, and not in order.
     let depth = |layer: usize| layer as f32 * 1.0e-4;
     let plate = |z: f32| [[0.0, 0.0, z], [1.4, 0.0, z], [0.0, 1.4, z]];
     let mut triangles: Vec<Triangle> = (0..LAYERS).map(|k| plate(depth(k * 7919 % LAYERS))).collect();
@@ -198,7 +198,7 @@ fn lists_of_ten_thousand_are_searched() {
             let long = status.demand("long").expect("the pool is counted");
             assert!(!status.complete && long > 0 && status.unsorted == 0, "{status:?}");
             let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-                panic!("there is no room for long lists")
+                panic!("there is no capacity for long lists")
             };
             structure.resize(bench.device(), &sizes).expect("it fits");
             status = bench.build_once(&mut structure, [0.0; 3]);

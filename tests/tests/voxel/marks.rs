@@ -1,4 +1,4 @@
-//! Which voxels are said to hold something, and along which axes they are searched.
+//! Which voxels are occupied, and along which axes they are searched.
 
 use rasray_shaders_glsl::constants::voxel::VOXEL_OCCUPIED;
 use rasray_tests::harness::Bench;
@@ -87,7 +87,7 @@ fn every_voxel_that_a_triangle_reaches_into_is_searched() {
             assert!(lost_points > 0, "cells' centres miss the specks");
             continue;
         }
-        assert_eq!(lost_points, 0, "{grid} voxels a side, {axes:?}");
+        assert_eq!(lost_points, 0, "{grid} voxels along a side, {axes:?}");
         // The comparison notices a word of voxels that is missing.
         let mut missing = contents.voxels.clone();
         let marked = missing.iter().position(|word| *word != 0).expect("something is marked");
@@ -102,10 +102,10 @@ fn every_voxel_that_a_triangle_reaches_into_is_searched() {
     }
 }
 
-/// Specks without a fragment, however many, leave a voxel the axis of the fragments in it, and give one
-/// without fragments their own. Marked by fragments alone that one is empty.
+/// Specks without a fragment, however many, do not change the axis of a voxel with fragments, and give one
+/// without fragments their own. Marked only by fragments, that one is empty.
 #[test]
-fn triangles_have_a_say_on_axes_where_there_are_no_fragments() {
+fn triangles_decide_axes_where_there_are_no_fragments() {
     const GRID: u32 = 16;
     const SPECKS: usize = 100;
     let bench = Bench::new();

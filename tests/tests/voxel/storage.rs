@@ -69,7 +69,7 @@ fn fragments_saved_are_those_that_geometry_allows() {
     }
 }
 
-/// The fragments of every list; of lists that are not sorted in an order that says nothing.
+/// The fragments of every list; of lists that are not sorted, in no particular order.
 fn lists(contents: &Contents) -> Vec<Vec<Fragment>> {
     (0..contents.lists.len())
         .map(|list| {
@@ -224,7 +224,7 @@ fn a_room_is_exact_at_every_resolution() {
 }
 
 /// As many cells as a dispatch may step through, in one voxel, and what lies behind them is still found: the
-/// walk fits the loops that a driver allows.
+/// traversal fits the loops that a driver allows.
 #[test]
 fn a_traversal_as_long_as_the_budget_reaches_its_end() {
     let bench = Bench::new();

@@ -57,7 +57,7 @@ enum Made {
     Pipeline(vk::ShaderModule, vk::PipelineLayout, vk::Pipeline),
 }
 
-/// A buffer of the host in memory that it sees.
+/// A buffer of the host in host-visible memory.
 #[derive(Clone, Copy)]
 pub struct HostBuffer {
     pub raw: vk::Buffer,
@@ -66,7 +66,7 @@ pub struct HostBuffer {
 }
 
 impl Host {
-    /// Makes a device with those features and a queue that computes, and draws where a feature is about drawing.
+    /// Makes a device with those features and a queue for compute, and for graphics where a feature is about drawing.
     pub fn new(features: &[Feature]) -> Result<Self> {
         let draws = features.contains(&Feature::DynamicRendering);
         // SAFETY: every handle is used with the instance or device that it was made from, by this thread alone, and what
@@ -91,7 +91,7 @@ impl Host {
             }
             let families = instance.get_physical_device_queue_family_properties(physical);
             let family = families.iter().position(|family| family.queue_flags.contains(wanted));
-            let family = family.ok_or("no queue does that")? as u32;
+            let family = family.ok_or("no queue has these capabilities")? as u32;
             let queues = vk::DeviceQueueCreateInfo::default().queue_family_index(family);
             let queues = [queues.queue_priorities(&[1.0])];
             let has = |feature| features.contains(&feature);
@@ -137,7 +137,7 @@ impl Host {
         }
     }
 
-    /// What rasray has to know of the device. `enabled` are the features that it was made with.
+    /// What rasray needs to know about the device. `enabled` are the features that it was made with.
     pub fn raw_device(&self, enabled: &[Feature]) -> RawDevice {
         RawDevice {
             instance: self.instance.clone(),
@@ -202,7 +202,7 @@ impl Host {
             let kind = types.position(|(k, memory)| {
                 needs.memory_type_bits >> k & 1 != 0 && memory.property_flags.contains(seen)
             });
-            let kind = kind.ok_or("no memory that the host sees")? as u32;
+            let kind = kind.ok_or("no host-visible memory")? as u32;
             let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
             let memory = self.device.allocate_memory(&info, None)?;
             self.device.bind_buffer_memory(raw, memory, 0)?;
@@ -368,7 +368,7 @@ pub struct Mesh {
     pub bounds: [[f32; 3]; 2],
 }
 
-/// Upright steps of two triangles each, of which each is behind the one below.
+/// Upright steps of two triangles each, each step behind the one below.
 pub fn staircase(steps: u32) -> Mesh {
     let (y, up) = (|k: u32| k as f32 / steps as f32, 1.0 / steps as f32);
     let step = |k| [[0.0, y(k), y(k)], [1.0, y(k), y(k)], [0.0, y(k) + up, y(k)], [1.0, y(k) + up, y(k)]];
@@ -377,7 +377,7 @@ pub fn staircase(steps: u32) -> Mesh {
     Mesh { positions, indices, bounds: [[0.0; 3], [1.0, 1.001, 1.0]] }
 }
 
-/// Rays of which many hit the stairs.
+/// Rays, many of which hit the stairs.
 pub fn rays() -> Vec<Ray> {
     let origin = |k: u32| [0.1 + 0.0007 * k as f32, 0.0003 + 0.00099 * k as f32, -1.0];
     (0..1000).map(|k| Ray::new(origin(k), [0.05, 0.01, 1.0])).collect()

@@ -92,7 +92,7 @@ const DAMAGES: [Damage; 10] = [
     ),
 ];
 
-/// Damage to what cells keep beside their centres.
+/// Damage to conservative lists.
 const DAMAGES_OF_CONSERVATIVE_LISTS: [Damage; 4] = [
     (
         "every node of a conservative list is its own neighbour",

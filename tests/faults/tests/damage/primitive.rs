@@ -52,7 +52,7 @@ const OF_ANY: [Damage; 4] = [
         Flag::Corrupted,
     ),
     ("lists that are all ones", |c| c.lists.fill(u32::MAX), Flag::Corrupted),
-    ("entries that name no triangle", |c| c.entries.fill(u32::MAX - 1), Flag::Corrupted),
+    ("entries with invalid triangle indices", |c| c.entries.fill(u32::MAX - 1), Flag::Corrupted),
     (
         "lists, entries and bounds at random",
         |c| {

@@ -1,5 +1,6 @@
 //! Every system of the registry with pools that hold anything at all: traces end within their bounds, and what was built
-//! is found again once it is back. Which damage is told, and how, is tested for each structure that has a file here.
+//! is found again once it is back. Which damage is reported, and how, is tested for each structure that has a file
+//! here.
 
 use rasray_ads::TraceMode;
 use rasray_faults::{device, finish, in_child, rays, scrambled, spec, stage};
@@ -36,7 +37,7 @@ fn check(system: &str, addressing: &str) {
     assert_eq!(structure.fault(&device).expect("contents"), None, "{system}: an undamaged build");
     let whole = structure.download_pools(&device).expect("contents");
     let (mut told, mut found) = (0, 0);
-    // The header is taken at its word.
+    // The header is trusted.
     for place in 1..whole.len() {
         for (filling, fill) in FILLINGS {
             let mut pools = whole.clone();

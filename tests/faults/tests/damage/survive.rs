@@ -12,11 +12,11 @@ pub const RAYS: u32 = 96;
 /// How traces say that something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flag {
-    /// Rays that go round and round are given up and counted.
+    /// Rays in a cyclic list are given up and counted.
     Unfinished,
-    /// Entries that name nothing are counted.
+    /// Entries with an invalid index are counted.
     Corrupted,
-    /// A trace cannot know: the entries name something, only not what they should. The check of the contents does.
+    /// A trace cannot detect it: the indices are valid, but wrong. The check of the contents does.
     Contents,
 }
 
@@ -61,7 +61,7 @@ pub fn survive<D: Design<Contents: Clone>>(
             let start = Instant::now();
             let result = trace(&structure, mode);
             println!("{name}, {mode:?}: {} in {:?}", words(&result), start.elapsed());
-            // A ray that is answered at its first hit need not come to the damage.
+            // A ray that is answered at its first hit need not reach the damage.
             let any = mode == TraceMode::Occluded && flag == Flag::Unfinished;
             let flagged = match flag {
                 Flag::Unfinished => matches!(result, Err(TracerError::Unfinished { .. })),

@@ -34,7 +34,7 @@ fn every_fault_of_a_conservative_list_is_noticed() {
     assert!(matches!(broken(&|c| c.bounds[head] = 0), Fault::Count { .. }));
     assert!(matches!(broken(&|c| c.bounds[head] = u32::MAX), Fault::Conservative { .. }));
     assert!(matches!(broken(&|c| c.conservative[3 * node + 1] = c.bounds[head]), Fault::Conservative { .. }));
-    // Traces end whatever links say, and count what names nothing.
+    // Traces end whatever links say, and count invalid ones.
     let mut dangling = good.clone();
     for cell in 0..cells {
         dangling.bounds[(cell + 1) * stride - 1] = u32::MAX;
@@ -108,7 +108,7 @@ fn every_fault_of_a_list_is_noticed() {
         ("a depth out of bounds", Box::new(|c| c.nodes[depth(links[2])] = 1.0e9_f32.to_bits()), |f| {
             matches!(f, Fault::Depth { .. })
         }),
-        // A list that runs in a circle ends all the same.
+        // Reading a cyclic list ends all the same.
         ("a circle", Box::new(|c| c.nodes[next(links[2])] = links[0] as u32), |f| {
             matches!(f, Fault::Backward { .. } | Fault::Order { .. } | Fault::Dangling { .. })
         }),

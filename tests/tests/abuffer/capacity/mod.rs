@@ -38,17 +38,17 @@ fn config(storage: Storage) -> Config {
     Config { storage, ..Config::robust(16) }
 }
 
-/// The same with what reaches into cells beside their centres.
+/// The same with conservative lists.
 fn nearby(storage: Storage) -> Config {
     Config { coverage: Coverage::Conservative, ..config(storage) }
 }
 
-/// Capacity for so many fragments and triangles around the eye.
+/// Capacity for that many fragments and triangles around the eye.
 fn capacity(fragments: u64, near_triangles: u64) -> Demand {
     Demand { nodes: fragments, near_triangles, triangles: scene().len() as u64, ..Demand::default() }
 }
 
-/// What rays hit, bit for bit. Of fragments without an id a and b name a node, whose number follows the
+/// What rays hit, bit for bit. For fragments without an id, a and b refer to a node, whose number follows the
 /// order of threads.
 fn trace(bench: &Bench, structure: &ABuffer, rays: &[Ray]) -> Vec<[u32; 4]> {
     let (hits, counters) = trace_in_rounds(bench, structure, rays, TraceMode::Closest, 4);
@@ -94,11 +94,11 @@ fn every_edge_capacity(config: Config) {
         structure.resize(bench.device(), &sizes).expect("it fits");
         let status = bench.build_once(&mut structure, EYE);
         let fits = nodes_capacity >= nodes && near_capacity >= near;
-        assert_eq!(status.complete, fits, "{config:?}: room for {nodes_capacity} and {near_capacity}");
+        assert_eq!(status.complete, fits, "{config:?}: capacity for {nodes_capacity} and {near_capacity}");
         assert_eq!(
             (demand(&status, "nodes"), demand(&status, "near")),
             (nodes, near),
-            "room for {nodes_capacity}"
+            "capacity for {nodes_capacity}"
         );
         check_well_formed(&bench, &structure);
         if fits {
@@ -111,14 +111,17 @@ fn every_edge_capacity(config: Config) {
             assert_eq!(
                 counters.not_ready as usize,
                 rays.len(),
-                "room for {nodes_capacity} and {near_capacity}, {mode:?}"
+                "capacity for {nodes_capacity} and {near_capacity}, {mode:?}"
             );
-            assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {nodes_capacity}");
+            assert!(
+                hits.iter().all(|hit| !hit.is_hit()),
+                "a partial answer with capacity for {nodes_capacity}"
+            );
         }
         let Check::Grow(sizes) = structure.check(&status, 0).expect("sizes that do") else {
-            panic!("room for {nodes_capacity} does not grow")
+            panic!("capacity for {nodes_capacity} does not grow")
         };
-        // Pages come with a little more capacity: how many are begun depends on which threads meet.
+        // Pages come with a little more capacity: the number of begun pages depends on which threads collide.
         let extra = if config.storage == Storage::Paged && nodes_capacity < nodes { nodes / 64 } else { 0 };
         assert_eq!((sizes.elements("nodes"), sizes.elements("near")), (nodes + extra, near));
         structure.resize(bench.device(), &sizes).expect("it fits");
@@ -195,16 +198,19 @@ fn every_edge_capacity_of_the_conservative_lists() {
         assert!(ample.complete && grown.is_none());
         let (nodes, conservative) = (demand(&ample, "nodes"), demand(&ample, "conservative"));
         assert!(conservative > 100, "{ample:?}");
-        // Which pages are begun depends on which threads meet.
+        // Which pages are begun depends on which threads collide.
         let all = if storage == Storage::Paged { nodes + nodes / 8 } else { nodes };
         for capacity in [0, 1, conservative / 2, conservative - 1, conservative] {
             let (status, grown, hits) = build(all, capacity);
-            assert_eq!(demand(&status, "conservative"), conservative, "{storage:?}: room for {capacity}");
+            assert_eq!(demand(&status, "conservative"), conservative, "{storage:?}: capacity for {capacity}");
             if capacity == conservative {
                 assert!(status.complete && hits == expected, "{storage:?}");
             } else {
-                assert_eq!(grown, Some((all, conservative)), "{storage:?}: room for {capacity}");
-                assert!(hits.iter().all(|hit| !hit.is_hit()), "a partial answer with room for {capacity}");
+                assert_eq!(grown, Some((all, conservative)), "{storage:?}: capacity for {capacity}");
+                assert!(
+                    hits.iter().all(|hit| !hit.is_hit()),
+                    "a partial answer with capacity for {capacity}"
+                );
             }
         }
         let (status, grown, _) = build(nodes / 2, 0);

@@ -10,7 +10,7 @@ use rasray_reference::shading::{PosedScene, Sampler, View};
 use rasray_scene::{Camera, Scene};
 use rasray_tests::image_truth::Studio;
 
-/// Pixels a side.
+/// Pixels along a side.
 const SIZE: u32 = 24;
 const SAMPLES: u32 = 4;
 const BOUNCES: u32 = 4;

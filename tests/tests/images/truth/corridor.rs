@@ -15,7 +15,7 @@ const REFLECTANCE: f32 = 0.95;
 /// Metres by which the ray rises on its way from wall to wall.
 const RISE: f64 = 0.01;
 
-/// Height at which the ray from halfway between the walls meets a wall after `reflections` of them.
+/// Height at which the ray from halfway between the walls hits a wall after `reflections` of them.
 fn height(reflections: u32, rise: f64) -> f64 {
     rise * (f64::from(reflections) + 0.5)
 }

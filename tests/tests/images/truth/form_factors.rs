@@ -84,7 +84,7 @@ fn a_sphere_on_a_plane_hides_its_share() {
         let hidden = 1.0 - truth(distance)[0];
         let sphere = next_to_sphere(1.0, 1.0, distance);
         assert!(hidden < sphere && hidden > 0.9 * sphere, "facets lie a little inside: {hidden} {sphere}");
-        let name = format!("sphere {distance} m beside");
+        let name = format!("sphere {distance} m aside");
         stage.look(camera(distance));
         assert_truth(&name, &occlusion(&bench, &stage), truth(distance), 0.0);
         if distance <= 1.0 {
@@ -97,7 +97,7 @@ fn a_sphere_on_a_plane_hides_its_share() {
     let resolution = 4 * RESOLUTION;
     let slack = 1.5 * 10.0 / f64::from(resolution) / truth(1.0)[0];
     let fragments = System::MmrtRobust(resolution);
-    let name = format!("sphere 1 m beside, {fragments:?}");
+    let name = format!("sphere 1 m aside, {fragments:?}");
     let stage = Studio::new(&bench, &scene(1.0), camera(1.0), 32, fragments);
     assert_truth(&name, &occlusion(&bench, &stage), truth(1.0), slack);
     let broken = Studio::new(&bench, &scene(1.5), camera(1.0), 32, fragments);

@@ -43,7 +43,7 @@ fn a_closed_room_adds_up_the_series_of_its_albedo() {
     }
 }
 
-/// Facets of glass hold light for long: after 24 scatterings half a per cent is still inside, after 96 nothing that
+/// Facets of glass hold light for long: after 24 scatterings half a percent is still inside, after 96 nothing that
 /// more would let out.
 const SCATTERINGS: u32 = 96;
 

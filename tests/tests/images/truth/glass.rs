@@ -108,7 +108,7 @@ fn fragments_show_light_through_two_plates() {
     let bench = Bench::new();
     let system = System::MmrtRobust(RESOLUTION);
     let truth = grey(interface_transmission(&stacks()[1].interfaces));
-    // One trace an interface, and one to the lamp.
+    // One trace per interface, and one to the lamp.
     let slack = law(system, 5);
     for (ior, right) in [(1.5, true), (2.0, false)] {
         let stage = Studio::new(&bench, &before_lamp(ior), camera(1), SIZE, system);

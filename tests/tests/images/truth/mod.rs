@@ -13,7 +13,7 @@ use rasray_tests::harness::Bench;
 use rasray_tests::image_truth::System;
 use rasray_tests::tier::Counts;
 
-/// Cells a side of the A-buffer where it is held against closed forms.
+/// Cells along a side of the A-buffer where it is held against closed forms.
 const RESOLUTION: u32 = 64;
 
 /// Brute force and the A-buffer.
