@@ -3,9 +3,9 @@
 use ash::vk;
 use glam::DVec3;
 use rasray_ads::Ray;
-use rasray_gpu::{Access, BufferDesc, BufferUsage, MemoryLocation, Recorder, Timing};
+use rasray_gpu::{Access, BufferDesc, BufferUsage, GpuError, MemoryLocation, Recorder, Timing};
 use rasray_gpu_scene::layout::Frame;
-use rasray_gpu_scene::{Sampler, Sampling};
+use rasray_gpu_scene::{GpuSceneError, PosePass, Sampler, Sampling};
 use rasray_reference::oracle::Oracle;
 use rasray_scene::Scene;
 use rasray_scene::animation::{ChannelValues, Rig};
@@ -97,6 +97,25 @@ fn pending_recordings_have_poses_and_views_of_their_own() {
         }
         raw.destroy_command_pool(pool, None);
     }
+}
+
+/// Scenes, tables and poses that do not belong together are errors, not pictures.
+#[test]
+fn what_was_made_for_another_scene_is_refused() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let rig = Rig { nodes: vec![node(None, DVec3::ZERO)], ..Rig::default() };
+    let moves = ChannelValues::Translation(vec![[0.0; 3], [1.0; 3]]);
+    let other = scene(vec![cloud(3, [0.0; 3], 60)], rig, vec![linear(0, moves)]);
+    let (stage, other) = (Stage::new(&bench, moving(), DVec3::ZERO), Stage::new(&bench, other, DVec3::ZERO));
+    let moment = at(&other.scene, 0.5);
+    let pose = other.pass.frame(&other.scene, &moment).expect("it is of this scene");
+    let submitted = device.submit(|recorder| stage.pass.record(recorder, &pose));
+    assert!(matches!(submitted, Err(GpuError::InvalidUse { .. })), "{submitted:?}");
+    let frame = stage.pass.frame(&other.scene, &moment);
+    assert!(matches!(frame, Err(GpuSceneError::Malformed { limit: 1, .. })), "{frame:?}");
+    let pass = PosePass::new(device, &other.scene, &stage.fresh(&moment), &stage.gpu);
+    assert!(matches!(pass, Err(GpuSceneError::Malformed { limit: 1, .. })), "{pass:?}");
 }
 
 /// One structure, built again after each pose, answers as the oracle does on the positions that are on the device.
