@@ -49,6 +49,11 @@ pub(crate) fn build(boxes: &[Box3], leaf: u32) -> Tree {
     if boxes.is_empty() {
         return Tree { root: BVH_NONE, nodes: Vec::new(), order: Vec::new() };
     }
+    // No ray hits a triangle with a corner that is not finite; where it is infinite, the check of the build counts it.
+    let is_finite = |bounds: &Box3| bounds.as_flattened().iter().all(|x| x.is_finite());
+    let boxes: Vec<Box3> =
+        boxes.iter().map(|bounds| if is_finite(bounds) { *bounds } else { [[0.0; 3]; 2] }).collect();
+    let boxes = &boxes[..];
     let (distinct, groups) = grouped(boxes);
     let indices: Vec<u32> = (0..distinct.len() as u32).collect();
     let normalized = normalized(&distinct);

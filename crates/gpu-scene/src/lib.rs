@@ -51,7 +51,7 @@ pub use smaller_images::{SmallerImage, TexelDemand};
 pub use table_bytes::left_out_bytes;
 pub use tables::SceneTables;
 pub use texel_runs::{TEXEL_BYTES, TexelRuns};
-pub use upload::{GpuScene, ShadingFeatures};
+pub use upload::{GpuScene, PosedBuffers, ShadingFeatures};
 pub use view::{Sampler, Sampling, View};
 
 /// What the readme shows compiles.

@@ -69,8 +69,8 @@ impl PosePass {
     /// images of the scene are not looked at.
     ///
     /// # Errors
-    /// Out of memory, more words than 32 bits number, a table larger than one binding can hold (the error names it), or a
-    /// lost device.
+    /// `Malformed` where the tables are of a scene with other instances, out of memory, more words than 32 bits number, a
+    /// table larger than one binding can hold (the error names it), or a lost device.
     pub fn new(
         device: &Device,
         scene: &Scene,
@@ -78,6 +78,10 @@ impl PosePass {
         gpu: &GpuScene,
     ) -> Result<Self, GpuSceneError> {
         let rig = &scene.animation.rig;
+        if tables.posed.first_vertex.len() != scene.instances.len() {
+            let what = format!("tables of {} instances are to be posed", tables.posed.first_vertex.len());
+            return Err(GpuSceneError::Malformed { what, limit: scene.instances.len() });
+        }
         let moving = Moving::of(rig);
         // As `Scene::at` has it: a rig that does not fit its scene moves nothing.
         let is_placed = rig.placements.len() == scene.instances.len();

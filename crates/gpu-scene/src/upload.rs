@@ -58,13 +58,18 @@ impl ShadingFeatures {
     }
 }
 
-/// Buffers that change from frame to frame, in addition to positions.
+/// Buffers that change from frame to frame, in addition to positions. One record stands in for an empty table.
 #[derive(Clone, Debug)]
-pub(crate) struct PosedBuffers {
+pub struct PosedBuffers {
+    /// One [`Frame`].
     pub frame: Buffer,
+    /// [`DrawShading`](crate::layout::DrawShading) records.
     pub draw_shadings: Buffer,
+    /// Normals and tangents, words.
     pub attributes: Buffer,
+    /// [`Light`](crate::layout::Light) records.
     pub lights: Buffer,
+    /// [`EmissiveTriangle`](crate::layout::EmissiveTriangle) records.
     pub emissive: Buffer,
 }
 
@@ -215,8 +220,8 @@ impl GpuScene {
         frame
     }
 
-    /// The buffers that a pose writes.
-    pub(crate) fn posed_buffers(&self) -> &PosedBuffers {
+    /// The buffers that a [`PosePass`](crate::PosePass) writes in addition to positions, and [`GpuScene::record_frame`].
+    pub fn posed_buffers(&self) -> &PosedBuffers {
         &self.posed_buffers
     }
 

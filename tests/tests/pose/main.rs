@@ -1,0 +1,9 @@
+//! What moves in a scene, posed on the device: held against the same scene posed on the host.
+
+mod far_away;
+mod held;
+mod lit;
+mod made;
+mod real;
+mod recordings;
+mod shapes;
