@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(content(&place, &|_| ()), first);
         std::fs::rename(&place, folder.path().join("b.obj")).expect("another name");
         assert_eq!(content(&folder.path().join("b.obj"), &|_| ()), first, "names are no content");
-        is_new(content(Path::new("spheres:100"), &|_| ()));
-        is_new(content(Path::new("spheres:101"), &|_| ()));
+        is_new(content(Path::new("spheres:10k"), &|_| ()));
+        is_new(content(Path::new("spheres:10001"), &|_| ()));
     }
 }
