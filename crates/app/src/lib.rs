@@ -57,6 +57,7 @@ fn execute(parsed: CommandLine, line: &str, open: &mut OpenBackend<'_>) -> Resul
     terminal::start_logging();
     match parsed.command {
         Command::Render(given) => commands::render(&given, line, open, &interrupt),
+        Command::Merge(given) => commands::merge(&given, &interrupt),
         Command::Compare(given) => commands::compare(&given, line, open, &interrupt),
         Command::Info(given) => commands::info(&given, open),
         Command::Completions(given) => commands::completions(&given),

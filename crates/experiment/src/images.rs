@@ -9,7 +9,7 @@ use crate::backend::OnProgress;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
-use crate::render::render_pixels;
+use crate::render::{Wanted, render_pixels};
 use crate::stage::{Built, Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, Run};
@@ -115,7 +115,8 @@ pub(super) fn compare_images(
             built.build_again(device)?;
         }
         let task = format!("image {}", contestant.config.system.name);
-        let pixels = render_pixels(device, stage, &built, &frame, &job.needs, &task, progress)?;
+        let wanted = Wanted { frame: &frame, shard: None, needs: &job.needs, task: &task };
+        let pixels = render_pixels(device, stage, &built, &wanted, progress)?;
         if pixels.samples_done < frame.spp {
             return Ok(());
         }

@@ -1,5 +1,6 @@
 //! Jobs and results as plain data.
 
+use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
 use rasray_hard_cases::HardCase;
@@ -137,6 +138,8 @@ pub struct RenderJob<'a> {
     pub system: SystemConfig,
     /// The image.
     pub frame: Frame,
+    /// Which of its samples are made; absent: all.
+    pub shard: Option<Shard>,
     /// What else is wanted.
     pub aovs: AovSelection,
     /// What is uploaded, compiled in and stored; everything with `--needs all`.
@@ -313,6 +316,15 @@ pub struct Answers {
     pub hits: Vec<Hit>,
 }
 
+/// What samples add up to, one entry per pixel, rows from the top.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FilmSums {
+    /// Linear Rec. 709, W/(sr m^2).
+    pub sums: Vec<[f32; 3]>,
+    /// Samples in each sum: those that were made and are finite.
+    pub counts: Vec<u32>,
+}
+
 /// What a render gave. Images have `width * height` pixels, rows from the top.
 #[derive(Clone, Debug, Default)]
 pub struct RenderOutput {
@@ -322,6 +334,8 @@ pub struct RenderOutput {
     pub height: u32,
     /// Mean over the samples done; linear Rec. 709, W/(sr m^2).
     pub beauty: Vec<[f32; 3]>,
+    /// What those samples add up to, where [`RenderJob::shard`] asked for a share of them.
+    pub sums: Option<FilmSums>,
     /// Metres from the eye along the ray; 0 where nothing was hit.
     pub depth: Option<Vec<f32>>,
     /// Unit geometric normal in the world, facing the eye; zero where nothing was hit.

@@ -27,6 +27,7 @@ mod hard_verdict;
 mod images;
 mod jobs;
 mod kept_files;
+mod key;
 mod measured;
 mod pass_list;
 mod passes;
@@ -38,6 +39,7 @@ mod replay;
 mod scene_info;
 mod scene_source;
 mod selection;
+mod shard;
 mod stage;
 mod system_config;
 pub mod texels;
@@ -56,10 +58,11 @@ pub use error::ExperimentError;
 pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
-    Answers, AovSelection, CompareJob, Comparison, FILE_SET, Frame, HardJob, Integrator, Kept, KeptSet,
-    RaySet, RenderJob, RenderOutput, Sampler,
+    Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Integrator, Kept,
+    KeptSet, RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
+pub use key::{KeyHash, picture_key};
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
@@ -68,6 +71,7 @@ pub use renderer::open;
 pub use scene_info::SceneInfo;
 pub use scene_source::{LoadedScene, load};
 pub use selection::{ReadValue, one_system, several_systems};
+pub use shard::Shard;
 pub use stage::{Built, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
 pub use traced_set::{TracedSet, trace_in_turns};

@@ -6,14 +6,17 @@ use std::time::Instant;
 
 use rasray_ads::RayQueue;
 use rasray_gpu::Device;
-use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves};
+use rasray_integrators::{
+    AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves, waves_of,
+};
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
 use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, Frame, Integrator, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, Integrator, RenderJob, RenderOutput};
 use crate::passes::Passes;
+use crate::shard::Shard;
 use crate::stage::{Built, Stage, device_error, tracer_error};
 use rasray_report::{Counters, Times};
 
@@ -35,9 +38,21 @@ pub(super) fn integrator(
     })
 }
 
+/// Which pixels are made.
+pub(super) struct Wanted<'a> {
+    pub(super) frame: &'a Frame,
+    /// Which samples; absent: all.
+    pub(super) shard: Option<Shard>,
+    pub(super) needs: &'a Needs,
+    /// For progress.
+    pub(super) task: &'a str,
+}
+
 /// Pixels and what they cost.
 pub(super) struct Pixels {
     pub(super) beauty: Vec<[f32; 3]>,
+    /// Of a share of the samples.
+    pub(super) sums: Option<FilmSums>,
     pub(super) samples_done: u32,
     pub(super) passes: Passes,
     pub(super) counters: Counters,
@@ -45,16 +60,15 @@ pub(super) struct Pixels {
     pub(super) first_use_ms: f64,
 }
 
-/// Renders all samples of a frame through a built structure.
+/// Renders the samples of a frame through a built structure.
 pub(super) fn render_pixels(
     device: &Device,
     stage: &Stage,
     built: &Built,
-    frame: &Frame,
-    needs: &Needs,
-    task: &str,
+    wanted: &Wanted<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<Pixels, ExperimentError> {
+    let Wanted { frame, shard, needs, task } = *wanted;
     let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
     let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
     if *needs == Needs::all() {
@@ -64,7 +78,7 @@ pub(super) fn render_pixels(
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
     let first_use_ms = use_once(device, integrator.as_ref(), built)?;
     let Waves { samples_done, unfinished, passes } = loop {
-        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, frame, task, progress)? {
+        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, wanted, progress)? {
             break rendered;
         }
     };
@@ -74,8 +88,13 @@ pub(super) fn render_pixels(
     }
     let mut counters = built.counters()?;
     counters.unfinished = Some(unfinished);
-    let beauty = film.read(device).map_err(device_error)?;
-    Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
+    let film = film.read_pixels(device).map_err(device_error)?;
+    let beauty = film.iter().map(|pixel| pixel.mean()).collect();
+    let sums = shard.map(|_| FilmSums {
+        sums: film.iter().map(|pixel| pixel.sum).collect(),
+        counts: film.iter().map(|pixel| pixel.samples).collect(),
+    });
+    Ok(Pixels { beauty, sums, samples_done, passes, counters, first_use_ms })
 }
 
 /// Waves of samples that are on the film.
@@ -86,25 +105,26 @@ struct Waves {
     passes: Passes,
 }
 
-/// Renders all samples. Nothing where rays need more rounds than they had: then film and counters start at 0 again, and
+/// Renders the samples. Nothing where rays need more rounds than they had: then film and counters start at 0 again, and
 /// the structure allows more from now on.
 fn render_waves(
     device: &Device,
     integrator: &dyn rasray_integrators::Integrator,
     built: &Built,
-    frame: &Frame,
-    task: &str,
+    wanted: &Wanted<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<Option<Waves>, ExperimentError> {
+    let Wanted { frame, shard, task, .. } = *wanted;
+    let samples = shard.unwrap_or_default().samples(frame.spp);
     let timing = device.best_timing();
     let pixels = frame.width * frame.height;
     let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
-    let total = waves_a_sample * u64::from(frame.spp);
+    let total = waves_a_sample * samples.len() as u64;
     let mut passes = Passes::default();
     let mut samples_done = 0;
     let mut unfinished = 0;
     let mut stopping = false;
-    for (done, wave) in (1..).zip(waves(pixels, frame.spp, integrator.wave_capacity())) {
+    for (done, wave) in (1..).zip(waves_of(pixels, samples, integrator.wave_capacity())) {
         // An early end is taken between samples, so that all pixels have the same number of them.
         if stopping && wave.first_pixel == 0 {
             break;
@@ -186,7 +206,8 @@ pub(super) fn render(
         }
         built.build_again(device)?;
     }
-    let pixels = render_pixels(device, &stage, &built, &frame, &job.needs, "render", progress)?;
+    let wanted = Wanted { frame: &frame, shard: job.shard, needs: &job.needs, task: "render" };
+    let pixels = render_pixels(device, &stage, &built, &wanted, progress)?;
     let (options, paths) = built.resolved()?;
     let mut memory = built.memory(device)?;
     for (name, bytes) in stage.scene.bytes_by_part() {
@@ -199,6 +220,7 @@ pub(super) fn render(
         width: frame.width,
         height: frame.height,
         beauty: pixels.beauty,
+        sums: pixels.sums,
         depth: None,
         normal: None,
         primitive: None,

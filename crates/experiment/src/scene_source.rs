@@ -1,6 +1,7 @@
 //! From a name to a scene that can be rendered.
 
 use crate::error::ExperimentError;
+use crate::key::KeyHash;
 use rasray_gpu_scene::{Parts, SceneTables, left_out_bytes};
 use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::needs::Needs;
@@ -20,6 +21,9 @@ pub struct LoadedScene {
     pub triangles: u64,
     /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
+    /// SHA-256 in hexadecimal of everything that it was made from: the contents of all files read for it, or the
+    /// built-in's name with parameters as it was given; the environment that was asked for; whether its holes were closed.
+    pub content: String,
     /// Bytes of the scene's tables that are not uploaded because no image can show what they hold; absent until they
     /// are counted ([`Self::count_not_uploaded`]), and where the scene is at fault in what is left out.
     pub not_uploaded_bytes: Option<u64>,
@@ -56,18 +60,16 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
     if is_file {
         let scene = rasray_scene::load(path, &LoadOptions::default())?;
-        let sha256 = digest(path).map_err(|error| {
-            ExperimentError::input(
-                path,
-                format!("cannot be read again: {error}"),
-                "leave the file in place while it is read",
-            )
-        })?;
-        return Ok(loaded(scene, Some(sha256)));
+        let sha256 = digest(path)?;
+        let mut content = KeyHash::default().with("file", &sha256);
+        for file in &scene.files {
+            content = content.with("file", digest(file)?);
+        }
+        return Ok(loaded(scene, Some(sha256), content));
     }
     if let Some(made) = name.to_str().and_then(builtin::builtin) {
         let scene = made?;
-        return Ok(loaded(scene, None));
+        return Ok(loaded(scene, None, KeyHash::default().with("built-in", name.as_encoded_bytes())));
     }
     let kinds = format!(
         "scenes are .gltf, .glb, .obj and .ply files, or built-in: {} (parameters follow a colon: spheres:10k)",
@@ -79,11 +81,12 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
     Err(ExperimentError::input(path, "there is neither such a file nor such a built-in scene", kinds))
 }
 
-fn loaded(scene: Scene, sha256: Option<String>) -> LoadedScene {
+fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene {
     LoadedScene {
         triangles: triangles(&scene),
         scene,
         sha256,
+        content: content.finish(),
         not_uploaded_bytes: None,
         pose: None,
         smaller_images: Vec::new(),
@@ -95,6 +98,15 @@ impl LoadedScene {
     /// too; else a scene that nothing lights gets [`default_view::default_light`], with a warning.
     pub fn light(&mut self, environment: Option<Environment>) {
         if let Some(environment) = environment {
+            let values = match &environment {
+                Environment::Constant(radiance) => format!("{radiance:?}").into_bytes(),
+                Environment::LatLong { width, height, radiance } => {
+                    let texels = radiance.iter().flatten().flat_map(|value| value.to_le_bytes());
+                    [width, height].into_iter().flat_map(|side| side.to_le_bytes()).chain(texels).collect()
+                }
+            };
+            self.content =
+                KeyHash::default().with("scene", &self.content).with("environment", values).finish();
             self.scene.environment = environment;
         } else {
             default_view::ensure_lit(&mut self.scene);
@@ -142,12 +154,13 @@ impl LoadedScene {
         let images = std::mem::take(&mut self.scene.images);
         let posed = self.scene.at(&Moment { seconds, clips });
         self.scene = Scene { images, ..posed };
-        self.pose = Some(PoseRecord { time_s: seconds, clips: shown });
+        self.pose = Some(PoseRecord { time_s: seconds, clips: shown, frame: None });
         Ok(())
     }
 
     /// Makes every surface opaque.
     pub fn close_holes(&mut self) {
+        self.content = KeyHash::default().with("scene", &self.content).with("holes", "closed").finish();
         for material in &mut self.scene.materials {
             material.alpha_mode = AlphaMode::Opaque;
         }
@@ -160,12 +173,20 @@ fn triangles(scene: &Scene) -> u64 {
     scene.instances.iter().map(|instance| of(instance.mesh)).sum()
 }
 
-fn digest(path: &Path) -> std::io::Result<String> {
-    let mut file = File::open(path)?;
+/// Of a file that was read before, in hexadecimal.
+fn digest(path: &Path) -> Result<String, ExperimentError> {
+    let failed = |error: std::io::Error| {
+        ExperimentError::input(
+            path,
+            format!("cannot be read again: {error}"),
+            "leave the file in place while it is read",
+        )
+    };
+    let mut file = File::open(path).map_err(failed)?;
     let mut hash = Sha256::new();
     let mut buffer = vec![0; 1 << 16];
     loop {
-        let length = file.read(&mut buffer)?;
+        let length = file.read(&mut buffer).map_err(failed)?;
         if length == 0 {
             return Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect());
         }

@@ -154,6 +154,7 @@ mod tests {
             scene,
             triangles: 0,
             sha256: None,
+            content: String::new(),
             not_uploaded_bytes: None,
             pose: None,
             smaller_images: Vec::new(),

@@ -56,7 +56,7 @@ pub use path::{BOUNCE_LIMIT, Path};
 pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState};
 pub use raycast::Raycast;
 pub use traced::Traced;
-pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves};
+pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves, waves_of};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -43,8 +43,17 @@ pub struct Wave {
 /// Cuts every sample of `pixels` pixels into waves of at most `capacity`: all pixels of a sample
 /// before the next sample starts, so that a picture stopped early has the same number of samples everywhere.
 pub fn waves(pixels: u32, samples: u32, capacity: u32) -> impl Iterator<Item = Wave> {
+    waves_of(pixels, 0..samples, capacity)
+}
+
+/// The same for samples with these indices, in their order.
+pub fn waves_of(
+    pixels: u32,
+    samples: impl IntoIterator<Item = u32>,
+    capacity: u32,
+) -> impl Iterator<Item = Wave> {
     let capacity = capacity.clamp(1, WAVE_LIMIT);
-    (0..samples).flat_map(move |sample| {
+    samples.into_iter().flat_map(move |sample| {
         (0..pixels.div_ceil(capacity)).map(move |number| {
             let first_pixel = number * capacity;
             Wave { first_pixel, pixel_count: capacity.min(pixels - first_pixel), sample }
@@ -86,5 +95,7 @@ mod tests {
     fn samples_are_taken_one_after_the_other() {
         let samples: Vec<u32> = waves(10, 3, 4).map(|wave| wave.sample).collect();
         assert_eq!(samples, [0, 0, 0, 1, 1, 1, 2, 2, 2]);
+        let samples: Vec<u32> = waves_of(5, [1, 3], 4).map(|wave| wave.sample).collect();
+        assert_eq!(samples, [1, 1, 3, 3]);
     }
 }

@@ -77,6 +77,11 @@ impl Report {
         text.push('\n');
         text
     }
+
+    /// The report as JSON in one line, without a line break at its end.
+    pub fn to_json_line(&self) -> String {
+        serde_json::to_string(self).expect("strings, numbers and maps with string keys")
+    }
 }
 
 /// Options as a report has them: numbers stay numbers.

@@ -98,6 +98,9 @@ pub struct PoseRecord {
     pub time_s: f64,
     /// Names of the clips that were played.
     pub clips: Vec<String>,
+    /// Number of the frame of an animation; absent where one time was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<u32>,
 }
 
 /// An image that was made smaller.
@@ -151,6 +154,13 @@ pub struct Run {
     /// there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub variant: Option<String>,
+    /// What a picture is known by, 64 hexadecimal digits: a hash of everything that decides its values; absent for ray
+    /// sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
+    /// Which share of the samples was made, such as `2/8`; absent where all were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<String>,
     /// Options as resolved from preset and command line.
     pub options: BTreeMap<String, Value>,
     /// What the device decided: builder, coverage, atomics.

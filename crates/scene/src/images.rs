@@ -31,6 +31,7 @@ pub(crate) fn read_image(
         Encoded::Bytes(bytes) => bytes,
         Encoded::File(file) => match read_file(file, limits.file_bytes) {
             Ok(bytes) => {
+                remarks.files.push(file.to_owned());
                 read = bytes;
                 &read
             }

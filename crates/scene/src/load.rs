@@ -68,6 +68,7 @@ pub(crate) fn finish(
         }
     }
     crate::check::textured(&scene, &mut remarks);
+    scene.files = std::mem::take(&mut remarks.files);
     scene.warnings.extend(remarks.into_warnings());
     Ok(scene)
 }

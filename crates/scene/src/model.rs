@@ -29,6 +29,9 @@ pub struct Scene {
     pub animation: Animation,
     /// What was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
+    /// Files that the scene's own file refers to and that were read: buffers, images and material libraries, in the order
+    /// in which they were read. One that is referred to twice may be here twice.
+    pub files: Vec<std::path::PathBuf>,
 }
 
 /// Indexed triangles with optional attributes. Every index is below `positions.len()`;

@@ -1,6 +1,7 @@
 //! What a reader has to say of a file: collected while it is read, told once.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 use crate::Warning;
 use crate::text::{sentence, shown};
@@ -8,9 +9,11 @@ use crate::text::{sentence, shown};
 /// Different texts of one kind that are told; more are counted, so that no file can make the list long.
 const TEXTS: usize = 16;
 
-/// Remarks on the places of a file. The same remark on many places becomes one warning.
+/// Remarks on the places of a file, and which files were read for it. The same remark on many places becomes one warning.
 #[derive(Debug, Default)]
 pub(crate) struct Remarks {
+    /// In the order in which they were read.
+    pub files: Vec<PathBuf>,
     list: Vec<Remark>,
     /// Position in `list` by kind and text.
     known: HashMap<(&'static str, String), usize>,

@@ -3,6 +3,7 @@
 mod compare;
 mod documents;
 mod info;
+mod merge;
 mod mistakes;
 mod ray_files;
 mod render;
@@ -13,6 +14,7 @@ pub mod values;
 pub use compare::CompareArguments;
 pub use documents::{CompletionsArguments, ManArguments};
 pub use info::InfoArguments;
+pub use merge::MergeArguments;
 pub use ray_files::{NamedFile, RayFileArguments};
 pub use render::{Aov, RenderArguments};
 pub use shared::{
@@ -34,6 +36,7 @@ Examples:
   rasray render scene.glb --integrator ao --ao-distance 2 --spp 64 --output ao.exr
   rasray compare spheres:10k --systems mmrt,brute-force --rays 20000 --report r.json
   rasray info scene.glb
+  rasray merge scene.png part.*.exr
 
 A scene is a file (.gltf .glb .obj .ply) or a built-in with parameters (cornell, spheres:300k).
 
@@ -65,6 +68,8 @@ pub struct CommandLine {
 pub enum Command {
     /// Render a scene to an image
     Render(Box<RenderArguments>),
+    /// Put shares of a picture's samples, or reports of frames, together
+    Merge(MergeArguments),
     /// Trace the same rays through several systems and compare speed and error
     Compare(Box<CompareArguments>),
     /// Show the device, or what a scene holds and needs
@@ -76,7 +81,7 @@ pub enum Command {
 }
 
 /// The words of [`Command`].
-const COMMANDS: [&str; 5] = ["render", "compare", "info", "completions", "man"];
+const COMMANDS: [&str; 6] = ["render", "merge", "compare", "info", "completions", "man"];
 
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
 use clap::{Args, ValueEnum};
-use rasray_experiment::{AovSelection, SystemConfig, one_system};
+use rasray_experiment::{AovSelection, Shard, SystemConfig, one_system};
 use rasray_systems::{Preset, SYSTEMS, System};
 use std::ffi::OsString;
 use std::ops::RangeInclusive;
@@ -20,7 +20,8 @@ Examples:
   rasray render scene.obj --eye 0,1.6,4 --target 0,1,0 --fov 60 --environment 1,1,1 --output view.png
   rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
   rasray render cornell --output - --format png | display
-  rasray render walk.glb --frames 0-49 --output 'walk.####.png'
+  rasray render walk.glb --frames 0-49 --output 'walk.####.png' --report walk.jsonl --resume
+  rasray render scene.glb --spp 256 --shard 1/4 --output part.1.exr    (then: rasray merge)
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
@@ -29,8 +30,10 @@ miss). Files are written next to their place and renamed, so a file there is alw
 the file that the link leads to. The camera that was used is printed as options that put one there.
 
 SIGINT (Ctrl-C) or SIGTERM: the samples done so far are written, exit code 130; where none is, the command
-ends within two seconds and writes nothing. A second one stops at once and writes nothing. Of --frames only
-whole images are written; run again with --skip-existing.";
+ends within two seconds and writes nothing. A second one stops at once and writes nothing. Of --frames and
+of --shard only whole images are written; run again with --resume.";
+
+const FRAMES: &str = "Frames and shares";
 
 /// Options of `rasray render`.
 #[derive(Debug, Args)]
@@ -64,17 +67,21 @@ pub struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = values::whole(1, 10_000))]
     pub repetitions: Option<u32>,
     /// Frames of an animation, numbers as in 0-99: one image each, at number / --fps seconds. In the names of --output and
-    /// --report a run of # is the number
+    /// --report a run of # is the number; a report .jsonl without one takes a row per frame
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
-          help_heading = "Frames")]
+          help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
     /// Frames per second
     #[arg(long, value_name = "N", value_parser = values::frames_per_second, default_value = "25", requires = "frames",
-          help_heading = "Frames")]
+          help_heading = FRAMES)]
     pub fps: f64,
-    /// Leave frames alone whose image is there already: files are whole, so this goes on where a command was stopped
-    #[arg(long, requires = "frames", help_heading = "Frames")]
-    pub skip_existing: bool,
+    /// Leave whole images alone that this command would make again, by the key that they carry: it goes on where it was
+    /// stopped, and replaces what was made of another scene or with other options
+    #[arg(long, requires = "output", help_heading = FRAMES)]
+    pub resume: bool,
+    /// One of N shares of the work, I from 1 to N: of --frames each Nth; else of the samples, as an .exr for rasray merge
+    #[arg(long, value_name = "I/N", value_parser = values::shard, help_heading = FRAMES)]
+    pub shard: Option<Shard>,
     /// The image and what light does.
     #[command(flatten)]
     pub frame: FrameArguments,

@@ -1,6 +1,7 @@
 //! Values that options take, read from text.
 
 use clap::ValueEnum;
+use rasray_experiment::Shard;
 use std::ops::RangeInclusive;
 
 /// A switch.
@@ -129,6 +130,14 @@ pub fn frames_per_second(text: &str) -> Result<f64, String> {
         Ok(value) if (0.001..=100_000.0).contains(&value) => Ok(value),
         _ => Err("must be a number from 0.001 to 100000".to_owned()),
     }
+}
+
+/// Reads a share of the work, `2/8`.
+///
+/// # Errors
+/// Says what the form is.
+pub fn shard(text: &str) -> Result<Shard, String> {
+    Shard::parse(text).ok_or_else(|| "must be a share such as 2/8, the second of eight".to_owned())
 }
 
 /// Reads a time, finite.

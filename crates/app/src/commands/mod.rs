@@ -2,8 +2,12 @@
 
 mod compare;
 mod documents;
+mod frames;
 mod hard;
+mod images;
 mod info;
+mod merge;
+mod picture_targets;
 mod render;
 mod steps;
 mod targets;
@@ -11,4 +15,5 @@ mod targets;
 pub(crate) use compare::compare;
 pub(crate) use documents::{completions, man};
 pub(crate) use info::info;
+pub(crate) use merge::merge;
 pub(crate) use render::render;

@@ -1,22 +1,20 @@
 //! `rasray render`.
 
-use super::steps::{
-    destination, fit_images, keep_inputs, open_device, read_scene, stop_if_requested, with_progress,
-};
+use super::frames::{dealt, seconds};
+use super::images::{named, write_image};
+use super::picture_targets::{Targets, rows, samples_shard};
+use super::steps::{fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{self, Destination, ImageFormat, Metadata};
+use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
 use crate::terminal::{self, Talk};
-use crate::version::origin;
+use crate::version::{origin, version_text};
 use rasray_experiment::{
-    AovSelection, Backend, Chosen, Frame, LoadedScene, OpenBackend, Progress, RenderJob, RenderOutput,
-    SystemConfig, check_run,
+    AovSelection, Backend, Chosen, Frame, LoadedScene, OpenBackend, Progress, RenderJob, RenderOutput, Shard,
+    SystemConfig, check_run, picture_key,
 };
 use rasray_report::{Report, json_shown, table};
-use std::io::IsTerminal;
-use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
 
 /// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
 ///
@@ -31,187 +29,155 @@ pub(crate) fn render(
     let frame = given.frame.frame()?;
     let aovs = given.aovs();
     let system = given.system()?.serving(frame.workload());
-    let numbers = given.frames.clone();
+    let shard = samples_shard(given)?;
+    // All shares of the frames begin alike: a camera that nothing moves stays where it is for the first of all.
+    let first = given.frames.as_ref().map(|range| *range.start());
+    let numbers = given.frames.as_ref().map(|range| dealt(range, given.shard));
     // Of frames this refuses what is wrong with the first.
-    let targets = Targets::of(given, aovs, numbers.as_ref().map(|numbers| *numbers.start()))?;
-    let time =
-        numbers.as_ref().map_or(given.reading.time, |numbers| Some(seconds(*numbers.start(), given.fps)));
-    let (loaded, chosen) = read_scene(&given.scene, &given.reading, time, &given.view)?;
+    let targets = Targets::of(given, aovs, first)?;
+    let rows = rows(given)?;
+    let time = first.map_or(given.reading.time, |first| Some(seconds(first, given.fps)));
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, time, &given.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let backend = open_device(open, &given.device)?;
     stop_if_requested(interrupt)?;
-    let mut pictures = Pictures { given, line, interrupt, frame, aovs, system, loaded, chosen, backend };
+    // Images stay as they are at all times.
+    let needs = given.reading.needs(&loaded.scene, frame.workload());
+    fit_images(&mut loaded, &needs, backend.as_ref())?;
+    let mut pictures =
+        Pictures { given, line, interrupt, frame, shard, aovs, system, rows, loaded, chosen, backend };
     match numbers {
-        None => pictures.render(&targets, true),
-        Some(numbers) => pictures.render_frames(numbers),
+        None => pictures.render_one(&targets),
+        Some(numbers) => pictures.render_frames(&numbers),
     }
-}
-
-/// Where a picture and its report go.
-struct Targets {
-    image: Option<(Destination, ImageFormat)>,
-    report: Option<Destination>,
-}
-
-impl Targets {
-    /// As the command line says, with the number of a frame in the names where there is one.
-    fn of(given: &RenderArguments, aovs: AovSelection, number: Option<u32>) -> Result<Self, AppError> {
-        let named = |option: &str, path: Option<&Path>| -> Result<Option<PathBuf>, AppError> {
-            let Some(path) = path else { return Ok(None) };
-            let Some(number) = number else { return Ok(Some(path.to_owned())) };
-            let path = numbered(path, number).ok_or_else(|| {
-                AppError::usage(
-                    format!("{option} names one file, and --frames makes several"),
-                    format!("write a run of # where the number goes: {option} 'frame.####.png'"),
-                )
-            })?;
-            Ok(Some(path))
-        };
-        let image = image_target(given, named("--output", given.output.as_deref())?.as_deref(), aovs)?;
-        let report = destination(named("--report", given.report.as_deref())?.as_deref())?;
-        if let (Some((place, _)), Some(report)) = (&image, &report)
-            && place.same_as(report)
-        {
-            return Err(AppError::usage("--output and --report name the same file", "name two files"));
-        }
-        keep_inputs("--output", image.as_ref().map(|(place, _)| place), &given.scene)?;
-        keep_inputs("--report", report.as_ref(), &given.scene)?;
-        Ok(Self { image, report })
-    }
-}
-
-/// When a frame is shown.
-fn seconds(number: u32, fps: f64) -> f64 {
-    f64::from(number) / fps
-}
-
-/// The path with a number in place of the last run of # in its file name, with as many digits or more; absent where it
-/// has none.
-fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
-    let name = path.file_name()?.to_str()?;
-    let end = name.rfind('#')? + 1;
-    let begin = name[..end].trim_end_matches('#').len();
-    let width = end - begin;
-    Some(path.with_file_name(format!("{}{number:0width$}{}", &name[..begin], &name[end..])))
 }
 
 /// What the pictures of a command have in common.
-struct Pictures<'a> {
-    given: &'a RenderArguments,
+pub(super) struct Pictures<'a> {
+    pub(super) given: &'a RenderArguments,
     line: &'a str,
-    interrupt: &'a Interrupt,
+    pub(super) interrupt: &'a Interrupt,
     frame: Frame,
-    aovs: AovSelection,
+    /// Which samples are made; absent: all.
+    shard: Option<Shard>,
+    pub(super) aovs: AovSelection,
     system: SystemConfig,
-    loaded: LoadedScene,
-    chosen: Chosen,
+    /// The report that takes a row per frame.
+    pub(super) rows: Option<Rows>,
+    pub(super) loaded: LoadedScene,
+    pub(super) chosen: Chosen,
     backend: Box<dyn Backend>,
 }
 
 impl Pictures<'_> {
-    /// Renders one frame after the other. A camera of the scene moves with it, any other one stays.
-    fn render_frames(&mut self, numbers: RangeInclusive<u32>) -> Result<(), AppError> {
-        let (mut written, mut skipped) = (0, 0);
-        for number in numbers.clone() {
-            let targets = Targets::of(self.given, self.aovs, Some(number))?;
-            let is_there = |(place, _): &(Destination, ImageFormat)| place.named().is_file();
-            if self.given.skip_existing && targets.image.as_ref().is_some_and(is_there) {
-                skipped += 1;
-                continue;
+    /// Renders the scene at its only time, unless the image is there.
+    fn render_one(&mut self, targets: &Targets) -> Result<(), AppError> {
+        let key = self.key();
+        if self.given.resume {
+            let found = targets.standing(self.given, &key)?;
+            match found.reason() {
+                None => {
+                    terminal::note("the image is there already; nothing was rendered");
+                    return Ok(());
+                }
+                Some(reason) => terminal::note(&format!("the image is rendered: it is {reason}")),
             }
-            self.loaded.pose(seconds(number, self.given.fps), self.given.reading.clip.as_deref())?;
-            if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.scene.cameras.get(index)) {
-                self.chosen.camera = camera.clone();
-            }
-            self.render(&targets, false).map_err(|error| {
-                error.about(&format!("frame {number}, of {} to {}", numbers.start(), numbers.end()))
-            })?;
-            written += 1;
         }
-        if skipped > 0 {
-            terminal::note(&format!("{written} frames were rendered, {skipped} were there already"));
-        }
-        Ok(())
+        // A share of the samples is whole or of no use.
+        self.render(targets, key, self.shard.is_none())
     }
 
-    /// Renders the scene as it is and writes what was asked for. `keeps_part`: a signal keeps the samples done so far.
-    fn render(&mut self, targets: &Targets, keeps_part: bool) -> Result<(), AppError> {
-        let Self { given, line, interrupt, frame, aovs, .. } = *self;
-        let chosen = &self.chosen;
-        let system = self.system.clone().seen_by(&chosen.camera, frame.width, frame.height);
-        let needs = given.reading.needs(&self.loaded.scene, frame.workload());
-        fit_images(&mut self.loaded, &needs, self.backend.as_ref())?;
-        self.loaded.count_not_uploaded(&chosen.camera, &needs);
-        let job = RenderJob {
-            scene: &self.loaded.scene,
+    /// The job of the scene as it is shown.
+    fn job<'a>(&self, loaded: &'a LoadedScene) -> RenderJob<'a> {
+        let Self { given, frame, aovs, shard, chosen, .. } = self;
+        RenderJob {
+            scene: &loaded.scene,
             camera: chosen.camera.clone(),
-            system: system.clone(),
-            frame,
-            aovs,
-            needs,
+            system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
+            frame: *frame,
+            shard: *shard,
+            aovs: *aovs,
+            needs: given.reading.needs(&loaded.scene, frame.workload()),
             repetitions: given.repetitions.unwrap_or(0),
-        };
+        }
+    }
+
+    /// The key of the picture of the scene as it is shown.
+    pub(super) fn key(&self) -> String {
+        picture_key(version_text(), &self.loaded, &self.job(&self.loaded))
+    }
+
+    /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a signal keeps
+    /// the samples done so far.
+    pub(super) fn render(
+        &mut self,
+        targets: &Targets,
+        key: String,
+        keeps_part: bool,
+    ) -> Result<(), AppError> {
+        let Self { given, line, interrupt, frame, shard, .. } = *self;
+        let needs = given.reading.needs(&self.loaded.scene, frame.workload());
+        self.loaded.count_not_uploaded(&self.chosen.camera, &needs);
+        let mut job = self.job(&self.loaded);
+        if shard.is_some_and(|shard| !shard.holds(0)) {
+            // They come with the first sample.
+            job.aovs = AovSelection::default();
+        }
+        let samples = shard.unwrap_or_default().samples(frame.spp).len() as u32;
         // A sample takes several waves; an early end keeps whole ones.
         let is_kept = |progress: &Progress<'_>| {
-            keeps_part
-                && progress.total > 0
-                && progress.done.saturating_mul(frame.spp.into()) >= progress.total
+            keeps_part && progress.total > 0 && progress.done.saturating_mul(samples.into()) >= progress.total
         };
         let backend = &mut self.backend;
         let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, progress))?;
-        if output.samples_done == 0 {
-            return Err(AppError::interrupted(
-                "stopped before the first sample was whole; nothing was written",
-                "",
-            ));
-        }
-        if output.samples_done < frame.spp && !keeps_part {
-            return Err(AppError::interrupted(
-                "stopped before the image was whole; it was not written",
-                "run again with --skip-existing for the frames that are left",
-            ));
-        }
+        check_samples(&output, samples, keeps_part)?;
 
-        let run = output.run(&system, &frame);
+        let mut run = output.run(&job.system, &frame);
         let whole = check_run(&run);
+        // What a signal cut short is nothing that another run would make.
+        let key = Some(key).filter(|_| output.samples_done == samples);
+        run.key.clone_from(&key);
+        run.shard = shard.map(|shard| shard.to_string());
         let report = Report::new(origin(line), self.backend.device(), self.loaded.record(), vec![run])
-            .seen_from(chosen.record());
+            .seen_from(self.chosen.record());
         if let Some(place) = &targets.report {
-            place.write(json_shown(&report.to_json()).as_bytes(), interrupt)?;
+            place.write(report_text(place, &report).as_bytes(), interrupt)?;
+        }
+        if let (Some(rows), Some(row)) = (&mut self.rows, Row::of(&report)) {
+            rows.put(row, interrupt)?;
         }
         whole?;
-        output.check_images(aovs)?;
+        output.check_images(job.aovs)?;
         if let Some((place, format)) = &targets.image {
+            let exposure = given.exposure.unwrap_or(0.0);
             let metadata = Metadata {
                 scene: self.loaded.scene.name.clone(),
-                system: system.system.name.to_owned(),
-                preset: system.preset.name().to_owned(),
+                system: job.system.system.name.to_owned(),
+                preset: job.system.preset.name().to_owned(),
                 integrator: frame.integrator.name().to_owned(),
                 spp: frame.spp,
                 samples: output.samples_done,
                 seed: frame.seed,
+                version: version_text().to_owned(),
+                key: key.as_ref().map(|key| image_key(key, *format, exposure, shard)),
+                part: shard.zip(key).map(|(shard, picture)| PartOf { picture, shard }),
             };
-            let exposure = given.exposure.unwrap_or(0.0);
-            write_image(place, *format, &output, &metadata, exposure, interrupt)?;
-            output::hint(&output, *format, exposure).iter().for_each(|text| terminal::note(text));
+            write_image((place, *format), &output, &metadata, exposure, interrupt)?;
         }
         let places = targets.image.iter().map(|(place, _)| place).chain(&targets.report);
         let takes_stdout = places.into_iter().any(Destination::is_stdout);
         terminal::summarize(
-            &table(&report, Some(&chosen.described()), terminal::says(Talk::Verbose)),
+            &table(&report, Some(&self.chosen.described()), terminal::says(Talk::Verbose)),
             takes_stdout,
         )?;
-        if output.samples_done < frame.spp {
+        if output.samples_done < samples {
             let written = targets.image.as_ref().map_or_else(
                 || "no image was asked for".to_owned(),
                 |(place, _)| format!("the image in {} is valid and holds them", named(place)),
             );
             return Err(AppError::interrupted(
-                format!(
-                    "stopped after {} of {} samples per pixel; {written}",
-                    output.samples_done, frame.spp
-                ),
+                format!("stopped after {} of {samples} samples per pixel; {written}", output.samples_done),
                 "run again for the whole image, or with this many --spp for the same one",
             ));
         }
@@ -219,89 +185,25 @@ impl Pictures<'_> {
     }
 }
 
-/// Where and how the image is written; refuses images that the format cannot hold.
-fn image_target(
-    given: &RenderArguments,
-    path: Option<&Path>,
-    aovs: AovSelection,
-) -> Result<Option<(Destination, ImageFormat)>, AppError> {
-    let Some(path) = path else { return Ok(None) };
-    let to_stdout = path == Path::new("-");
-    let format = match given.format {
-        Some(format) => format,
-        None if to_stdout => {
-            return Err(AppError::usage(
-                "--output - is standard output, which has no name that says how to write the image",
-                "say --format png or --format exr",
-            ));
-        }
-        None => ImageFormat::of(path)?,
-    };
-    if to_stdout && std::io::stdout().is_terminal() {
-        return Err(AppError::usage(
-            "--output - would write an image to a terminal",
-            "send standard output to a file or to a program that shows images",
+/// Refuses a render that ended before anything was whole that is kept.
+fn check_samples(output: &RenderOutput, samples: u32, keeps_part: bool) -> Result<(), AppError> {
+    if output.samples_done == 0 {
+        return Err(AppError::interrupted(
+            "stopped before the first sample was whole; nothing was written",
+            "",
         ));
     }
-    if format == ImageFormat::Png && aovs != AovSelection::default() {
-        return Err(AppError::input(
-            path,
-            "a PNG cannot hold what --aov asks for",
-            "write an .exr, or leave --aov out",
+    if output.samples_done < samples && !keeps_part {
+        return Err(AppError::interrupted(
+            "stopped before the image was whole; it was not written",
+            "run again with --resume for what is left",
         ));
     }
-    if format == ImageFormat::Exr && given.exposure.is_some() {
-        return Err(AppError::input(
-            path,
-            "an EXR holds linear values, which --exposure does not change",
-            "leave --exposure out, or write a .png",
-        ));
-    }
-    Ok(Some((Destination::check(path)?, format)))
+    Ok(())
 }
 
-/// A place in words.
-fn named(place: &Destination) -> String {
-    if place.is_stdout() { "standard output".to_owned() } else { place.named().display().to_string() }
-}
-
-fn write_image(
-    place: &Destination,
-    format: ImageFormat,
-    output: &RenderOutput,
-    metadata: &Metadata,
-    exposure: f32,
-    interrupt: &Interrupt,
-) -> Result<(), AppError> {
-    let non_finite = output.non_finite_pixels();
-    if non_finite > 0 {
-        terminal::warn(&format!(
-            "{non_finite} pixels are not finite numbers; please report the scene (non-finite)"
-        ));
-    }
-    let encoded = match format {
-        ImageFormat::Png => output::encode_png(output, exposure),
-        ImageFormat::Exr => output::encode_exr(output, metadata),
-    };
-    let bytes = encoded.map_err(|error| {
-        AppError::refused(
-            format!("{}: the image could not be encoded: {error}", named(place)),
-            "nothing was written; choose the other format",
-        )
-    })?;
-    place.write(&bytes, interrupt)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_last_run_of_hashes_is_the_number() {
-        let shown = |path: &str, number| numbered(Path::new(path), number);
-        assert_eq!(shown("out/a.####.png", 7), Some(PathBuf::from("out/a.0007.png")));
-        assert_eq!(shown("#1.##.exr", 123), Some(PathBuf::from("#1.123.exr")));
-        assert_eq!(shown("#", 5), Some(PathBuf::from("5")));
-        assert_eq!(shown("out#/a.png", 7), None, "folders have no number");
-    }
+/// A report as its file holds it: one line where others may follow.
+fn report_text(place: &Destination, report: &Report) -> String {
+    let text = if Rows::are_in(place.named()) { report.to_json_line() + "\n" } else { report.to_json() };
+    json_shown(&text)
 }

@@ -115,20 +115,29 @@ impl Destination {
         &self.named
     }
 
-    /// Puts a file with these bytes in place, and says so on stderr unless quiet was asked for. Whatever fails, a file that was there before stays as it
-    /// was and nothing else is left behind; an end at once through `interrupt` leaves nothing either.
+    /// Puts a file with these bytes in place, and says so on stderr unless quiet was asked for.
+    ///
+    /// # Errors
+    /// As [`Self::put`].
+    pub fn write(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
+        self.put(bytes, interrupt)?;
+        if !self.is_stdout() {
+            terminal::note(&format!("wrote {}", self.named.display()));
+        }
+        Ok(())
+    }
+
+    /// Puts a file with these bytes in place. Whatever fails, a file that was there before stays as it was and nothing
+    /// else is left behind; an end at once through `interrupt` leaves nothing either.
     ///
     /// # Errors
     /// [`AppError::Refused`], as the bytes exist and could not be kept.
-    pub fn write(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
+    pub fn put(&self, bytes: &[u8], interrupt: &Interrupt) -> Result<(), AppError> {
         let result = match self.kind {
             Kind::File => self.replace(bytes, interrupt),
             Kind::Special => self.write_directly(bytes),
             Kind::Stdout => terminal::write_out(bytes),
         };
-        if result.is_ok() && !self.is_stdout() {
-            terminal::note(&format!("wrote {}", self.named.display()));
-        }
         result.map_err(|error| {
             AppError::refused(
                 format!("{}: {} bytes could not be written: {error}", self.named.display(), bytes.len()),

@@ -1,9 +1,12 @@
 //! OpenEXR: linear 32-bit floats in one part, losslessly compressed. Channels: R, G, B; Z distance
 //! from the eye along the ray in metres (0: miss); N.X, N.Y, N.Z unit geometric normal in the world,
-//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss).
+//! facing the eye; id 32-bit unsigned global triangle id (4294967295: miss). A share of the samples has sums in R, G, B,
+//! and in samples how many each sum holds.
 
+use super::exr_header::{CHECKSUM, NO_CHECKSUM, finish};
+use super::stamp::KEY;
 use exr::prelude::*;
-use rasray_experiment::RenderOutput;
+use rasray_experiment::{RenderOutput, Shard};
 use smallvec::SmallVec;
 use std::io::Cursor;
 
@@ -24,7 +27,29 @@ pub struct Metadata {
     pub samples: u32,
     /// Seed of all random numbers.
     pub seed: u32,
+    /// Version of the program that made the picture.
+    pub version: String,
+    /// The key of the file; absent where it holds less than was asked for.
+    pub key: Option<String>,
+    /// Which share of the samples of which picture it holds; absent: all.
+    pub part: Option<PartOf>,
 }
+
+/// A share of a picture's samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartOf {
+    /// The key of the picture, which all its parts have.
+    pub picture: String,
+    /// Which share.
+    pub shard: Shard,
+}
+
+/// The attributes of a part.
+pub(super) const PICTURE: &str = "rasrayPicture";
+pub(super) const SHARD: &str = "rasrayShard";
+/// Of parts: samples in each pixel's sum.
+pub(super) const SAMPLES: &str = "samples";
+pub(super) const VERSION: &str = "rasrayVersion";
 
 /// Text as the format holds it: one byte a character.
 fn text(value: &str) -> Text {
@@ -32,7 +57,7 @@ fn text(value: &str) -> Text {
     Text::new_or_none(&plain).unwrap_or_else(|| Text::from("?"))
 }
 
-/// The bytes of an EXR file of all images of `output`.
+/// The bytes of an EXR file of all images of `output`; of a part with sums in place of means.
 ///
 /// # Errors
 /// What the encoder says, in words.
@@ -40,8 +65,13 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = SmallVec::new();
     let component =
         |pixels: &[[f32; 3]], axis: usize| FlatSamples::F32(pixels.iter().map(|pixel| pixel[axis]).collect());
+    let sums = output.sums.as_ref().filter(|_| metadata.part.is_some());
+    let colours = sums.map_or(&output.beauty, |film| &film.sums);
     for (axis, name) in ["R", "G", "B"].into_iter().enumerate() {
-        channels.push(AnyChannel::new(name, component(&output.beauty, axis)));
+        channels.push(AnyChannel::new(name, component(colours, axis)));
+    }
+    if let Some(film) = sums {
+        channels.push(AnyChannel::new(SAMPLES, FlatSamples::U32(film.counts.clone())));
     }
     if let Some(depth) = &output.depth {
         channels.push(AnyChannel::new("Z", FlatSamples::F32(depth.clone())));
@@ -56,14 +86,19 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     }
 
     let mut attributes = LayerAttributes { software_name: Some(text(&software())), ..Default::default() };
+    let part = metadata.part.as_ref();
     let words = [
-        ("scene", &metadata.scene),
-        ("system", &metadata.system),
-        ("preset", &metadata.preset),
-        ("integrator", &metadata.integrator),
-        ("rasrayVersion", &crate::version::version_text().to_owned()),
+        ("scene", Some(metadata.scene.clone())),
+        ("system", Some(metadata.system.clone())),
+        ("preset", Some(metadata.preset.clone())),
+        ("integrator", Some(metadata.integrator.clone())),
+        (VERSION, Some(metadata.version.clone())),
+        (KEY, metadata.key.clone()),
+        (PICTURE, part.map(|part| part.picture.clone())),
+        (SHARD, part.map(|part| part.shard.to_string())),
+        (CHECKSUM, Some(NO_CHECKSUM.to_owned())),
     ];
-    for (name, value) in words {
+    for (name, value) in words.iter().filter_map(|(name, value)| Some((*name, value.as_ref()?))) {
         attributes.other.insert(Text::from(name), AttributeValue::Text(text(value)));
     }
     // As text where the number may exceed what a signed attribute holds.
@@ -83,30 +118,8 @@ pub fn encode(output: &RenderOutput, metadata: &Metadata) -> std::result::Result
     let mut bytes = Cursor::new(Vec::new());
     image.write().to_unbuffered(&mut bytes).map_err(|error| error.to_string())?;
     let mut bytes = bytes.into_inner();
-    order_attributes(&mut bytes).ok_or("the encoder wrote a header that is none")?;
+    finish(&mut bytes).ok_or("the encoder wrote a header that is none")?;
     Ok(bytes)
-}
-
-/// Orders the attributes of a file of one part by their names: the encoder keeps them in a map that has no order, and
-/// equal images are to be equal files. Nothing else moves. `None` where the header is cut short.
-fn order_attributes(bytes: &mut [u8]) -> Option<()> {
-    // Behind magic number and version: name, type, both ended by 0, size and value; an empty name ends the header.
-    let first = 8;
-    let mut attributes = Vec::new();
-    let mut at = first;
-    while *bytes.get(at)? != 0 {
-        let end_of_text =
-            |from: usize| Some(from + bytes.get(from..)?.iter().position(|byte| *byte == 0)? + 1);
-        let value = end_of_text(end_of_text(at)?)?;
-        let size = i32::from_le_bytes(bytes.get(value..value + 4)?.try_into().ok()?);
-        let next = value + 4 + usize::try_from(size).ok()?;
-        attributes.push(bytes.get(at..next)?.to_vec());
-        at = next;
-    }
-    // Names are unique and come first.
-    attributes.sort();
-    bytes.get_mut(first..at)?.copy_from_slice(&attributes.concat());
-    Some(())
 }
 
 fn software() -> String {
@@ -126,6 +139,7 @@ mod tests {
             spp: 8,
             samples: 5,
             seed: u32::MAX,
+            ..Metadata::default()
         }
     }
 
@@ -159,7 +173,7 @@ mod tests {
         // Each map of the encoder has an order of its own: without ours nearly all of these differ.
         assert!((0..8).all(|_| encoded() == expected));
         let mut cut = expected[..40].to_vec();
-        assert_eq!(order_attributes(&mut cut), None);
+        assert_eq!(finish(&mut cut), None);
     }
 
     #[test]

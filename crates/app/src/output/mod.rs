@@ -2,17 +2,24 @@
 
 mod destination;
 mod exr;
+mod exr_header;
+mod exr_part;
 mod format;
 mod levels;
 mod png;
+mod rows;
 mod save_rays;
+mod stamp;
 
-pub use self::exr::{Metadata, encode as encode_exr};
+pub use self::exr::{Metadata, PartOf, encode as encode_exr};
+pub use self::png::encode as encode_png;
 pub use destination::Destination;
+pub(crate) use exr_part::{PartFile, decode as decode_part};
 pub use format::ImageFormat;
 pub use levels::hint;
-pub use png::encode as encode_png;
+pub(crate) use rows::{Row, Rows, key_of_report, lines, read_rows};
 pub(crate) use save_rays::{SaveTargets, save};
+pub use stamp::{KEY, Standing, image_key, standing};
 
 #[cfg(test)]
 mod tests {

@@ -1,25 +1,29 @@
 //! PNG: 8-bit sRGB. Colours times 2^exposure, clamped to [0, 1], then the sRGB curve, rounded to the
 //! nearest step. No further tone mapping and no dithering: other programs can reproduce every value.
 
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
+use super::stamp::KEY;
 use rasray_experiment::RenderOutput;
 use rasray_metrics::tone_map;
 
-/// The bytes of a PNG file of the colours.
+/// The bytes of a PNG file of the colours, with a key where it has one.
 ///
 /// # Errors
 /// What the encoder says, in words.
-pub fn encode(output: &RenderOutput, exposure: f32) -> Result<Vec<u8>, String> {
+pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result<Vec<u8>, String> {
+    let write = |bytes: &mut Vec<u8>| {
+        let mut encoder = png::Encoder::new(bytes, output.width, output.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        if let Some(key) = key {
+            encoder.add_text_chunk(KEY.to_owned(), key.to_owned())?;
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&tone_map(&output.beauty, exposure))?;
+        writer.finish()
+    };
     let mut bytes = Vec::new();
-    PngEncoder::new(&mut bytes)
-        .write_image(
-            &tone_map(&output.beauty, exposure),
-            output.width,
-            output.height,
-            ExtendedColorType::Rgb8,
-        )
-        .map_err(|error| error.to_string())?;
+    write(&mut bytes).map_err(|error: png::EncodingError| error.to_string())?;
     Ok(bytes)
 }
 
@@ -35,7 +39,7 @@ mod tests {
             beauty: vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.5; 3]],
             ..Default::default()
         };
-        let bytes = encode(&output, 0.0).expect("a small image");
+        let bytes = encode(&output, 0.0, None).expect("a small image");
         let read = image::load_from_memory(&bytes).expect("a valid file").to_rgb8();
         assert_eq!((read.width(), read.height()), (2, 2));
         assert_eq!(read.into_raw(), [255, 0, 0, 0, 255, 0, 0, 0, 255, 188, 188, 188]);

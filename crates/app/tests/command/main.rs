@@ -10,6 +10,7 @@ mod output;
 mod replay;
 mod results;
 mod scripted;
+mod shares;
 mod signals;
 mod usage;
 

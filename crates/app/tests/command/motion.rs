@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use crate::scripted::{rasray, stderr};
 
 /// A triangle that rises from z = 0 to 4 m within two seconds, and a second clip that lets it rise from there.
-const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"sheet","mesh":0}],
+pub const RISING: &str = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"name":"sheet","mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
 "animations":[
  {"name":"rise","channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":1,"output":2}]},
@@ -63,26 +63,41 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("rising.gltf"), RISING).expect("a scene");
     let line = "render rising.gltf --frames 8-11 --fps 8 --clip rise --eye 0.25,0.25,9 --target 0.25,0.25,0 --size 1x1 \
-                --spp 1 --aov depth --output out.###.exr --report r#.json --skip-existing";
+                --spp 1 --aov depth --output out.###.exr --report r.jsonl --resume";
     let run = || {
         let output = rasray(folder.path(), line);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stderr(&output)
     };
     let image = |number: &str| folder.path().join(format!("out.{number}.exr"));
-    run();
-    let depths = ["008", "009", "010", "011"].map(|number| depth_of(&image(number)));
-    assert_eq!(depths, [7.0, 6.75, 6.5, 6.25]);
-    let report = std::fs::read(folder.path().join("r10.json")).expect("the report");
-    let report: Value = serde_json::from_slice(&report).expect("JSON");
-    assert_eq!(report["scene"]["pose"], json!({ "time_s": 1.25, "clips": ["rise"] }));
-    // What is there stays as it is; what is missing is made.
-    std::fs::write(image("008"), "kept").expect("a file");
+    let says = |words: &str| {
+        let said = run();
+        assert!(said.contains(words), "{words}: {said}");
+        let depths = ["008", "009", "010", "011"].map(|number| depth_of(&image(number)));
+        assert_eq!(depths, [7.0, 6.75, 6.5, 6.25]);
+    };
+    says("4 frames were rendered (4 missing), 0 were there already");
+    let rows = || std::fs::read_to_string(folder.path().join("r.jsonl")).expect("the report");
+    let reports: Vec<Value> =
+        rows().lines().map(|line| serde_json::from_str(line).expect("JSON in each line")).collect();
+    let poses: Vec<_> = reports.iter().map(|report| report["scene"]["pose"].clone()).collect();
+    assert_eq!(poses[2], json!({ "time_s": 1.25, "clips": ["rise"], "frame": 10 }));
+    assert_eq!(poses.len(), 4);
+    // What is there stays as it is; what is missing, damaged or of another time is made, and what has no row.
+    std::fs::copy(image("011"), image("009")).expect("it is there");
     std::fs::remove_file(image("010")).expect("it is there");
-    let said = run();
-    assert!(said.contains("1 frames were rendered, 3 were there already"), "{said}");
-    assert_eq!(std::fs::read(image("008")).expect("a file"), b"kept");
-    assert_eq!(depth_of(&image("010")), 6.5);
+    let whole = std::fs::read(image("008")).expect("it is there");
+    std::fs::write(image("008"), &whole[..whole.len() - 1]).expect("a file");
+    says("3 frames were rendered (1 missing, 1 of something else, 1 damaged), 1 were there already");
+    assert_eq!(std::fs::read(image("008")).expect("it is there"), whole);
+    let text = rows();
+    let kept = text.lines().skip(1).map(|line| format!("{line}\n")).collect::<String>();
+    std::fs::write(folder.path().join("r.jsonl"), &kept).expect("a file");
+    says("1 frames were rendered (1 without a report), 3 were there already");
+    assert!(rows().ends_with(&kept));
+    // Another scene of the same name.
+    std::fs::write(folder.path().join("rising.gltf"), format!("{RISING} ")).expect("a scene");
+    says("4 frames were rendered (4 of something else), 0 were there already");
 }
 
 #[test]
@@ -97,7 +112,8 @@ fn times_and_clips_that_there_are_not_are_refused() {
         ("render rising.gltf --frames 0-3 -o x.png", "write a run of #"),
         ("render rising.gltf --frames 3-0 -o x#.png", "a range such as 0-99"),
         ("render rising.gltf --frames 0-3 --time 1 -o x#.png", "--time"),
-        ("render rising.gltf --skip-existing -o x#.png", "--frames"),
+        ("render rising.gltf --fps 5 -o x#.png", "--frames"),
+        ("render rising.gltf --frames 0-3 -o x#.png --report r.json", ".jsonl"),
         ("render cornell --frames 0-3 -o #.png", "has no clips"),
         ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
     ] {

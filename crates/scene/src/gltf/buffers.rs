@@ -54,6 +54,7 @@ impl<'a> Document<'a> {
                 Reference::Data(bytes) => bytes,
                 Reference::File(file) => {
                     let bytes = read_needed(path, &place, &file, limits.file_bytes)?;
+                    self.remarks.borrow_mut().files.push(file.clone());
                     if (bytes.len() as u64) < buffer.byte_length.0
                         && let Some(foreign) = recognise(&bytes)
                     {

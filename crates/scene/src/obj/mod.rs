@@ -123,6 +123,7 @@ fn read_libraries(
                     Some(foreign) => missing(format!("is {}, not a material library", foreign.what)),
                     None => {
                         read += 1;
+                        remarks.files.push(file.clone());
                         let materials = mtl::parse(&file, &bytes, remarks);
                         for material in materials.map_err(|error| error.of_scene(path))? {
                             known.entry(material.name.clone()).or_insert(material);

@@ -56,6 +56,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
                 camera: view.camera,
                 system,
                 frame,
+                shard: None,
                 aovs: AovSelection::default(),
                 needs,
                 repetitions: 0,

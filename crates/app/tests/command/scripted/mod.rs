@@ -5,7 +5,7 @@
 
 use rasray_experiment::{
     Backend, ChosenPath, CompareJob, Comparison, DeviceChoice, DeviceDescription, ExperimentError, Feature,
-    HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelCapacity,
+    FilmSums, HardJob, OnProgress, PassCommands, Progress, RenderJob, RenderOutput, TexelCapacity,
 };
 use rasray_report::{Counters, Device, HardRecord, Run, Times};
 use std::path::Path;
@@ -48,9 +48,10 @@ impl Backend for Scripted {
         if self.device == "stuck" {
             std::thread::sleep(Duration::from_secs(60));
         }
+        let wanted = job.shard.unwrap_or_default().samples(job.frame.spp).len() as u32;
         let mut samples_done = 0;
-        while samples_done < job.frame.spp {
-            let (done, total) = (samples_done.into(), job.frame.spp.into());
+        while samples_done < wanted {
+            let (done, total) = (samples_done.into(), wanted.into());
             if progress(Progress { task: "trace", done, total, unit: "samples" }).is_break() {
                 break;
             }
@@ -59,10 +60,16 @@ impl Backend for Scripted {
             }
             samples_done += 1;
         }
+        let beauty = vec![[0.5, 0.25, 1.0]; pixels];
+        let sum = |mean: &[f32; 3]| mean.map(|channel| channel * samples_done as f32);
         Ok(RenderOutput {
             width,
             height,
-            beauty: vec![[0.5, 0.25, 1.0]; pixels],
+            sums: job.shard.map(|_| FilmSums {
+                sums: beauty.iter().map(sum).collect(),
+                counts: vec![samples_done; pixels],
+            }),
+            beauty,
             depth: job.aovs.depth.then(|| vec![2.0; pixels]),
             normal: job.aovs.normal.then(|| vec![[0.0, 0.0, 1.0]; pixels]),
             primitive: job.aovs.primitive.then(|| vec![7; pixels]),

@@ -1,0 +1,33 @@
+//! Options of `rasray merge`.
+
+use super::values;
+use clap::Args;
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  rasray render scene.glb --spp 256 --shard 1/2 --output part.1.exr
+  rasray render scene.glb --spp 256 --shard 2/2 --output part.2.exr
+  rasray merge scene.exr part.1.exr part.2.exr
+  rasray merge scene.png part.*.exr --exposure 1
+  rasray merge walk.jsonl walk.1.jsonl walk.2.jsonl
+
+Shares of the samples (--shard of render) add up to the picture that render makes without it, up to the
+rounding of its sums, and to the same bytes in whatever order they are named; render --resume takes it for its
+own. All parts are to be of the same picture and to hold each sample once. Reports (.jsonl, a row per frame)
+are sorted by frame; rows with the same key are kept once.";
+
+/// Options of `rasray merge`.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub struct MergeArguments {
+    /// File to write: .png or .exr of shares of the samples, .jsonl of reports
+    #[arg(value_name = "OUT")]
+    pub out: PathBuf,
+    /// Files to put together
+    #[arg(value_name = "PART", required = true)]
+    pub parts: Vec<PathBuf>,
+    /// Stops of exposure for .png
+    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true)]
+    pub exposure: Option<f32>,
+}

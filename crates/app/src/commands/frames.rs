@@ -1,0 +1,115 @@
+//! The frames of an animation, one after the other.
+
+use super::picture_targets::Targets;
+use super::render::Pictures;
+use crate::error::AppError;
+use crate::output::Standing;
+use crate::terminal;
+use rasray_experiment::Shard;
+use std::ops::RangeInclusive;
+
+/// When a frame is shown.
+pub(super) fn seconds(number: u32, fps: f64) -> f64 {
+    f64::from(number) / fps
+}
+
+/// The frames of a range that a share of them gets.
+pub(super) fn dealt(range: &RangeInclusive<u32>, shard: Option<Shard>) -> Vec<u32> {
+    let shard = shard.unwrap_or_default();
+    range.clone().filter(|number| shard.holds(number - range.start())).collect()
+}
+
+impl Pictures<'_> {
+    /// Renders the frames. A camera of the scene moves with it, any other one stays.
+    pub(super) fn render_frames(&mut self, numbers: &[u32]) -> Result<(), AppError> {
+        let mut tally = Tally::default();
+        for (position, &number) in numbers.iter().enumerate() {
+            let about = |error: AppError| {
+                error.about(&format!("frame {number}, {} of {}", position + 1, numbers.len()))
+            };
+            let found = self.render_frame(number).map_err(about)?;
+            tally.0[found as usize] += 1;
+        }
+        if let Some(rows) = &self.rows {
+            if numbers.is_empty() {
+                // A share without frames has a report without rows, so that reports of all shares can be merged.
+                rows.write(self.interrupt)?;
+            }
+            terminal::note(&format!("{} has a row of each frame", rows.place().named().display()));
+        }
+        if self.given.resume {
+            terminal::note(&tally.text());
+        }
+        Ok(())
+    }
+
+    /// Renders a frame, unless it is there. Returns what there was of it.
+    fn render_frame(&mut self, number: u32) -> Result<Standing, AppError> {
+        let targets = Targets::of(self.given, self.aovs, Some(number))?;
+        if let (Some((image, _)), Some(rows)) = (&targets.image, &self.rows)
+            && image.same_as(rows.place())
+        {
+            return Err(AppError::usage("--output and --report name the same file", "name two files"));
+        }
+        self.loaded.pose(seconds(number, self.given.fps), self.given.reading.clip.as_deref())?;
+        if let Some(pose) = &mut self.loaded.pose {
+            pose.frame = Some(number);
+        }
+        if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.scene.cameras.get(index)) {
+            self.chosen.camera = camera.clone();
+        }
+        let key = self.key();
+        let mut found = Standing::Missing;
+        if self.given.resume {
+            found = targets.standing(self.given, &key)?;
+            let has_row = self.rows.as_ref().is_none_or(|rows| rows.has(number, &key));
+            match found {
+                Standing::Same if has_row => return Ok(found),
+                Standing::Same => found = Standing::Unreported,
+                _ => {}
+            }
+        }
+        self.render(&targets, key, false)?;
+        Ok(found)
+    }
+}
+
+/// How many frames stood how.
+#[derive(Default)]
+struct Tally([u32; Standing::ALL.len()]);
+
+impl Tally {
+    fn text(&self) -> String {
+        let counted = |standing: Standing| Some(self.0[standing as usize]).filter(|count| *count > 0);
+        let kept = counted(Standing::Same).unwrap_or(0);
+        let made = self.0.iter().sum::<u32>() - kept;
+        let reasons: Vec<_> = Standing::ALL
+            .into_iter()
+            .filter_map(|standing| Some(format!("{} {}", counted(standing)?, standing.reason()?)))
+            .collect();
+        let reasons = if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join(", ")) };
+        format!("{made} frames were rendered{reasons}, {kept} were there already")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_dealt_out_in_turns_from_the_first() {
+        let dealt = |text: &str| dealt(&(3..=9), Shard::parse(text));
+        assert_eq!((dealt("1/3"), dealt("2/3"), dealt("3/3")), (vec![3, 6, 9], vec![4, 7], vec![5, 8]));
+        assert_eq!((dealt(""), dealt("8/8")), ((3..=9).collect(), vec![]));
+    }
+
+    #[test]
+    fn a_tally_says_why_frames_were_rendered() {
+        let mut tally = Tally::default();
+        assert_eq!(tally.text(), "0 frames were rendered, 0 were there already");
+        tally.0[Standing::Same as usize] = 9;
+        tally.0[Standing::Missing as usize] = 2;
+        tally.0[Standing::Damaged as usize] = 1;
+        assert_eq!(tally.text(), "3 frames were rendered (2 missing, 1 damaged), 9 were there already");
+    }
+}

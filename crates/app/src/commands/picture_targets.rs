@@ -1,0 +1,178 @@
+//! Where a picture and its report go.
+
+use super::steps::{destination, keep_inputs};
+use crate::arguments::RenderArguments;
+use crate::error::AppError;
+use crate::output::{Destination, ImageFormat, Rows, Standing, image_key, key_of_report, standing};
+use rasray_experiment::{AovSelection, Shard};
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+/// Where a picture and its report go.
+pub(super) struct Targets {
+    pub(super) image: Option<(Destination, ImageFormat)>,
+    pub(super) report: Option<Destination>,
+}
+
+impl Targets {
+    /// As the command line says, with the number of a frame in the names where there is one.
+    pub(super) fn of(
+        given: &RenderArguments,
+        aovs: AovSelection,
+        number: Option<u32>,
+    ) -> Result<Self, AppError> {
+        let named = |option, path: Option<&Path>, otherwise: &str| -> Result<Option<PathBuf>, AppError> {
+            let Some(path) = path else { return Ok(None) };
+            let Some(number) = number else { return Ok(Some(path.to_owned())) };
+            let path = numbered(path, number).ok_or_else(|| {
+                AppError::usage(
+                    format!("{option} names one file, and --frames makes several"),
+                    format!("write a run of # where the number goes: {option} 'frame.####.{otherwise}"),
+                )
+            })?;
+            Ok(Some(path))
+        };
+        let image =
+            image_target(given, named("--output", given.output.as_deref(), "png'")?.as_deref(), aovs)?;
+        let report = given.report.as_deref().filter(|path| number.is_none() || !takes_rows(path));
+        let report = named("--report", report, "json', or name a .jsonl, which takes a row per frame")?;
+        let report = destination(report.as_deref())?;
+        if let (Some((place, _)), Some(report)) = (&image, &report)
+            && place.same_as(report)
+        {
+            return Err(AppError::usage("--output and --report name the same file", "name two files"));
+        }
+        keep_inputs("--output", image.as_ref().map(|(place, _)| place), &given.scene)?;
+        keep_inputs("--report", report.as_ref(), &given.scene)?;
+        Ok(Self { image, report })
+    }
+
+    /// What there is of the picture with this key: its image, and its report as well, where one is wanted here.
+    pub(super) fn standing(&self, given: &RenderArguments, key: &str) -> Result<Standing, AppError> {
+        let Some((place, format)) = self.image.as_ref().filter(|(place, _)| !place.is_stdout()) else {
+            return Ok(Standing::Missing);
+        };
+        let shard = given.shard.filter(|_| given.frames.is_none());
+        let found = standing(
+            place.named(),
+            *format,
+            &image_key(key, *format, given.exposure.unwrap_or_default(), shard),
+        )?;
+        let reported = |place: &Destination| key_of_report(place.named()).as_deref() == Some(key);
+        Ok(match found {
+            Standing::Same if !self.report.as_ref().is_none_or(reported) => Standing::Unreported,
+            found => found,
+        })
+    }
+}
+
+/// Whether a report of frames with this name takes a row of each.
+fn takes_rows(path: &Path) -> bool {
+    numbered(path, 0).is_none() && Rows::are_in(path)
+}
+
+/// The report that takes a row per frame, where one was asked for.
+pub(super) fn rows(given: &RenderArguments) -> Result<Option<Rows>, AppError> {
+    let Some(path) = given.report.as_deref().filter(|path| given.frames.is_some() && takes_rows(path)) else {
+        return Ok(None);
+    };
+    let rows = Rows::open(path, given.resume)?;
+    keep_inputs("--report", Some(rows.place()), &given.scene)?;
+    Ok(Some(rows))
+}
+
+/// The path with a number in place of the last run of # in its file name, with as many digits or more; absent where it
+/// has none.
+fn numbered(path: &Path, number: u32) -> Option<PathBuf> {
+    let name = path.file_name()?.to_str()?;
+    let end = name.rfind('#')? + 1;
+    let begin = name[..end].trim_end_matches('#').len();
+    let width = end - begin;
+    Some(path.with_file_name(format!("{}{number:0width$}{}", &name[..begin], &name[end..])))
+}
+
+/// Where and how the image is written; refuses images that the format cannot hold.
+fn image_target(
+    given: &RenderArguments,
+    path: Option<&Path>,
+    aovs: AovSelection,
+) -> Result<Option<(Destination, ImageFormat)>, AppError> {
+    let Some(path) = path else { return Ok(None) };
+    let to_stdout = path == Path::new("-");
+    let format = match given.format {
+        Some(format) => format,
+        None if to_stdout => {
+            return Err(AppError::usage(
+                "--output - is standard output, which has no name that says how to write the image",
+                "say --format png or --format exr",
+            ));
+        }
+        None => ImageFormat::of(path)?,
+    };
+    if to_stdout && std::io::stdout().is_terminal() {
+        return Err(AppError::usage(
+            "--output - would write an image to a terminal",
+            "send standard output to a file or to a program that shows images",
+        ));
+    }
+    check_format(path, format, aovs != AovSelection::default(), given.exposure)?;
+    if format == ImageFormat::Png && given.shard.is_some() && given.frames.is_none() {
+        return Err(AppError::input(
+            path,
+            "a PNG cannot hold the sums of a share of the samples",
+            "write an .exr, and a .png when all shares are merged",
+        ));
+    }
+    Ok(Some((Destination::check(path)?, format)))
+}
+
+/// Refuses what a format cannot hold.
+pub(super) fn check_format(
+    path: &Path,
+    format: ImageFormat,
+    has_aovs: bool,
+    exposure: Option<f32>,
+) -> Result<(), AppError> {
+    match format {
+        ImageFormat::Png if has_aovs => Err(AppError::input(
+            path,
+            "a PNG cannot hold what --aov asks for",
+            "write an .exr, or leave --aov out",
+        )),
+        ImageFormat::Exr if exposure.is_some() => Err(AppError::input(
+            path,
+            "an EXR holds linear values, which --exposure does not change",
+            "leave --exposure out, or write a .png",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The share of the samples that was asked for, if not all.
+///
+/// # Errors
+/// There are no samples in it.
+pub(super) fn samples_shard(given: &RenderArguments) -> Result<Option<Shard>, AppError> {
+    let Some(shard) = given.shard.filter(|_| given.frames.is_none()) else { return Ok(None) };
+    if shard.samples(given.frame.spp).len() == 0 {
+        return Err(AppError::usage(
+            format!("--shard {shard} has none of {} samples per pixel", given.frame.spp),
+            "make no more shares than there are samples",
+        ));
+    }
+    Ok(Some(shard))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_run_of_hashes_is_the_number() {
+        let shown = |path: &str, number| numbered(Path::new(path), number);
+        assert_eq!(shown("out/a.####.png", 7), Some(PathBuf::from("out/a.0007.png")));
+        assert_eq!(shown("#1.##.exr", 123), Some(PathBuf::from("#1.123.exr")));
+        assert_eq!(shown("#", 5), Some(PathBuf::from("5")));
+        assert_eq!(shown("out#/a.png", 7), None, "folders have no number");
+    }
+}

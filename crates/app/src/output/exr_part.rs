@@ -1,0 +1,148 @@
+//! Reads a share of a picture's samples back from its EXR.
+
+use super::exr::{Metadata, PICTURE, PartOf, SAMPLES, SHARD, VERSION};
+use super::exr_header::{is_readable, is_whole, number, text};
+use super::stamp::KEY;
+use exr::prelude::*;
+use rasray_experiment::{FilmSums, RenderOutput, Shard};
+use std::io::Cursor;
+
+/// A share of a picture's samples, its header read and its bytes compared with their checksum.
+pub(crate) struct PartFile {
+    bytes: Vec<u8>,
+    /// As in the file.
+    pub(crate) metadata: Metadata,
+    /// Which share it is.
+    pub(crate) part: PartOf,
+}
+
+/// Reads the header of a part.
+///
+/// # Errors
+/// In words: the bytes are no part, or damaged.
+pub(crate) fn decode(bytes: Vec<u8>) -> std::result::Result<PartFile, &'static str> {
+    if !is_readable(&bytes) {
+        return Err("is not an EXR file, or is cut short");
+    }
+    if text(&bytes, PICTURE).is_none() {
+        return Err("holds no share of a picture's samples");
+    }
+    if !is_whole(&bytes) {
+        return Err("is damaged: it was cut short or changed after it was written");
+    }
+    let header = || {
+        let word = |name: &str| text(&bytes, name).map(str::to_owned);
+        let count = |name: &str| u32::try_from(number(&bytes, name)?).ok();
+        let part = PartOf { picture: word(PICTURE)?, shard: Shard::parse(text(&bytes, SHARD)?)? };
+        let metadata = Metadata {
+            scene: word("scene")?,
+            system: word("system")?,
+            preset: word("preset")?,
+            integrator: word("integrator")?,
+            spp: count("spp")?,
+            samples: count("samples")?,
+            seed: text(&bytes, "seed")?.parse().ok()?,
+            version: word(VERSION)?,
+            key: word(KEY),
+            part: Some(part.clone()),
+        };
+        Some((metadata, part))
+    };
+    let (metadata, part) = header().ok_or("was written by another version, or not by rasray")?;
+    Ok(PartFile { bytes, metadata, part })
+}
+
+impl PartFile {
+    /// Sums, counts and further images; without means.
+    ///
+    /// # Errors
+    /// What the decoder says, in words.
+    pub(crate) fn pixels(self) -> std::result::Result<RenderOutput, String> {
+        let image = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .all_channels()
+            .first_valid_layer()
+            .all_attributes()
+            .from_buffered(Cursor::new(&self.bytes))
+            .map_err(|error| error.to_string())?;
+        let layer = image.layer_data;
+        let channel = |name: &str| {
+            let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
+            found.map(|channel| &channel.sample_data)
+        };
+        let floats = |name: &str| match channel(name) {
+            Some(FlatSamples::F32(values)) => Some(values.clone()),
+            _ => None,
+        };
+        let whole = |name: &str| match channel(name) {
+            Some(FlatSamples::U32(values)) => Some(values.clone()),
+            _ => None,
+        };
+        let triples = |names: [&str; 3]| {
+            let [x, y, z] = names.map(floats);
+            let pixels = x?.into_iter().zip(y?).zip(z?);
+            Some(pixels.map(|((x, y), z)| [x, y, z]).collect::<Vec<_>>())
+        };
+        let missing = || "it lacks the sums or the counts of its samples".to_owned();
+        Ok(RenderOutput {
+            width: layer.size.x() as u32,
+            height: layer.size.y() as u32,
+            sums: Some(FilmSums {
+                sums: triples(["R", "G", "B"]).ok_or_else(missing)?,
+                counts: whole(SAMPLES).ok_or_else(missing)?,
+            }),
+            depth: floats("Z"),
+            normal: triples(["N.X", "N.Y", "N.Z"]),
+            primitive: whole("id"),
+            samples_done: self.metadata.samples,
+            ..RenderOutput::default()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::encode_exr;
+
+    #[test]
+    fn a_part_reads_back_bit_for_bit() {
+        let part = PartOf { picture: "f".repeat(64), shard: Shard::new(1, 3).expect("a share") };
+        let metadata = Metadata {
+            scene: "cornell".to_owned(),
+            spp: 7,
+            samples: 3,
+            seed: u32::MAX,
+            version: "1".to_owned(),
+            key: Some("a".repeat(64)),
+            part: Some(part.clone()),
+            ..Metadata::default()
+        };
+        let sums = vec![[1.0e-40, 3.0, 5.5e30], [0.1, 0.2, 0.3]];
+        let output = RenderOutput {
+            width: 1,
+            height: 2,
+            sums: Some(FilmSums { sums, counts: vec![3, 2] }),
+            depth: Some(vec![1.5, 0.0]),
+            normal: Some(vec![[0.0, 1.0, 0.0], [0.0; 3]]),
+            primitive: Some(vec![7, u32::MAX]),
+            ..RenderOutput::default()
+        };
+        let bytes = encode_exr(&output, &metadata).expect("a small image");
+        let file = decode(bytes.clone()).expect("a part");
+        assert_eq!((&file.metadata, &file.part), (&metadata, &part));
+        let read = file.pixels().expect("whole");
+        assert_eq!((read.width, read.height, read.samples_done), (1, 2, 3));
+        assert_eq!((&read.sums, &read.depth), (&output.sums, &output.depth));
+        assert_eq!((read.normal, read.primitive), (output.normal.clone(), output.primitive.clone()));
+
+        let mut changed = bytes;
+        *changed.last_mut().expect("bytes") ^= 1;
+        assert!(decode(changed).err().is_some_and(|error| error.contains("damaged")));
+        let whole = RenderOutput { beauty: vec![[0.0; 3]; 2], sums: None, ..output };
+        let bytes = encode_exr(&whole, &Metadata { part: None, ..metadata }).expect("a small image");
+        assert!(decode(bytes).err().is_some_and(|error| error.contains("no share")));
+        assert!(decode(b"P6".to_vec()).err().is_some_and(|error| error.contains("not an EXR")));
+    }
+}

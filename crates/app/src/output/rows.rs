@@ -1,0 +1,154 @@
+//! A report with a row per frame of an animation: JSON lines, each a whole report.
+
+use super::destination::Destination;
+use crate::error::AppError;
+use crate::interrupt::Interrupt;
+use rasray_report::{Report, SCHEMA, json_shown};
+use std::collections::BTreeMap;
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// The report of one frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Row {
+    /// Number of the frame.
+    pub(crate) frame: u32,
+    /// The picture's key.
+    pub(crate) key: String,
+    /// The report in one line, without its end.
+    pub(crate) line: String,
+}
+
+impl Row {
+    /// The row that a report makes; `None` unless it is of a frame and has a key.
+    pub(crate) fn of(report: &Report) -> Option<Self> {
+        Some(Self {
+            frame: report.scene.pose.as_ref()?.frame?,
+            key: report.runs.first()?.key.clone()?,
+            line: report.to_json_line(),
+        })
+    }
+}
+
+/// The rows of a file; none where there is no file.
+///
+/// # Errors
+/// The file cannot be read, or a line of it is no report of a frame.
+pub(crate) fn read_rows(path: &Path) -> Result<Vec<Row>, AppError> {
+    let text = match std::fs::read_to_string(path) {
+        Ok(text) => text,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(error) => {
+            return Err(AppError::input(path, error, "see that you may read it, and that it is text"));
+        }
+    };
+    let row = |(number, line): (usize, &str)| {
+        let wrong = |message: String| {
+            let help = "remove that line, or the file";
+            AppError::input(path, format!("line {}: {message}", number + 1), help)
+        };
+        let report: Report =
+            serde_json::from_str(line).map_err(|error| wrong(format!("is not a report ({error})")))?;
+        let row = Row::of(&report).filter(|_| report.schema == SCHEMA);
+        row.map(|row| Row { line: line.to_owned(), ..row })
+            .ok_or_else(|| wrong(format!("is not a report {SCHEMA} of a frame with a key")))
+    };
+    text.lines().enumerate().map(row).collect()
+}
+
+/// The key in a report of one picture; `None` where there is no such report.
+pub(crate) fn key_of_report(path: &Path) -> Option<String> {
+    let report: Report = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    report.runs.first()?.key.clone()
+}
+
+/// A file that is written anew, whole, with each row.
+pub(crate) struct Rows {
+    place: Destination,
+    rows: BTreeMap<u32, Row>,
+}
+
+impl Rows {
+    /// Whether a name is one of such a file: it ends in `.jsonl`.
+    pub(crate) fn are_in(path: &Path) -> bool {
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("jsonl"))
+    }
+
+    /// A file for the rows of an animation. `resume` keeps those that are there.
+    ///
+    /// # Errors
+    /// The place takes no file; what is there cannot be read.
+    pub(crate) fn open(path: &Path, resume: bool) -> Result<Self, AppError> {
+        let place = Destination::check(path)?;
+        let there = if resume { read_rows(path)? } else { Vec::new() };
+        Ok(Self { place, rows: there.into_iter().map(|row| (row.frame, row)).collect() })
+    }
+
+    /// Where they are written.
+    pub(crate) fn place(&self) -> &Destination {
+        &self.place
+    }
+
+    /// Whether there is a row of this picture.
+    pub(crate) fn has(&self, frame: u32, key: &str) -> bool {
+        self.rows.get(&frame).is_some_and(|row| row.key == key)
+    }
+
+    /// Puts a row in the place of the one of its frame, if there is one, and writes the file.
+    ///
+    /// # Errors
+    /// As [`Destination::put`].
+    pub(crate) fn put(&mut self, row: Row, interrupt: &Interrupt) -> Result<(), AppError> {
+        self.rows.insert(row.frame, row);
+        self.write(interrupt)
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// As [`Destination::put`].
+    pub(crate) fn write(&self, interrupt: &Interrupt) -> Result<(), AppError> {
+        self.place.put(lines(self.rows.values()).as_bytes(), interrupt)
+    }
+}
+
+/// The text of a file with these rows.
+pub(crate) fn lines<'a>(rows: impl IntoIterator<Item = &'a Row>) -> String {
+    json_shown(&rows.into_iter().flat_map(|row| [row.line.as_str(), "\n"]).collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasray_report::{Device, Origin, PoseRecord, Run, SceneRecord};
+
+    fn row(frame: u32, key: &str) -> Row {
+        let pose = PoseRecord { time_s: f64::from(frame), clips: Vec::new(), frame: Some(frame) };
+        let scene = SceneRecord { name: "\u{1b}[2J".to_owned(), pose: Some(pose), ..SceneRecord::default() };
+        let run = Run { key: Some(key.to_owned()), ..Run::default() };
+        Row::of(&Report::new(Origin::default(), Device::default(), scene, vec![run])).expect("a row")
+    }
+
+    #[test]
+    fn rows_stay_in_order_and_one_takes_the_place_of_its_frame() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.jsonl");
+        let open = |resume| Rows::open(&path, resume).expect("writable");
+        let mut rows = open(true);
+        for (frame, key) in [(7, "a"), (3, "b"), (10, "c"), (3, "d")] {
+            rows.put(row(frame, key), &Interrupt::default()).expect("written");
+        }
+        let read = read_rows(&path).expect("rows");
+        let found: Vec<_> = read.iter().map(|row| (row.frame, row.key.as_str())).collect();
+        assert_eq!(found, [(3, "d"), (7, "a"), (10, "c")]);
+        assert!(!std::fs::read_to_string(&path).expect("text").contains('\u{1b}'));
+        assert!(open(true).has(7, "a") && !open(true).has(7, "b") && !open(true).has(8, "a"));
+        assert!(!open(false).has(7, "a"));
+
+        let text = std::fs::read_to_string(&path).expect("text");
+        std::fs::write(&path, format!("{text}{{\"schema\":")).expect("a file");
+        let error = read_rows(&path).expect_err("a line that is cut short");
+        assert!(error.exit_code() == 2 && error.to_string().contains("a.jsonl: line 4: "), "{error}");
+        assert!(Rows::are_in(&path) && !Rows::are_in(&folder.path().join("a.json")));
+    }
+}

@@ -1,0 +1,175 @@
+//! What images say of themselves: a key, by which a later run knows what they show.
+
+use super::exr_header;
+use super::format::ImageFormat;
+use crate::error::AppError;
+use rasray_experiment::{KeyHash, Shard};
+use std::io::{Cursor, ErrorKind};
+use std::path::Path;
+
+/// The key of an image: an attribute of an EXR, a tEXt chunk of a PNG. It belongs to the whole file, with the way in
+/// which it shows the picture.
+pub const KEY: &str = "rasrayKey";
+
+/// The key of a file that shows the picture with the key `picture`: as a PNG at an exposure (stops), as an EXR, or as
+/// an EXR of a share of the samples.
+pub fn image_key(picture: &str, format: ImageFormat, exposure: f32, shard: Option<Shard>) -> String {
+    let hash = KeyHash::default().with("picture", picture);
+    match (format, shard) {
+        (_, Some(shard)) => hash.with("part", shard.to_string()),
+        (ImageFormat::Exr, None) => hash.with("exr", ""),
+        // -0 and 0 are the same exposure.
+        (ImageFormat::Png, None) => hash.with("png", (exposure + 0.0).to_le_bytes()),
+    }
+    .finish()
+}
+
+/// What is at a place where an image with a certain key is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The wanted image, whole.
+    Same,
+    /// Nothing.
+    Missing,
+    /// A file with another key, or without one.
+    Other,
+    /// A file that is cut short or changed.
+    Damaged,
+    /// The wanted image, without the report that was asked for with it.
+    Unreported,
+}
+
+impl Standing {
+    /// All of them, in their order.
+    pub const ALL: [Self; 5] = [Self::Same, Self::Missing, Self::Other, Self::Damaged, Self::Unreported];
+
+    /// Why the image is made, in words; `None` where it is not.
+    pub fn reason(self) -> Option<&'static str> {
+        match self {
+            Self::Same => None,
+            Self::Missing => Some("missing"),
+            Self::Other => Some("of something else"),
+            Self::Damaged => Some("damaged"),
+            Self::Unreported => Some("without a report"),
+        }
+    }
+}
+
+/// Reads the file at `path` and says whether it is the image with this key. Its pixels are only looked at if it says so.
+///
+/// # Errors
+/// There is a file that cannot be read.
+pub fn standing(path: &Path, format: ImageFormat, key: &str) -> Result<Standing, AppError> {
+    let bytes = match std::fs::read(path) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Standing::Missing),
+        Err(error) => {
+            let help = "leave --resume out to replace it, or see that you may read it";
+            return Err(AppError::input(path, format!("cannot be read: {error}"), help));
+        }
+    };
+    let (readable, found) = match format {
+        ImageFormat::Exr => {
+            (exr_header::is_readable(&bytes), exr_header::text(&bytes, KEY).map(str::to_owned))
+        }
+        ImageFormat::Png => match png_key(&bytes) {
+            Ok(found) => (true, found),
+            Err(_) => (false, None),
+        },
+    };
+    if !readable {
+        return Ok(Standing::Damaged);
+    }
+    if found.as_deref() != Some(key) {
+        return Ok(Standing::Other);
+    }
+    let whole = match format {
+        ImageFormat::Exr => exr_header::is_whole(&bytes),
+        ImageFormat::Png => png_is_whole(&bytes),
+    };
+    Ok(if whole { Standing::Same } else { Standing::Damaged })
+}
+
+/// The key of a PNG, from what precedes its pixels.
+fn png_key(bytes: &[u8]) -> Result<Option<String>, png::DecodingError> {
+    let reader = png::Decoder::new(Cursor::new(bytes)).read_info()?;
+    let mut texts = reader.info().uncompressed_latin1_text.iter();
+    Ok(texts.find(|chunk| chunk.keyword == KEY).map(|chunk| chunk.text.clone()))
+}
+
+/// How every PNG ends: a chunk without content, and its checksum.
+const PNG_END: [u8; 12] = *b"\0\0\0\0IEND\xaeB`\x82";
+
+/// Whether all chunks have the checksums that they state and all pixels are there.
+fn png_is_whole(bytes: &[u8]) -> bool {
+    let read = || {
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().ok()?;
+        let mut pixels = vec![0; reader.output_buffer_size()?];
+        reader.next_frame(&mut pixels).ok()?;
+        reader.finish().ok()
+    };
+    bytes.ends_with(&PNG_END) && read().is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::{Metadata, encode_exr, encode_png};
+    use rasray_experiment::RenderOutput;
+
+    fn image() -> RenderOutput {
+        let beauty = (0..96).map(|i| [i as f32 / 96.0, 0.5, 1.0 / (1.0 + i as f32)]).collect();
+        RenderOutput { width: 12, height: 8, beauty, ..RenderOutput::default() }
+    }
+
+    #[test]
+    fn a_file_is_known_by_its_key_unless_a_bit_of_it_has_changed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("image");
+        for format in [ImageFormat::Png, ImageFormat::Exr] {
+            let key = image_key("picture", format, 0.0, None);
+            let encode = |key: Option<&String>| match format {
+                ImageFormat::Png => encode_png(&image(), 0.0, key.map(String::as_str)),
+                ImageFormat::Exr => {
+                    encode_exr(&image(), &Metadata { key: key.cloned(), ..Metadata::default() })
+                }
+            };
+            let put = |bytes: &[u8]| {
+                std::fs::write(&path, bytes).expect("a file");
+                standing(&path, format, &key).expect("it can be read")
+            };
+            _ = std::fs::remove_file(&path);
+            assert_eq!(standing(&path, format, &key).expect("no file"), Standing::Missing);
+            let whole = encode(Some(&key)).expect("a small image");
+            assert_eq!(put(&whole), Standing::Same);
+            assert_eq!(put(&encode(None).expect("a small image")), Standing::Other);
+            assert_eq!(put(&encode(Some(&"0".repeat(64))).expect("a small image")), Standing::Other);
+            for cut in (0..whole.len()).step_by(7).chain([whole.len() - 1]) {
+                assert_ne!(put(&whole[..cut]), Standing::Same, "{format:?} cut at {cut}");
+            }
+            assert_eq!(put(&whole[..whole.len() - 1]), Standing::Damaged);
+            for place in 0..whole.len() {
+                let mut changed = whole.clone();
+                changed[place] ^= 0x10;
+                assert_ne!(put(&changed), Standing::Same, "{format:?} changed at {place}");
+            }
+        }
+        assert!(standing(folder.path(), ImageFormat::Png, "key").is_err(), "a folder");
+    }
+
+    #[test]
+    fn every_way_to_show_a_picture_has_a_key_of_its_own() {
+        let key = |format, exposure, shard| image_key("picture", format, exposure, shard);
+        let keys = [
+            key(ImageFormat::Png, 0.0, None),
+            key(ImageFormat::Png, 1.0, None),
+            key(ImageFormat::Exr, 0.0, None),
+            key(ImageFormat::Exr, 0.0, Shard::new(1, 2)),
+            key(ImageFormat::Exr, 0.0, Shard::new(2, 2)),
+            image_key("another", ImageFormat::Exr, 0.0, None),
+        ];
+        let different: std::collections::BTreeSet<_> = keys.iter().collect();
+        assert_eq!(different.len(), keys.len());
+        assert_eq!(key(ImageFormat::Png, -0.0, None), keys[0]);
+    }
+}

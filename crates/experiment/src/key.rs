@@ -1,0 +1,162 @@
+//! What a picture is known by: where two keys are equal, the same program makes the same picture.
+
+use crate::jobs::RenderJob;
+use crate::scene_source::LoadedScene;
+use rasray_scene::Camera;
+use sha2::{Digest, Sha256};
+
+/// A SHA-256 over named values. Lengths go in as well, so that no two lists of values run into each other.
+#[derive(Clone, Debug, Default)]
+pub struct KeyHash(Sha256);
+
+impl KeyHash {
+    /// The same with one more value.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
+        for bytes in [name.as_bytes(), value.as_ref()] {
+            self.0.update((bytes.len() as u64).to_le_bytes());
+            self.0.update(bytes);
+        }
+        self
+    }
+
+    /// 64 hexadecimal digits.
+    pub fn finish(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+/// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
+/// values. That is the program (`program`: version and commit), the contents of all files read or the built-in's name,
+/// the time, the camera, the system with its options, the integrator, the size, the samples, the sampler and the seed,
+/// and which further images there are.
+///
+/// The device is not in it: between devices, light may differ in its last bits. Neither is which share of the samples
+/// is made: all shares of a picture have the key of the whole.
+pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> String {
+    // Whoever adds a field decides here whether it changes the picture.
+    let RenderJob { scene: _, camera, system, frame, shard: _, aovs, needs: _, repetitions: _ } = job;
+    let Camera { name: _, world_from_camera, projection } = camera;
+    let options: Vec<_> = system.options.texts().collect();
+    // Numbers are written so that each reads back as the same.
+    KeyHash::default()
+        .with("program", program)
+        .with("scene", &loaded.content)
+        .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
+        .with("smaller images", format!("{:?}", loaded.smaller_images))
+        .with("camera", format!("{world_from_camera:?} {projection:?}"))
+        .with("system", format!("{} {} {options:?}", system.system.name, system.preset.name()))
+        .with("frame", format!("{frame:?}"))
+        .with("aovs", format!("{aovs:?}"))
+        .finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jobs::{AovSelection, Frame, Integrator, Sampler};
+    use crate::{Shard, StructureOptions, default_view, load, one_system};
+    use rasray_scene::Environment;
+    use rasray_scene::needs::Needs;
+    use rasray_systems::{Preset, SYSTEMS};
+    use std::collections::BTreeSet;
+    use std::ffi::OsStr;
+    use std::path::Path;
+
+    #[test]
+    fn lists_of_values_do_not_run_into_each_other() {
+        let key = |values: &[(&str, &str)]| {
+            let hash = values.iter().fold(KeyHash::default(), |hash, (name, value)| hash.with(name, value));
+            hash.finish()
+        };
+        let keys =
+            [&[("a", "bc")][..], &[("ab", "c")], &[("a", "b"), ("c", "")], &[("a", ""), ("b", "c")], &[]];
+        assert_eq!(keys.iter().map(|values| key(values)).collect::<BTreeSet<_>>().len(), keys.len());
+        assert_eq!(key(keys[0]), key(keys[0]));
+    }
+
+    const FRAME: Frame = Frame {
+        integrator: Integrator::Path { bounces: 2 },
+        width: 4,
+        height: 3,
+        spp: 8,
+        seed: 1,
+        sampler: Sampler::Sobol,
+    };
+
+    fn job(loaded: &LoadedScene) -> RenderJob<'_> {
+        let system = one_system(&SYSTEMS[0], Preset::Robust, &StructureOptions::default());
+        RenderJob {
+            scene: &loaded.scene,
+            camera: default_view(&loaded.scene).camera,
+            system: system.expect("the default"),
+            frame: FRAME,
+            shard: None,
+            aovs: AovSelection::default(),
+            needs: Needs::all(),
+            repetitions: 0,
+        }
+    }
+
+    #[test]
+    fn whatever_changes_a_picture_changes_its_key_and_nothing_else_does() {
+        let loaded = load(OsStr::new("cornell")).expect("built in");
+        let key = |change: &dyn Fn(&mut RenderJob<'_>)| {
+            let mut job = job(&loaded);
+            change(&mut job);
+            picture_key("1", &loaded, &job)
+        };
+        let first = key(&|_| ());
+        let changes: [&dyn Fn(&mut RenderJob<'_>); 9] = [
+            &|job| job.frame.spp = 4,
+            &|job| job.frame.seed = 2,
+            &|job| job.frame.width = 5,
+            &|job| job.frame.sampler = Sampler::Pcg,
+            &|job| job.frame.integrator = Integrator::Path { bounces: 3 },
+            &|job| job.frame.integrator = Integrator::AmbientOcclusion { distance: Some(1.0e-30) },
+            &|job| job.aovs.depth = true,
+            &|job| job.camera.world_from_camera.translation.x = 1.0e-300,
+            &|job| job.system.options = StructureOptions::default().with("tile", 4),
+        ];
+        let keys: BTreeSet<_> = changes.iter().map(|change| key(change)).chain([first.clone()]).collect();
+        assert_eq!(keys.len(), changes.len() + 1);
+        assert_ne!(picture_key("2", &loaded, &job(&loaded)), first, "another program");
+        let same: [&dyn Fn(&mut RenderJob<'_>); 3] =
+            [&|job| job.repetitions = 3, &|job| job.shard = Shard::new(2, 4), &|job| {
+                job.camera.name = "another".to_owned()
+            }];
+        assert!(same.iter().all(|change| key(change) == first));
+    }
+
+    #[test]
+    fn a_scene_is_known_by_all_that_it_is_made_from() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+        write("a.obj", "mtllib a.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        let content = |name: &Path, change: &dyn Fn(&mut LoadedScene)| {
+            let mut loaded = load(name.as_os_str()).expect("a scene");
+            change(&mut loaded);
+            loaded.content
+        };
+        let place = folder.path().join("a.obj");
+        let first = content(&place, &|_| ());
+        assert_eq!(content(&place, &|loaded| loaded.light(None)), first, "light that follows from the scene");
+        let mut seen = BTreeSet::from([first.clone()]);
+        let mut is_new = |content: String| assert!(seen.insert(content));
+        is_new(content(&place, &LoadedScene::close_holes));
+        is_new(content(&place, &|loaded| loaded.light(Some(Environment::Constant([0.5; 3])))));
+        for radiance in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] {
+            let map = Environment::LatLong { width: 1, height: 1, radiance: vec![radiance] };
+            is_new(content(&place, &|loaded| loaded.light(Some(map.clone()))));
+        }
+        write("a.mtl", "newmtl red\nKd 0 1 0\n");
+        is_new(content(&place, &|_| ()));
+        write("a.mtl", "newmtl red\nKd 1 0 0\n");
+        assert_eq!(content(&place, &|_| ()), first);
+        std::fs::rename(&place, folder.path().join("b.obj")).expect("another name");
+        assert_eq!(content(&folder.path().join("b.obj"), &|_| ()), first, "names are no content");
+        is_new(content(Path::new("spheres:10k"), &|_| ()));
+        is_new(content(Path::new("spheres:10001"), &|_| ()));
+    }
+}

@@ -1,0 +1,75 @@
+//! A share of work that several processes divide among themselves.
+
+use std::fmt;
+use std::iter::StepBy;
+use std::ops::Range;
+
+/// One of several shares, dealt out in turns: things are counted from 0, and share i of n gets those whose number leaves
+/// i - 1 when it is divided by n.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: u32,
+    of: u32,
+}
+
+impl Default for Shard {
+    /// All there is.
+    fn default() -> Self {
+        Self { number: 1, of: 1 }
+    }
+}
+
+impl Shard {
+    /// Share `number` (from 1 on) of `of`; `None` unless there is such a share.
+    pub fn new(number: u32, of: u32) -> Option<Self> {
+        (1..=of).contains(&number).then_some(Self { number, of })
+    }
+
+    /// Reads what [`fmt::Display`] writes: `2/8`.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (number, of) = text.split_once('/')?;
+        Self::new(number.trim().parse().ok()?, of.trim().parse().ok()?)
+    }
+
+    /// Whether the thing at this place, from 0, is part of the share.
+    pub fn holds(self, place: u32) -> bool {
+        place % self.of == self.number - 1
+    }
+
+    /// Those of the samples from 0 to `count` - 1 that are part of the share, in their order.
+    pub fn samples(self, count: u32) -> StepBy<Range<u32>> {
+        ((self.number - 1).min(count)..count).step_by(self.of as usize)
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}/{}", self.number, self.of)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_deal_out_everything_once() {
+        for (count, of) in [(7, 3), (3, 7), (8, 1), (0, 2)] {
+            let shares: Vec<_> = (1..=of).map(|number| Shard::new(number, of).expect("a share")).collect();
+            let mut samples: Vec<u32> = shares.iter().flat_map(|share| share.samples(count)).collect();
+            assert!(shares.iter().all(|share| share.samples(count).all(|sample| share.holds(sample))));
+            samples.sort_unstable();
+            assert_eq!(samples, (0..count).collect::<Vec<_>>());
+        }
+        assert_eq!(Shard::new(2, 3).expect("a share").samples(8).collect::<Vec<_>>(), [1, 4, 7]);
+    }
+
+    #[test]
+    fn shares_read_back_and_others_are_refused() {
+        let share = Shard::new(2, 8).expect("a share");
+        assert_eq!((share.to_string().as_str(), Shard::parse("2/8")), ("2/8", Some(share)));
+        for bad in ["0/2", "3/2", "1", "1/0", "-1/2", "1/2/3", "a/b", ""] {
+            assert_eq!(Shard::parse(bad), None, "{bad}");
+        }
+    }
+}
