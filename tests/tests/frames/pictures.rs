@@ -216,7 +216,7 @@ fn what_continues_adds_its_samples() {
 fn a_frame_that_is_not_complete_is_no_picture() {
     let bench = Bench::new();
     let (device, scene) = (bench.device(), swinging());
-    let spec = spec("mmrt", &[("resolution", "24"), ("capacity", "100")]);
+    let spec = spec("mmrt", &[("resolution", "64"), ("capacity", "100")]);
     let mut renderer = renderer(device, &scene, &spec, 2);
     let all = inputs(&renderer, &scene, 2);
     renderer.submit(&all[0]).expect("a slot is free");
