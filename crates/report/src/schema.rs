@@ -98,6 +98,9 @@ pub struct PoseRecord {
     pub time_s: f64,
     /// Names of the clips that were played.
     pub clips: Vec<String>,
+    /// Of a sequence of files, the name of the one that was shown; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
 /// An image that was made smaller.
