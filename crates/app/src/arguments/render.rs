@@ -21,6 +21,8 @@ Examples:
   rasray render cornell --system mmrt --preset published --resolution 512 --report r.json --output p.png
   rasray render cornell --output - --format png | display
   rasray render walk.glb --frames 0-49 --output 'walk.####.png'
+  rasray render 'simulated/cloth.####.ply' --frames 0-99 --fps 30 --output 'cloth.####.png'
+  rasray render cloth-ball --time 1.2 --output cloth.png
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
@@ -36,7 +38,7 @@ whole images are written; run again with --skip-existing.";
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct RenderArguments {
-    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// What rays are traced through
@@ -68,10 +70,6 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
           help_heading = "Frames")]
     pub frames: Option<RangeInclusive<u32>>,
-    /// Frames per second
-    #[arg(long, value_name = "N", value_parser = values::frames_per_second, default_value = "25", requires = "frames",
-          help_heading = "Frames")]
-    pub fps: f64,
     /// Leave frames alone whose image is there already: files are whole, so this goes on where a command was stopped
     #[arg(long, requires = "frames", help_heading = "Frames")]
     pub skip_existing: bool,

@@ -34,8 +34,9 @@ pub(crate) fn render(
     let numbers = given.frames.clone();
     // Of frames this refuses what is wrong with the first.
     let targets = Targets::of(given, aovs, numbers.as_ref().map(|numbers| *numbers.start()))?;
-    let time =
-        numbers.as_ref().map_or(given.reading.time, |numbers| Some(seconds(*numbers.start(), given.fps)));
+    let time = numbers.as_ref().map_or(given.reading.time, |numbers| {
+        Some(seconds(*numbers.start(), given.reading.frames_per_second()))
+    });
     let (loaded, chosen) = read_scene(&given.scene, &given.reading, time, &given.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
@@ -120,7 +121,10 @@ impl Pictures<'_> {
                 skipped += 1;
                 continue;
             }
-            self.loaded.pose(seconds(number, self.given.fps), self.given.reading.clip.as_deref())?;
+            let reading = &self.given.reading;
+            let said = self.loaded.scene.animation.deformer_warnings.clone();
+            self.loaded.pose(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;
+            terminal::warn_of_frame(&self.loaded.scene, &said);
             if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.scene.cameras.get(index)) {
                 self.chosen.camera = camera.clone();
             }
