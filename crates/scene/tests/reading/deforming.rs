@@ -121,7 +121,7 @@ fn standing_feet_do_not_slide_and_nothing_is_below_the_ground() {
     }
     // In that time the body moves by 11 mm.
     assert!(
-        standing > 1_000 && longest < 0.003,
+        standing > 100 && longest < 0.001,
         "{standing} vertices stand, the farthest moves by {longest} m"
     );
 }
