@@ -3,7 +3,7 @@
 
 use crate::error::AppError;
 use rasray_report::{one_line, shown, shown_but};
-use rasray_scene::Scene;
+use rasray_scene::{Scene, Warning};
 use std::ffi::OsStr;
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -99,6 +99,13 @@ pub(crate) fn warn_of_scene(scene: &Scene, triangles: u64) {
             "{}: the scene has no triangles; only its environment will be seen (no-triangles)",
             scene.name
         ));
+    }
+}
+
+/// Says what there is to remark on the frame that is shown, but for what was `said` of the one before.
+pub(crate) fn warn_of_frame(scene: &Scene, said: &[Warning]) {
+    for warning in scene.animation.deformer_warnings.iter().filter(|warning| !said.contains(warning)) {
+        warn(&format!("{}: {} ({})", scene.name, warning.message, warning.kind));
     }
 }
 

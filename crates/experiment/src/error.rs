@@ -95,6 +95,9 @@ fn scene_help(error: &SceneError) -> &'static str {
         | SceneError::NoTriangles { .. } => {
             "the file is damaged or breaks its format: correct it, or export it again"
         }
+        SceneError::Sequence { .. } => {
+            "numbered files go on without a gap, with the meshes and materials of the first"
+        }
         SceneError::Image { .. } => "convert the image to .png or .jpg and refer to that",
         SceneError::Builtin { .. } => {
             "write NAME:PARAMETER=VALUE,PARAMETER=VALUE, or the name alone for its defaults"

@@ -42,6 +42,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
     KeyHash::default()
         .with("program", program)
         .with("scene", &loaded.content)
+        .with("file", loaded.sha256.as_deref().unwrap_or_default())
         .with("time", format!("{:?}", loaded.pose.as_ref().map(|pose| (pose.time_s, &pose.clips))))
         .with("smaller images", format!("{:?}", loaded.smaller_images))
         .with("camera", format!("{world_from_camera:?} {projection:?}"))

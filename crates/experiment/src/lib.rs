@@ -69,7 +69,7 @@ pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
 pub use renderer::open;
 pub use scene_info::SceneInfo;
-pub use scene_source::{LoadedScene, load};
+pub use scene_source::{LoadedScene, load, load_with};
 pub use selection::{ReadValue, one_system, several_systems};
 pub use shard::Shard;
 pub use stage::{Built, Stage};

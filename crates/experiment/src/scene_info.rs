@@ -10,7 +10,7 @@ use glam::DVec3;
 use rasray_report::CameraRecord;
 use rasray_scene::facing::Facing;
 use rasray_scene::needs::Needs;
-use rasray_scene::{Environment, Scene, default_view};
+use rasray_scene::{Environment, Motion, Scene, default_view};
 use serde_json::{Value, json};
 
 /// A scene in numbers.
@@ -22,6 +22,10 @@ pub struct SceneInfo {
     pub counts: [(&'static str, u64); 7],
     /// Its clips: name and seconds.
     pub clips: Vec<(String, f32)>,
+    /// How it changes with time.
+    pub motion: Motion,
+    /// Seconds from which on nothing changes.
+    pub duration_s: f64,
     /// Its environment in words.
     pub environment: String,
     /// Whether it gets the default light.
@@ -71,6 +75,12 @@ impl SceneInfo {
             name: scene.name.clone(),
             counts: counts(scene, loaded.triangles),
             clips: scene.animation.rig.clips.iter().map(|clip| (clip.name.clone(), clip.duration)).collect(),
+            motion: scene.motion(),
+            duration_s: scene
+                .animation
+                .deformer
+                .as_ref()
+                .map_or(f64::from(scene.animation.duration), |deformer| deformer.duration()),
             environment,
             unlit,
             bounds: default_view::bounds(scene),
@@ -96,6 +106,7 @@ impl SceneInfo {
             "default_view": self.view.record(),
             "texels": self.texels.json(),
             "animation": clips.collect::<Vec<_>>(),
+            "motion": { "kind": self.motion.name(), "duration_s": self.duration_s },
         });
         for (name, count) in self.counts {
             scene[name] = count.into();

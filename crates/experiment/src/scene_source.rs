@@ -19,7 +19,7 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// Triangles over all instances.
     pub triangles: u64,
-    /// SHA-256 of the scene file in hexadecimal; absent for built-in scenes.
+    /// SHA-256 of the scene file, of a sequence of the one that is shown, in hexadecimal; absent for built-in scenes.
     pub sha256: Option<String>,
     /// SHA-256 in hexadecimal of everything that it was made from: the contents of all files read for it, or the
     /// built-in's name with parameters as it was given; the environment that was asked for; whether its holes were closed.
@@ -55,13 +55,23 @@ const EXTENSIONS: [&str; 4] = ["gltf", "glb", "obj", "ply"];
 /// # Errors
 /// Names that are neither, and whatever is wrong with a file or a parameter.
 pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
+    load_with(name, &LoadOptions::default())
+}
+
+/// The same with other options than the defaults.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, ExperimentError> {
     let path = Path::new(name);
     let extension = path.extension().and_then(|text| text.to_str()).map(str::to_ascii_lowercase);
     let is_file = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
     if is_file {
-        let scene = rasray_scene::load(path, &LoadOptions::default())?;
-        let sha256 = digest(path)?;
-        let mut content = KeyHash::default().with("file", &sha256);
+        let scene = rasray_scene::load(path, options)?;
+        let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
+        let sha256 = digest(shown.unwrap_or(path))?;
+        // The file itself is in the key of a picture by its digest, which numbered files change with the time.
+        let mut content = KeyHash::default();
         for file in &scene.files {
             content = content.with("file", digest(file)?);
         }
@@ -72,7 +82,8 @@ pub fn load(name: &OsStr) -> Result<LoadedScene, ExperimentError> {
         return Ok(loaded(scene, None, KeyHash::default().with("built-in", name.as_encoded_bytes())));
     }
     let kinds = format!(
-        "scenes are .gltf, .glb, .obj and .ply files, or built-in: {} (parameters follow a colon: spheres:10k)",
+        "scenes are .gltf, .glb, .obj and .ply files, numbered files such as 'cloth.####.ply', or built-in: {} (parameters \
+         follow a colon: spheres:10k)",
         builtin::NAMES.join(", ")
     );
     if path.exists() {
@@ -121,19 +132,44 @@ impl LoadedScene {
     }
 
     /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that position from 0,
-    /// or without one by all that can be played at once.
+    /// or without one by all that can be played at once; or deformed by what it is simulated with, or as the file has it that
+    /// is shown then.
     ///
     /// # Errors
-    /// The scene has no clips, or no such clip.
+    /// Nothing moves the scene, it has no such clip, or the file of that time cannot be read.
     pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
+        let clips = self.clips(clip)?;
+        let shown = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
+        // They do not change, and may be most of the memory.
+        let images = std::mem::take(&mut self.scene.images);
+        let posed = self.scene.at(&Moment { seconds, clips })?;
+        self.scene = Scene { images, ..posed };
+        self.triangles = triangles(&self.scene);
+        let file = self.scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(seconds));
+        if let Some(file) = file {
+            self.sha256 = Some(digest(file)?);
+        }
+        let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+        self.pose = Some(PoseRecord { time_s: seconds, clips: shown, frame: None, file });
+        Ok(())
+    }
+
+    /// The clips that move the scene: the one that is wanted, else all that can be played at once.
+    fn clips(&self, clip: Option<&str>) -> Result<Vec<usize>, ExperimentError> {
         let names = &self.scene.animation.clips;
-        if names.is_empty() {
+        if names.is_empty() && self.scene.animation.deformer.is_none() {
             return Err(ExperimentError::usage(
                 format!("the scene {} has no clips that could move it", self.scene.name),
-                "leave --time out; `rasray info SCENE` lists clips",
+                "leave --time out; `rasray info SCENE` says what moves",
             ));
         }
-        let clips = match clip {
+        if names.is_empty() && clip.is_some() {
+            return Err(ExperimentError::usage(
+                format!("the scene {} has no clips: it deforms in one way", self.scene.name),
+                "leave --clip out",
+            ));
+        }
+        Ok(match clip {
             None => self.scene.animation.rig.compatible_clips(),
             Some(wanted) => {
                 let named = names.iter().position(|name| name == wanted);
@@ -148,14 +184,7 @@ impl LoadedScene {
                 })?;
                 vec![index]
             }
-        };
-        let shown = clips.iter().map(|clip| names[*clip].clone()).collect();
-        // They do not change, and may be most of the memory.
-        let images = std::mem::take(&mut self.scene.images);
-        let posed = self.scene.at(&Moment { seconds, clips });
-        self.scene = Scene { images, ..posed };
-        self.pose = Some(PoseRecord { time_s: seconds, clips: shown, frame: None });
-        Ok(())
+        })
     }
 
     /// Makes every surface opaque.

@@ -65,7 +65,9 @@ fn header(page: &mut Markup, report: &Report) {
         fact("Scene, not uploaded", bytes(count).into());
     }
     if let Some(pose) = &report.scene.pose {
-        fact("Time", format!("{} s of {}", pose.time_s, pose.clips.join(", ")).into());
+        let names: Vec<_> = pose.clips.iter().chain(&pose.file).map(String::as_str).collect();
+        let of = if names.is_empty() { String::new() } else { format!(" of {}", names.join(", ")) };
+        fact("Time", format!("{} s{of}", pose.time_s).into());
     }
     let smaller = report.scene.smaller_images.iter().map(|image| {
         let ([width, height], [from_width, from_height]) = (image.to, image.from);

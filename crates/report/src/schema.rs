@@ -101,6 +101,9 @@ pub struct PoseRecord {
     /// Number of the frame of an animation; absent where one time was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<u32>,
+    /// Of a sequence of files, the name of the one that was shown; absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
 }
 
 /// An image that was made smaller.

@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Some(clip) => vec![clip.parse()?],
             None => scene.animation.rig.compatible_clips(),
         };
-        scene = scene.at(&Moment { seconds: seconds.parse()?, clips });
+        scene = scene.at(&Moment { seconds: seconds.parse()?, clips })?;
     }
     let mut out = BufWriter::new(stdout().lock());
     for instance in &scene.instances {

@@ -139,6 +139,14 @@ pub enum SceneError {
         /// Names or numbers of the scenes in the file.
         available: String,
     },
+    /// The files of a sequence do not make one scene over time.
+    #[error("{}: {}", path.display(), sentence(problem))]
+    Sequence {
+        /// The pattern, or the file at fault.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
     /// The parameters of a built-in scene are wrong.
     #[error("built-in scene `{}`: {}", shown(spec), sentence(problem))]
     Builtin {

@@ -77,10 +77,23 @@ pub enum SceneChoice {
 }
 
 /// How a scene is loaded.
-#[derive(Clone, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LoadOptions {
     /// What a file may ask for.
     pub limits: Limits,
     /// Which scene of the file.
     pub scene: SceneChoice,
+    /// Frames per second of a sequence of files, above 0.
+    pub fps: f64,
+}
+
+impl LoadOptions {
+    /// Frames per second unless told.
+    pub const FPS: f64 = 25.0;
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        Self { limits: Limits::default(), scene: SceneChoice::default(), fps: Self::FPS }
+    }
 }

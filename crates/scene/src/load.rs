@@ -10,6 +10,9 @@ use crate::{LoadOptions, Scene, SceneError};
 /// Loads a scene from a file; the extension of its name decides the format: `.gltf`, `.glb`,
 /// `.obj` or `.ply`, in any case.
 ///
+/// A file name with a run of `#`, unless there is such a file, stands for numbered OBJ or PLY files that are one scene over
+/// time: see [`crate::sequence::Sequence`].
+///
 /// Files may come from anywhere: whatever they hold, this returns. Triangles and attributes that
 /// cannot be rendered are dropped, images that cannot be read are left out, and both are said in
 /// [`Scene::warnings`]. A scene may be empty, with a warning that says why; a file with triangles of
@@ -23,6 +26,14 @@ use crate::{LoadOptions, Scene, SceneError};
 /// is no scene, contradicts its format, requires an extension that is not supported, or has
 /// triangles of which none can be shown.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
+    if crate::sequence::is_pattern(path) {
+        return crate::sequence::load(path, options);
+    }
+    load_file(path, options)
+}
+
+/// Loads one file.
+pub(crate) fn load_file(path: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let extension = path.extension().and_then(|text| text.to_str()).unwrap_or_default().to_ascii_lowercase();
     let scene = match extension.as_str() {
         "gltf" | "glb" => crate::gltf::load(path, options),

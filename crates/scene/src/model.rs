@@ -1,5 +1,7 @@
 //! What a scene is made of.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DVec3};
 
 /// Everything that can be rendered, in one world. Instances are in *scene order*: the order that
@@ -25,7 +27,7 @@ pub struct Scene {
     pub environment: Environment,
     /// Cameras in world space, in scene order.
     pub cameras: Vec<Camera>,
-    /// Rigid animation, skins and morph targets as read, not yet posed.
+    /// What changes it with time: clips, skins and morph targets as read, or a deformer.
     pub animation: Animation,
     /// What was dropped, replaced or not supported, each with a count and a place.
     pub warnings: Vec<Warning>,
@@ -311,12 +313,12 @@ pub enum Projection {
     },
 }
 
-/// Animation as read from the file, kept for posing.
+/// What changes a scene with time, as read from the file.
 #[derive(Clone, Debug, Default)]
 pub struct Animation {
     /// Names of the clips.
     pub clips: Vec<String>,
-    /// Longest clip, seconds.
+    /// Seconds from which on nothing changes: the end of the longest clip, or of what the deformer does.
     pub duration: f32,
     /// Number of skins.
     pub skins: usize,
@@ -324,6 +326,10 @@ pub struct Animation {
     pub morphed_meshes: usize,
     /// Nodes, keys, skins and morph targets: all that posing needs.
     pub rig: crate::animation::Rig,
+    /// What changes meshes without a rig: a simulation, or a file for each frame.
+    pub deformer: Option<Arc<dyn crate::deforming::Deformer>>,
+    /// What the deformer remarked on at the time that is shown; [`Scene::warnings`] holds it too.
+    pub deformer_warnings: Vec<Warning>,
 }
 
 /// Something the user should know about a scene.

@@ -276,15 +276,8 @@ pub(crate) fn light_direction(world: DAffine3) -> Option<DVec3> {
 }
 
 impl Scene {
-    /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed. Triangles keep
-    /// their order and number, so that ids do not depend on the time. The result can be shown at another moment in the same
-    /// way. A scene without a rig is as it was. Everything else is
-    /// copied, images included: take those out before where they are large.
-    ///
-    /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
-    /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A camera or a
-    /// light whose node degenerates stays where it was at rest.
-    pub fn at(&self, moment: &Moment) -> Self {
+    /// The scene with what hangs on its rig at a moment; one without a rig is as it was. See [`Self::at`].
+    pub(crate) fn posed(&self, moment: &Moment) -> Self {
         let rig = &self.animation.rig;
         let mut scene = self.clone();
         if rig.placements.len() != self.instances.len() {

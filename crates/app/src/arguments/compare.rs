@@ -33,7 +33,8 @@ Times of software devices are for ratios on that device.";
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct CompareArguments {
-    /// A file (.gltf .glb .obj .ply), a built-in scene with parameters, or a hard case (hard:E5, hard:all)
+    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), a built-in scene with parameters, or a hard case
+    /// (hard:E5, hard:all)
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// Options for one system, such as mmrt.march=samples; of several values each takes part

@@ -2,6 +2,7 @@
 
 use super::shared::{DeviceArguments, IntegratorName};
 use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::values;
 use crate::error::AppError;
 use clap::Args;
 use rasray_experiment::{SystemConfig, one_system};
@@ -16,16 +17,19 @@ Examples:
   rasray info scene.glb --passes --system mmrt --storage dll
 
 Without a scene: the devices, what the one in use offers, and which way each structure takes on it.
-With a scene: what is in it, its cameras and the view where none is named, and what of it an image can show.
+With a scene: what is in it and what moves it, its cameras and the view where none is named, and what of it an image can show.
 With --passes: what the structure's build, its traces and its surface lookup record on this device, pass by pass.";
 
 /// Options of `rasray info`.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct InfoArguments {
-    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: Option<OsString>,
+    /// With numbered files: frames per second [default: 25]
+    #[arg(long, value_name = "N", value_parser = values::frames_per_second, requires = "scene")]
+    pub fps: Option<f64>,
     /// With a scene: the integrator whose needs are shown
     #[arg(long, value_enum, default_value_t = IntegratorName::Path)]
     pub integrator: IntegratorName,

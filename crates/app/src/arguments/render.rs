@@ -22,6 +22,8 @@ Examples:
   rasray render cornell --output - --format png | display
   rasray render walk.glb --frames 0-49 --output 'walk.####.png' --report walk.jsonl --resume
   rasray render scene.glb --spp 256 --shard 1/4 --output part.1.exr    (then: rasray merge)
+  rasray render 'simulated/cloth.####.ply' --frames 0-99 --fps 30 --output 'cloth.####.png'
+  rasray render cloth-ball --time 1.2 --output cloth.png
 
 PNG holds 8-bit sRGB: colours times 2^exposure, clamped to 0 to 1, then the sRGB curve; no other tone
 mapping, so that other programs reproduce it. EXR holds linear 32-bit floats: R, G, B, and with --aov
@@ -39,7 +41,7 @@ const FRAMES: &str = "Frames and shares";
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub struct RenderArguments {
-    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    /// A file (.gltf .glb .obj .ply), numbered files ('a.####.ply'), or a built-in scene with parameters
     #[arg(value_name = "SCENE")]
     pub scene: OsString,
     /// What rays are traced through
@@ -71,10 +73,6 @@ pub struct RenderArguments {
     #[arg(long, value_name = "FIRST-LAST", value_parser = values::frames, requires = "output", conflicts_with = "time",
           help_heading = FRAMES)]
     pub frames: Option<RangeInclusive<u32>>,
-    /// Frames per second
-    #[arg(long, value_name = "N", value_parser = values::frames_per_second, default_value = "25", requires = "frames",
-          help_heading = FRAMES)]
-    pub fps: f64,
     /// Leave whole images alone that this command would make again, by the key that they carry: it goes on where it was
     /// stopped, and replaces what was made of another scene or with other options
     #[arg(long, requires = "output", help_heading = FRAMES)]

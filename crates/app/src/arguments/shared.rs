@@ -8,7 +8,7 @@ use rasray_experiment::{
     Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Sampler, default_view, named_view, placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
-use rasray_scene::{Environment, Scene, SceneError, load_environment};
+use rasray_scene::{Environment, LoadOptions, Scene, SceneError, load_environment};
 use std::path::Path;
 
 /// Integrators by name.
@@ -167,20 +167,28 @@ pub struct SceneArguments {
     /// Let alpha cut holes and blend; off makes every surface opaque
     #[arg(long, value_enum, default_value_t = Switch::On)]
     pub alpha: Switch,
-    /// Show the scene at this time of its animation, seconds; before the first and after the last key it stands still
-    /// [default: at rest, as the file places everything]
+    /// Show the scene at this time of its animation, seconds; before the first and after the last key it stands still.
+    /// Of numbered files, the last that has begun is shown [default: at rest, as the file places everything]
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds, allow_hyphen_values = true)]
     pub time: Option<f64>,
     /// With a time: the clip that moves the scene, by name or by position from 0 [default: all that do not move the same
     /// thing]
     #[arg(long, value_name = "NAME")]
     pub clip: Option<String>,
+    /// Frames per second: number n of --frames, or of a scene in numbered files, is shown at n / this [default: 25]
+    #[arg(long, value_name = "N", value_parser = values::frames_per_second)]
+    pub fps: Option<f64>,
     /// What is uploaded, compiled in and stored
     #[arg(long, value_enum, default_value_t = NeedsName::Observed)]
     pub needs: NeedsName,
 }
 
 impl SceneArguments {
+    /// Frames per second, whether given or not.
+    pub fn frames_per_second(&self) -> f64 {
+        self.fps.unwrap_or(LoadOptions::FPS)
+    }
+
     /// The radiance from outside that was asked for: a map, or one colour.
     ///
     /// # Errors

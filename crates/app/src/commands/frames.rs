@@ -51,7 +51,10 @@ impl Pictures<'_> {
         {
             return Err(AppError::usage("--output and --report name the same file", "name two files"));
         }
-        self.loaded.pose(seconds(number, self.given.fps), self.given.reading.clip.as_deref())?;
+        let reading = &self.given.reading;
+        let said = self.loaded.scene.animation.deformer_warnings.clone();
+        self.loaded.pose(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;
+        terminal::warn_of_frame(&self.loaded.scene, &said);
         if let Some(pose) = &mut self.loaded.pose {
             pose.frame = Some(number);
         }

@@ -36,7 +36,8 @@ pub(crate) fn render(
     // Of frames this refuses what is wrong with the first.
     let targets = Targets::of(given, aovs, first)?;
     let rows = rows(given)?;
-    let time = first.map_or(given.reading.time, |first| Some(seconds(first, given.fps)));
+    let fps = given.reading.frames_per_second();
+    let time = first.map_or(given.reading.time, |first| Some(seconds(first, fps)));
     let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, time, &given.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 

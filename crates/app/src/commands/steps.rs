@@ -7,8 +7,12 @@ use crate::interrupt::Interrupt;
 use crate::output::Destination;
 use crate::progress::{ProgressLine, during};
 use crate::terminal;
-use rasray_experiment::{Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load, texels};
+use rasray_experiment::{
+    Backend, Chosen, ExperimentError, LoadedScene, OpenBackend, Progress, load_with, texels,
+};
+use rasray_scene::LoadOptions;
 use rasray_scene::needs::Needs;
+use rasray_scene::sequence::{Sequence, is_pattern};
 use std::ffi::OsStr;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -18,16 +22,29 @@ pub(super) fn destination(path: Option<&Path>) -> Result<Option<Destination>, Ap
     path.map(Destination::check).transpose()
 }
 
-/// Refuses to write what `option` asks for over the scene that it is about.
+/// Refuses to write what `option` asks for over the scene that it is about, or a file of it.
 pub(super) fn keep_inputs(option: &str, output: Option<&Destination>, scene: &OsStr) -> Result<(), AppError> {
     let scene = Path::new(scene);
-    match output {
-        Some(output) if scene.is_file() && output.is(scene) => Err(AppError::usage(
+    let Some(output) = output else { return Ok(()) };
+    if scene.is_file() && output.is(scene) {
+        return Err(AppError::usage(
             format!("{option} names the scene file"),
             "name another file, such as result.png or report.json",
-        )),
-        _ => Ok(()),
+        ));
     }
+    if is_pattern(scene)
+        && Sequence::find(scene, &LoadOptions::default())
+            .map_err(ExperimentError::from)?
+            .files()
+            .iter()
+            .any(|file| output.is(file))
+    {
+        return Err(AppError::usage(
+            format!("{option} names a file of the scene"),
+            "name another file, such as result.png or report.json",
+        ));
+    }
+    Ok(())
 }
 
 /// Opens the wanted device.
@@ -51,6 +68,21 @@ pub(super) fn read_scene(
     Ok((loaded, chosen))
 }
 
+/// Loads what `name` stands for; `fps` is of numbered files.
+///
+/// # Errors
+/// Frames per second where nothing has frames.
+pub(super) fn load_scene(name: &OsStr, fps: Option<f64>, has_frames: bool) -> Result<LoadedScene, AppError> {
+    if fps.is_some() && !has_frames && !is_pattern(Path::new(name)) {
+        return Err(AppError::usage(
+            "--fps is of frames, and there are none",
+            "leave it out, ask `rasray render` for --frames, or name numbered files such as 'cloth.####.ply'",
+        ));
+    }
+    let fps = fps.unwrap_or(LoadOptions::FPS);
+    Ok(load_with(name, &LoadOptions { fps, ..LoadOptions::default() })?)
+}
+
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
 fn prepare(name: &OsStr, reading: &SceneArguments, time: Option<f64>) -> Result<LoadedScene, AppError> {
     if time.is_none() && reading.clip.is_some() {
@@ -61,7 +93,8 @@ fn prepare(name: &OsStr, reading: &SceneArguments, time: Option<f64>) -> Result<
     }
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
-    let mut loaded = load(name)?;
+    // A time that is not that of --time is that of a frame.
+    let mut loaded = load_scene(name, reading.fps, time.is_some() && reading.time.is_none())?;
     if let Some(seconds) = time {
         loaded.pose(seconds, reading.clip.as_deref())?;
     }

@@ -100,6 +100,92 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     says("4 frames were rendered (4 of something else), 0 were there already");
 }
 
+/// A triangle at a height, as an ASCII PLY; `more` of them with the same corners.
+fn sheet(height: f64, more: usize) -> String {
+    let faces = "3 0 1 2\n".repeat(1 + more);
+    format!(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face {}\n\
+         property list uchar int vertex_indices\nend_header\n0 0 {height}\n1 0 {height}\n0 1 {height}\n{faces}",
+        1 + more
+    )
+}
+
+#[test]
+fn numbered_files_are_shown_at_their_times() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for number in 2..=5 {
+        let text = sheet(f64::from(number), number as usize);
+        std::fs::write(folder.path().join(format!("s.{number:03}.ply")), text).expect("a scene");
+    }
+    let run = |line: &str| {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        output.stdout
+    };
+    let info: Value = serde_json::from_slice(&run("info s.###.ply --fps 10 --json")).expect("JSON");
+    assert_eq!(info["scene"]["motion"], json!({ "kind": "changing", "duration_s": 0.5 }));
+    let text = String::from_utf8(run("info s.###.ply")).expect("text");
+    assert!(text.contains("other triangles at every time, until 0.200 s"), "{text}");
+
+    let aimed = "--eye 0.25,0.25,9 --target 0.25,0.25,0 --size 1x1 --spp 1 --aov depth --report r#.json --output o#.exr";
+    run(&format!("render s.###.ply --frames 1-6 --fps 8 {aimed}"));
+    // Before the first it is the first, after the last the last.
+    for (frame, number) in [(1, 2), (2, 2), (3, 3), (4, 4), (5, 5), (6, 5)] {
+        assert_eq!(depth_of(&folder.path().join(format!("o{frame}.exr"))), 9.0 - number as f32);
+        let report = std::fs::read(folder.path().join(format!("r{frame}.json"))).expect("the report");
+        let report: Value = serde_json::from_slice(&report).expect("JSON");
+        let file = format!("s.{number:03}.ply");
+        let pose = json!({ "time_s": f64::from(frame) / 8.0, "clips": [], "file": file });
+        assert_eq!(report["scene"]["pose"], pose);
+        assert_eq!(report["scene"]["triangles"], json!(1 + number));
+    }
+    // At a time the last that has begun; at rest the first.
+    let aimed = aimed.replace('#', "");
+    run(&format!("render s.###.ply --time 0.44 --fps 10 {aimed}"));
+    assert_eq!(depth_of(&folder.path().join("o.exr")), 5.0);
+    run(&format!("render s.###.ply {aimed}"));
+    assert_eq!(depth_of(&folder.path().join("o.exr")), 7.0);
+    run("compare s.###.ply --time 0.2 --systems bricks,brute-force --rays 200");
+
+    std::fs::write(folder.path().join("s.004.ply"), "ply\n").expect("a file");
+    for (line, says) in [
+        ("render s.###.ply --time 0.16 -o x.png", "s.004.ply"),
+        ("render s.###.ply --frames 3-4 -o x#.png", "s.004.ply"),
+        ("render s.###.ply --time 1 --clip 0 -o x.png", "leave --clip out"),
+        ("render t.###.ply -o x.png", "no such file, such as t.001.ply"),
+        ("render s.###.ply --time 0.08 --report s.003.ply -o x.png", "names a file of the scene"),
+    ] {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(2), "{line}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says), "{line}: {}", stderr(&output));
+    }
+    std::fs::remove_file(folder.path().join("s.004.ply")).expect("it is there");
+    let output = rasray(folder.path(), "render s.###.ply -o x.png");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("s.004.ply is missing"), "{}", stderr(&output));
+}
+
+#[test]
+fn built_in_scenes_that_move_are_listed_shown_and_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+        output.stdout
+    };
+    for (scene, kind, seconds) in
+        [("walker:8k", "rig", 6.0), ("cloth-ball:1k", "deforming", 3.0), ("cornell", "still", 0.0)]
+    {
+        let info: Value = serde_json::from_slice(&run(&format!("info {scene} --json"))).expect("JSON");
+        assert_eq!(info["scene"]["motion"], json!({ "kind": kind, "duration_s": seconds }), "{scene}");
+    }
+    run("compare walker:8k --time 0.3 --systems bricks,brute-force --rays 100");
+    run("compare cloth-ball:1k --time 0.5 --systems bricks,brute-force --rays 100");
+    let output = rasray(folder.path(), "render cloth-ball:1k --time 1 --clip fall -o x.png");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("leave --clip out"), "{}", stderr(&output));
+}
+
 #[test]
 fn times_and_clips_that_there_are_not_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -112,8 +198,9 @@ fn times_and_clips_that_there_are_not_are_refused() {
         ("render rising.gltf --frames 0-3 -o x.png", "write a run of #"),
         ("render rising.gltf --frames 3-0 -o x#.png", "a range such as 0-99"),
         ("render rising.gltf --frames 0-3 --time 1 -o x#.png", "--time"),
-        ("render rising.gltf --fps 5 -o x#.png", "--frames"),
         ("render rising.gltf --frames 0-3 -o x#.png --report r.json", ".jsonl"),
+        ("render rising.gltf --time 1 --fps 30 -o x.png", "--fps is of frames"),
+        ("compare rising.gltf --fps 30 --systems bricks", "--fps is of frames"),
         ("render cornell --frames 0-3 -o #.png", "has no clips"),
         ("render rising.gltf --time soon -o x.png", "finite number of seconds"),
     ] {

@@ -123,8 +123,8 @@ fn numbers_that_change_change_the_page() {
         ("a pixel's FLIP", |_, figures| figures.images.as_mut().expect("images").systems[1].flip[77] = 0.5),
         ("bytes that are not uploaded", |report, _| report.scene.not_uploaded_bytes = Some(9_216)),
         ("a time", |report, _| {
-            report.scene.pose =
-                Some(PoseRecord { time_s: 0.75, clips: vec!["walk".to_owned()], frame: None });
+            let clips = vec!["walk".to_owned()];
+            report.scene.pose = Some(PoseRecord { time_s: 0.75, clips, frame: None, file: None });
         }),
         ("an option", |report, _| {
             report.runs[0].options.insert("resolution".to_owned(), 1024.into());

@@ -38,6 +38,7 @@ pub(super) fn read(
         skins: skins.len(),
         morphed_meshes: morphed,
         rig: Rig { nodes: nodes.collect(), placements, clips, skins, deformed, ..Rig::default() },
+        ..Animation::default()
     })
 }
 

@@ -3,9 +3,21 @@
 use crate::Scene;
 use crate::animation::{ChannelValues, Rig};
 
-/// For each instance, in scene order, whether a clip moves or deforms it: a clip animates its node or
-/// one above it, a joint of its skin or one above that, or the weights of its morph targets.
+/// For each instance, in scene order, whether a clip moves or deforms it (a clip animates its node or
+/// one above it, a joint of its skin or one above that, or the weights of its morph targets), or the deformer changes its
+/// mesh.
 pub fn moving_instances(scene: &Scene) -> Vec<bool> {
+    let mut moving = moved_by_clips(scene);
+    if let Some(deformer) = &scene.animation.deformer {
+        let changed = deformer.meshes();
+        for (moves, instance) in moving.iter_mut().zip(&scene.instances) {
+            *moves |= changed.contains(&instance.mesh);
+        }
+    }
+    moving
+}
+
+fn moved_by_clips(scene: &Scene) -> Vec<bool> {
     let rig = &scene.animation.rig;
     if rig.clips.is_empty() {
         return vec![false; scene.instances.len()];

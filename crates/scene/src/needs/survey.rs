@@ -85,7 +85,7 @@ fn words(term: Term) -> ((&'static str, &'static str), &'static str, &'static st
         Term::SpotLights => (("spot light", "spot lights"), "is", "in the scene"),
         Term::AreaLights => (mesh, "has", "triangles that emit"),
         Term::Environment => (("environment", "environments"), "has", "radiance"),
-        Term::Motion => (("instance", "instances"), "is", "moved by a clip"),
+        Term::Motion => (("instance", "instances"), "is", "moved or deformed with time"),
     }
 }
 

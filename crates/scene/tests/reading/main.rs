@@ -2,6 +2,7 @@
 
 mod builtin_scenes;
 mod default_view;
+mod deforming;
 mod facing_of_scenes;
 mod foreign_files;
 mod gltf_content;

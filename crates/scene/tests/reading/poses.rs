@@ -175,7 +175,7 @@ fn crowd() -> Scene {
 
 #[test]
 fn meshes_cameras_and_lights_are_where_their_nodes_are() {
-    let scene = crowd().at(&Moment { seconds: 2.0, clips: vec![0] });
+    let scene = crowd().at(&Moment { seconds: 2.0, clips: vec![0] }).expect("a rig");
     let corners = |instance: usize| -> Vec<DVec3> {
         let instance = &scene.instances[instance];
         let mesh = &scene.meshes[instance.mesh];
@@ -202,7 +202,7 @@ fn meshes_cameras_and_lights_are_where_their_nodes_are() {
 /// A scene at a moment is a scene: shown at another one it is what the scene at rest is then.
 #[test]
 fn a_scene_at_a_moment_can_be_shown_at_another() {
-    let at = |scene: &Scene, seconds: f64| scene.at(&Moment { seconds, clips: vec![0] });
+    let at = |scene: &Scene, seconds: f64| scene.at(&Moment { seconds, clips: vec![0] }).expect("a rig");
     let shown = |scene: &Scene| -> Vec<String> {
         let of = |instance: &Instance| {
             format!("{:?} {:?}", scene.meshes[instance.mesh].positions, instance.world_from_mesh)
@@ -239,7 +239,7 @@ fn animated_scenes_are_well_formed_at_all_times() {
         let clips = scene.animation.rig.compatible_clips();
         assert!(!clips.is_empty(), "{file}");
         let shown = |seconds: f64| {
-            let posed = scene.at(&Moment { seconds, clips: clips.clone() });
+            let posed = scene.at(&Moment { seconds, clips: clips.clone() }).expect("a rig");
             assert_well_formed(&posed);
             let triangles: Vec<usize> = (posed.instances.iter())
                 .map(|instance| posed.meshes[instance.mesh].triangle_count())

@@ -9,14 +9,12 @@ use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{
-    AovSelection, Frame, OpenBackend, RenderJob, Sampler, SceneInfo, default_view, load,
-};
+use rasray_experiment::{AovSelection, Frame, OpenBackend, RenderJob, Sampler, SceneInfo, default_view};
 use rasray_report::json_shown;
 use rasray_scene::needs::Needs;
 use serde_json::Value;
 
-use super::steps::{fit_images, open_device};
+use super::steps::{fit_images, load_scene, open_device};
 use device::{device_json, device_text};
 use passes::{passes_json, passes_text};
 use scene::scene_text;
@@ -34,7 +32,7 @@ const SIDE: u32 = 512;
 pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<(), AppError> {
     let system = given.system()?;
     if let Some(name) = &given.scene {
-        let mut loaded = during("scene", "reading", || load(name))?;
+        let mut loaded = during("scene", "reading", || load_scene(name, given.fps, false))?;
         let frame = Frame {
             integrator: given.integrator.by_default(),
             width: 1,

@@ -3,6 +3,7 @@
 use super::rows::pair;
 use rasray_experiment::SceneInfo;
 use rasray_report::{CameraRecord, bytes, columns, grouped, in_line};
+use rasray_scene::Motion;
 
 pub(super) fn scene_text(info: &SceneInfo) -> String {
     let mut rows: Vec<_> = info.counts.iter().map(|(name, count)| pair(name, grouped(*count))).collect();
@@ -19,6 +20,9 @@ pub(super) fn scene_text(info: &SceneInfo) -> String {
     }
     if let Some(sha256) = &info.sha256 {
         rows.push(pair("sha256", sha256));
+    }
+    if info.motion != Motion::Still {
+        rows.push(pair("motion", format!("{}, until {:.3} s", info.motion.described(), info.duration_s)));
     }
     rows.push(pair("default view", info.view.described()));
     let mut text = format!("scene {}\n{}", in_line(&info.name), columns(&rows, 2));
