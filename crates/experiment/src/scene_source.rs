@@ -70,8 +70,9 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Exp
         let scene = rasray_scene::load(path, options)?;
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
-        // The file itself is in the key of a picture by its digest, which numbered files change with the time.
-        let mut content = KeyHash::default();
+        // Of numbered files the one that is shown changes with the time: keys of pictures have it by its digest.
+        let first = shown.is_none().then_some(sha256.as_str()).unwrap_or_default();
+        let mut content = KeyHash::default().with("file", first);
         for file in &scene.files {
             content = content.with("file", digest(file)?);
         }

@@ -123,7 +123,7 @@ mod tests {
     use rasray_report::{Device, Origin, PoseRecord, Run, SceneRecord};
 
     fn row(frame: u32, key: &str) -> Row {
-        let pose = PoseRecord { time_s: f64::from(frame), clips: Vec::new(), frame: Some(frame) };
+        let pose = PoseRecord { time_s: f64::from(frame), clips: Vec::new(), frame: Some(frame), file: None };
         let scene = SceneRecord { name: "\u{1b}[2J".to_owned(), pose: Some(pose), ..SceneRecord::default() };
         let run = Run { key: Some(key.to_owned()), ..Run::default() };
         Row::of(&Report::new(Origin::default(), Device::default(), scene, vec![run])).expect("a row")
