@@ -6,3 +6,4 @@ mod images;
 mod needs;
 mod reference;
 mod texel_runs;
+mod visibility;
