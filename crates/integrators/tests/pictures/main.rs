@@ -6,4 +6,3 @@ mod images;
 mod needs;
 mod reference;
 mod texel_runs;
-mod visibility;

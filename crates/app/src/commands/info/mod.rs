@@ -10,7 +10,7 @@ use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
 use rasray_experiment::{
-    AovSelection, Frame, OpenBackend, RenderJob, Sampler, SceneInfo, default_view, load,
+    AovSelection, Frame, OpenBackend, Primary, RenderJob, Sampler, SceneInfo, default_view, load,
 };
 use rasray_report::json_shown;
 use rasray_scene::needs::Needs;
@@ -42,6 +42,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             spp: 1,
             seed: 0,
             sampler: Sampler::Sobol,
+            primary: Primary::Trace,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         if let Some(system) = system {

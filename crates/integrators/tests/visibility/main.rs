@@ -1,6 +1,11 @@
 //! What camera rays hit, found by drawing, against brute force: hits must be the same in every bit.
 
-use crate::common::{scenes::textured_room, *};
+#[path = "../pictures/common/mod.rs"]
+mod common;
+
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use common::{scenes::textured_room, *};
 use glam::{DAffine3, DVec3};
 use rasray_ads::{BruteForce, Counters, Hit, Surface};
 use rasray_gpu::{Device, DeviceDesc};
@@ -11,11 +16,20 @@ use rasray_integrators::{
 };
 use rasray_scene::{AlphaMode, Camera, Mesh, Projection, Scene, builtin};
 
-/// A device with validation on that can draw.
-fn drawing_device() -> Device {
-    let requirements = Visibility::requirements();
-    let desc = DeviceDesc { validation: true, requirements, ..DeviceDesc::default() };
-    Device::create(&desc).expect("these tests need a Vulkan device that draws and the validation layer")
+/// A device with validation on that can draw. Tests take turns, so that a message belongs to one of them.
+fn drawing_device() -> (Device, MutexGuard<'static, ()>) {
+    static TURN: Mutex<()> = Mutex::new(());
+    static DEVICE: OnceLock<Device> = OnceLock::new();
+    let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+    let device = DEVICE.get_or_init(|| {
+        let requirements = Visibility::requirements();
+        let desc = DeviceDesc { validation: true, requirements, ..DeviceDesc::default() };
+        let device =
+            Device::create(&desc).expect("these tests need a Vulkan device and the validation layer");
+        device.keep_pipelines(64);
+        device
+    });
+    (device.clone(), turn)
 }
 
 /// A scene as one camera sees it, with both ways to find what it sees.
@@ -153,7 +167,7 @@ fn turned(projection: Projection) -> Camera {
 
 #[test]
 fn a_room_is_seen_alike_from_every_kind_of_camera() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let cornell = builtin::builtin("cornell").expect("a built-in scene").expect("no parameters");
     let own = cornell.cameras[0].clone();
     let agreed = Both::new(&device, &cornell, own.clone(), [40, 30]).compare("cornell", 2, 1200);
@@ -170,7 +184,7 @@ fn a_room_is_seen_alike_from_every_kind_of_camera() {
 
 #[test]
 fn waves_smaller_than_the_image_see_the_same() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let mut random = Random(5);
     let triangles: Vec<[DVec3; 3]> = (0..60)
         .map(|_| {
@@ -190,7 +204,7 @@ fn waves_smaller_than_the_image_see_the_same() {
 
 #[test]
 fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     // A floor whose triangles reach behind the eye, walls beside it, and triangles with one corner or two behind it.
     let floor = |height: f64, half: f64| {
         let corner = |x: f64, z: f64| DVec3::new(x * half, height, z * half);
@@ -223,7 +237,7 @@ fn triangles_that_cross_the_plane_of_the_eye_are_seen() {
 
 #[test]
 fn triangles_of_every_size_around_the_camera_are_seen() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let mut random = Random(11);
     // A closed sphere around the camera, and triangles from far larger than the view to far smaller than a pixel.
     let mut triangles: Vec<[DVec3; 3]> = Vec::new();
@@ -247,7 +261,7 @@ fn triangles_of_every_size_around_the_camera_are_seen() {
 
 #[test]
 fn a_camera_within_a_mesh_sees_it_from_inside() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let furnace = builtin::builtin("furnace").expect("a built-in scene").expect("no parameters");
     for eye in [DVec3::ZERO, DVec3::new(0.4, -0.3, 0.2)] {
         let both = Both::new(&device, &furnace, perspective(eye, 1.7), [32, 24]);
@@ -258,16 +272,16 @@ fn a_camera_within_a_mesh_sees_it_from_inside() {
 
 #[test]
 fn slivers_and_specks_below_a_pixel_are_seen() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let mut random = Random(23);
     let mut triangles: Vec<[DVec3; 3]> = Vec::new();
     for _ in 0..300 {
         let (from, to) = (random.point(), random.point());
-        let across = random.point() * 10.0_f64.powf(random.next() - 3.0);
+        let across = random.point() * 10.0_f64.powf(random.next() - 2.0);
         let away = DVec3::NEG_Z * 3.0;
         triangles.push([away + from, away + to, away + to + across]);
         let speck = away + random.point();
-        triangles.push([0, 1, 2].map(|_| speck + random.point() * 0.02));
+        triangles.push([0, 1, 2].map(|_| speck + random.point() * 0.03));
     }
     let both = Both::new(&device, &soup(&triangles), perspective(DVec3::ZERO, 0.7), [32, 32]);
     let agreed = both.compare("slivers", 4, 1024);
@@ -276,7 +290,7 @@ fn slivers_and_specks_below_a_pixel_are_seen() {
 
 #[test]
 fn holes_of_masks_are_seen_through() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let masked = textured_room();
     let mut opaque = masked.clone();
     for material in &mut opaque.materials {
@@ -300,7 +314,7 @@ fn holes_of_masks_are_seen_through() {
 
 #[test]
 fn pictures_are_the_same_as_with_traced_camera_rays() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let mut glass = lambert(0.9, 0.0);
     glass.transmission = 0.8;
     let mut veil = lambert(0.7, 0.0);
@@ -340,13 +354,14 @@ fn pictures_are_the_same_as_with_traced_camera_rays() {
 
 #[test]
 fn a_scene_without_triangles_is_a_miss_everywhere() {
-    let device = drawing_device();
+    let (device, _turn) = drawing_device();
     let both = Both::new(&device, &Scene::default(), forward_camera(DVec3::ZERO), [9, 7]);
     assert_eq!(both.compare("empty", 1, 63).hits, 0);
 }
 
 #[test]
 fn devices_that_cannot_draw_are_refused() {
+    let (draws, _turn) = drawing_device();
     let device = device();
     let view = View { camera: forward_camera(DVec3::ZERO), width: 4, height: 4, seed: 1 };
     let tables = SceneTables::new(&Scene::default(), DVec3::ZERO, &Parts::ALL).expect("well formed");
@@ -355,10 +370,10 @@ fn devices_that_cannot_draw_are_refused() {
     let refused = Visibility::new(&device, &scene, false).expect_err("stores of fragments are missing");
     assert!(matches!(refused, IntegratorError::CannotDraw { .. }), "{refused:?}");
     assert!(refused.to_string().contains("fragmentStoresAndAtomics"), "{refused}");
-    let device = drawing_device();
-    let wide = View { width: device.limits().max_framebuffer_size[0] + 1, height: 1, ..view };
-    let scene = GpuScene::upload(&device, &tables, &wide).expect("it fits");
-    let refused = Visibility::new(&device, &scene, false).expect_err("the image is too wide");
+    let wide = View { width: draws.limits().max_framebuffer_size[0] + 1, height: 1, ..view };
+    let scene = GpuScene::upload(&draws, &tables, &wide).expect("it fits");
+    let refused = Visibility::new(&draws, &scene, false).expect_err("the image is too wide");
     assert!(matches!(refused, IntegratorError::CannotDraw { .. }), "{refused:?}");
     assert_silent(&device);
+    assert_silent(&draws);
 }
