@@ -9,7 +9,7 @@ use crate::backend::OnProgress;
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, Frame, Integrator};
-use crate::render::{is_trace, render_pixels, visible_ms};
+use crate::render::{render_pixels, trace_ms, visible_ms};
 use crate::stage::{Built, Stage, device_error};
 use rasray_report::figures::{Images, SystemImage};
 use rasray_report::{ImageError, Run};
@@ -124,7 +124,7 @@ pub(super) fn compare_images(
         run.seed = Some(frame.seed);
         run.times.timer = pixels.passes.timer();
         run.times.first_use_ms = Some(pixels.first_use_ms);
-        run.times.trace_ms = Some(pixels.passes.total(is_trace));
+        run.times.trace_ms = trace_ms(&pixels.passes);
         run.times.visible_ms = visible_ms(&pixels.passes, &frame);
         run.primary = Some(frame.primary.name().to_owned());
         run.passes.extend(pixels.passes.report());

@@ -192,9 +192,9 @@ fn count_unfinished(device: &Device, built: &Built, queues: &[&RayQueue]) -> Res
     Ok(unfinished)
 }
 
-/// Whether a pass traces.
-pub(super) fn is_trace(label: &str) -> bool {
-    label.contains("/trace_")
+/// Milliseconds that traces took; absent where none was recorded.
+pub(super) fn trace_ms(passes: &Passes) -> Option<f64> {
+    Some(passes.total(|label| label.contains("/trace_"))).filter(|ms| *ms > 0.0)
 }
 
 /// Milliseconds that drawing what the camera sees took; absent where camera rays are traced.
@@ -245,7 +245,7 @@ pub(super) fn render(
         times: Times {
             timer: pixels.passes.timer(),
             first_use_ms: Some(pixels.first_use_ms),
-            trace_ms: Some(pixels.passes.total(is_trace)),
+            trace_ms: trace_ms(&pixels.passes),
             visible_ms: visible_ms(&pixels.passes, &frame),
             ..Times::default()
         },
