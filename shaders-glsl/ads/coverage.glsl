@@ -107,6 +107,46 @@ bool coverage_cells(vec3 a, vec3 b, vec3 c, uint resolution, float margin, out i
     return all(lessThanEqual(lower, upper));
 }
 
+// Corners in x/z and y/z of a triangle that covers every point within `margin` of the triangle, in x/z and in y/z: its
+// edges moved outwards. False where a triangle over a rectangle of `size` (x/z, y/z) that holds these points is the
+// better proposal: where the triangle reaches behind the eye, the winding is not certain, or the edges form a spike.
+bool coverage_dilated(vec3 a, vec3 b, vec3 c, float margin, vec2 size, out vec2 corners[3]) {
+    float nearest = min(a.z, min(b.z, c.z));
+    vec3 normal = cross(b - a, c - a);
+    float facing = dot(normal, a);
+    // Close to edge-on the winding is not certain, and edges moved the wrong way would lose cells.
+    bool winding_certain = abs(facing) > 1.0e-5 * length(a) * length(b - a) * length(c - a);
+    if (!winding_certain || !(nearest > 1.0e-6 * max(a.z, max(b.z, c.z)))) {
+        return false;
+    }
+    float orientation = facing < 0.0 ? -1.0 : 1.0;
+    vec3 e0 = coverage_edge(a, b, orientation, margin);
+    vec3 e1 = coverage_edge(b, c, orientation, margin);
+    vec3 e2 = coverage_edge(c, a, orientation, margin);
+    vec3 q0 = cross(e2, e0);
+    vec3 q1 = cross(e0, e1);
+    vec3 q2 = cross(e1, e2);
+    float s = dot(q0, e1) < 0.0 ? -1.0 : 1.0;
+    q0 *= s;
+    q1 *= s;
+    q2 *= s;
+    if (!(q0.z > 0.0 && q1.z > 0.0 && q2.z > 0.0)) {
+        return false;
+    }
+    corners = vec2[3](q0.xy / q0.z, q1.xy / q1.z, q2.xy / q2.z);
+    vec2 u = corners[1] - corners[0];
+    vec2 v = corners[2] - corners[0];
+    float area = abs(u.x * v.y - u.y * v.x);
+    vec2 farthest = max(abs(corners[0]), max(abs(corners[1]), abs(corners[2])));
+    // Slivers dilate into long spikes: there the rectangle is the smaller proposal.
+    return area < 1.8 * 2.0 * size.x * size.y && max(farthest.x, farthest.y) < 64.0;
+}
+
+// Corner `corner` of the one triangle over a rectangle: a corner of the rectangle, and twice its sides.
+vec2 coverage_rectangle(vec4 bounds, uint corner) {
+    return bounds.xy + vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
+}
+
 // Clip-space corner `corner` of a screen triangle that covers every cell whose centre is within `margin`
 // of the triangle, in x/z and in y/z. The viewport holds the face with its border. Returns a point outside
 // the clip volume where nothing needs drawing.
@@ -117,40 +157,10 @@ vec4 coverage_proposal_within(vec3 a, vec3 b, vec3 c, uint corner, uint resoluti
     }
     bounds += vec4(-margin, -margin, margin, margin);
     float to_clip = float(resolution) / float(resolution + 2u);
-    float nearest = min(a.z, min(b.z, c.z));
-    vec3 normal = cross(b - a, c - a);
-    float facing = dot(normal, a);
-    // Close to edge-on the winding is not certain, and edges moved the wrong way would lose cells.
-    bool winding_certain = abs(facing) > 1.0e-5 * length(a) * length(b - a) * length(c - a);
-    if (winding_certain && nearest > 1.0e-6 * max(a.z, max(b.z, c.z))) {
-        float orientation = facing < 0.0 ? -1.0 : 1.0;
-        vec3 e0 = coverage_edge(a, b, orientation, margin);
-        vec3 e1 = coverage_edge(b, c, orientation, margin);
-        vec3 e2 = coverage_edge(c, a, orientation, margin);
-        vec3 q0 = cross(e2, e0);
-        vec3 q1 = cross(e0, e1);
-        vec3 q2 = cross(e1, e2);
-        float s = dot(q0, e1) < 0.0 ? -1.0 : 1.0;
-        q0 *= s;
-        q1 *= s;
-        q2 *= s;
-        if (q0.z > 0.0 && q1.z > 0.0 && q2.z > 0.0) {
-            vec2 p0 = q0.xy / q0.z;
-            vec2 p1 = q1.xy / q1.z;
-            vec2 p2 = q2.xy / q2.z;
-            vec2 u = p1 - p0;
-            vec2 v = p2 - p0;
-            float area = abs(u.x * v.y - u.y * v.x);
-            vec2 size = bounds.zw - bounds.xy;
-            // Slivers dilate into long spikes: there the bounds are the smaller proposal.
-            if (area < 1.8 * 2.0 * size.x * size.y && max(max(abs(p0.x), abs(p0.y)), max(max(abs(p1.x), abs(p1.y)), max(abs(p2.x), abs(p2.y)))) < 64.0) {
-                vec2 p = corner == 0u ? p0 : (corner == 1u ? p1 : p2);
-                return vec4(p * to_clip, 0.5, 1.0);
-            }
-        }
-    }
-    // One triangle over the bounds: a corner of the rectangle and twice its sides.
-    vec2 p = bounds.xy + vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0) * (bounds.zw - bounds.xy);
+    vec2 corners[3];
+    vec2 p = coverage_dilated(a, b, c, margin, bounds.zw - bounds.xy, corners)
+        ? corners[corner]
+        : coverage_rectangle(bounds, corner);
     return vec4(p * to_clip, 0.5, 1.0);
 }
 

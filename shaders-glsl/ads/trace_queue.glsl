@@ -6,6 +6,7 @@
 
 #define TRACE_LOG
 #include "ads/queue.glsl"
+#include "ads/queue_work.glsl"
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "contract/select.glsl"
@@ -15,25 +16,6 @@ layout(push_constant, scalar) uniform TraceConstants {
     uint trace_domain;
     uint trace_budget;
 };
-
-// Adds to the 64-bit sums of the header.
-void queue_add_work(uint cells, uint entries, uint tests) {
-    if (COUNTERS < COUNTERS_SUMS) {
-        return;
-    }
-    uint before = atomicAdd(queue_header.cells_low, cells);
-    if (before + cells < before) {
-        atomicAdd(queue_header.cells_high, 1u);
-    }
-    before = atomicAdd(queue_header.entries_low, entries);
-    if (before + entries < before) {
-        atomicAdd(queue_header.entries_high, 1u);
-    }
-    before = atomicAdd(queue_header.tests_low, tests);
-    if (before + tests < before) {
-        atomicAdd(queue_header.tests_high, 1u);
-    }
-}
 
 // Stores the work of a ray so far, where the queue has a buffer for it.
 void queue_file_work(uint slot, TraceState state) {

@@ -91,4 +91,9 @@
 // Blended surfaces a path passes before the next one counts as opaque.
 #define PATH_LAYER_LIMIT 16u
 
+// What a round of drawing keeps of the triangles that a pixel's ray hits: the smallest t, then, of those with this t, the
+// lowest primitive, as hits are ranked in traces.
+#define VISIBILITY_NEAREST 0u
+#define VISIBILITY_LOWEST 1u
+
 #endif

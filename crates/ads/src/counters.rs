@@ -16,7 +16,7 @@ pub enum Counters {
 
 impl Counters {
     /// The value of specialisation constant 0.
-    pub(crate) fn constant(self) -> u32 {
+    pub fn constant(self) -> u32 {
         match self {
             Self::Off => contract::COUNTERS_OFF,
             Self::Sums => contract::COUNTERS_SUMS,

@@ -187,8 +187,9 @@ impl Geometry {
         recorder.dispatch(groups);
     }
 
-    /// Draws all triangles onto that many views, at most [`GEOMETRY_DRAW_VIEWS`], within a rendering.
-    pub(crate) fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
+    /// Draws all triangles onto that many views, at most [`GEOMETRY_DRAW_VIEWS`], within a rendering: three vertices per
+    /// triangle and one instance per view.
+    pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
         match &self.count {
             // What lies beyond the arguments is a mistake of the recording.
             Some(count) => {

@@ -11,7 +11,10 @@ use crate::stage::device_error;
 /// What any system may want of a device; each names what it cannot do without when it is made.
 pub fn requirements() -> Requirements {
     let mut requirements = Requirements::floor();
-    requirements.optional.push((GpuFeature::FragmentStoresAndAtomics, "structures built by the rasterizer"));
+    requirements.optional.push((
+        GpuFeature::FragmentStoresAndAtomics,
+        "structures built by the rasterizer, and --primary raster",
+    ));
     requirements
         .optional
         .push((GpuFeature::BufferDeviceAddress, "pools beyond the binding limit (--addressing address)"));

@@ -1,5 +1,6 @@
 //! Jobs and results as plain data.
 
+pub use crate::frame::{Frame, Integrator, Primary, Sampler};
 use crate::shard::Shard;
 use crate::system_config::SystemConfig;
 use rasray_ads::{Hit, Ray, StructureKind};
@@ -7,114 +8,10 @@ use rasray_hard_cases::HardCase;
 use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
 use rasray_report::figures::Figures;
 use rasray_report::{Counters, Memory, Pass, Run, Spread, Times};
-use rasray_scene::needs::{self, Needs, Workload};
+use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use serde_json::Value;
 use std::collections::BTreeMap;
-
-/// What light does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Integrator {
-    /// Path tracing with light sampling.
-    Path {
-        /// At most this many scatterings; 0 is emission alone, 1 is direct light.
-        bounces: u32,
-    },
-    /// Cosine-weighted visibility of a white environment.
-    AmbientOcclusion {
-        /// Metres within which something occludes; absent: any distance.
-        distance: Option<f32>,
-    },
-    /// What the camera sees, unlit.
-    Raycast,
-}
-
-impl Integrator {
-    /// Its name in reports and images.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Path { .. } => "path",
-            Self::AmbientOcclusion { .. } => "ao",
-            Self::Raycast => "raycast",
-        }
-    }
-
-    /// Bounces, where it has them.
-    pub fn bounces(&self) -> Option<u32> {
-        match self {
-            Self::Path { bounces } => Some(*bounces),
-            _ => None,
-        }
-    }
-}
-
-/// An image to make.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
-    /// What light does.
-    pub integrator: Integrator,
-    /// Pixels a row, at least 1.
-    pub width: u32,
-    /// Rows, at least 1.
-    pub height: u32,
-    /// Samples per pixel, at least 1.
-    pub spp: u32,
-    /// Seed of all random numbers.
-    pub seed: u32,
-    /// Where they come from.
-    pub sampler: Sampler,
-}
-
-/// Where random numbers come from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Sampler {
-    /// Points spread evenly over the samples of a pixel: least noise where their number is a power of two.
-    #[default]
-    Sobol,
-    /// Independent numbers.
-    Pcg,
-}
-
-impl Sampler {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
-
-    /// Its name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sobol => "sobol",
-            Self::Pcg => "pcg",
-        }
-    }
-
-    /// What it is, in one line of help.
-    pub fn doc(self) -> &'static str {
-        match self {
-            Self::Sobol => {
-                "Points spread evenly over the samples of a pixel: least noise where --spp is a power of two"
-            }
-            Self::Pcg => "Independent numbers",
-        }
-    }
-
-    /// The sampler of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|sampler| sampler.name() == name)
-    }
-}
-
-impl Frame {
-    /// What an image like this one looks at in a scene.
-    pub fn workload(&self) -> Workload {
-        match self.integrator {
-            Integrator::Path { bounces } => Workload { integrator: needs::Integrator::Path, bounces },
-            Integrator::AmbientOcclusion { .. } => {
-                Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
-            }
-            Integrator::Raycast => Workload { integrator: needs::Integrator::Raycast, bounces: 0 },
-        }
-    }
-}
 
 /// Images in addition to the colours, from rays through pixel centres.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -374,6 +271,7 @@ impl RenderOutput {
             height: Some(self.height),
             spp: Some(self.samples_done),
             bounces: frame.integrator.bounces(),
+            primary: Some(frame.primary.name().to_owned()),
             seed: Some(frame.seed),
             times: self.times,
             spread: self.spread.clone(),

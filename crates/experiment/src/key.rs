@@ -55,7 +55,7 @@ pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::{AovSelection, Frame, Integrator, Sampler};
+    use crate::jobs::{AovSelection, Frame, Integrator, Primary, Sampler};
     use crate::{Shard, StructureOptions, default_view, load, one_system};
     use rasray_scene::Environment;
     use rasray_scene::needs::Needs;
@@ -83,6 +83,7 @@ mod tests {
         spp: 8,
         seed: 1,
         sampler: Sampler::Sobol,
+        primary: Primary::Trace,
     };
 
     fn job(loaded: &LoadedScene) -> RenderJob<'_> {

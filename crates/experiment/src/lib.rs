@@ -21,6 +21,7 @@ mod contestant;
 mod describe;
 mod error;
 mod evaluate;
+mod frame;
 mod hard;
 mod hard_file;
 mod hard_verdict;
@@ -59,7 +60,7 @@ pub use evaluate::device_hits;
 pub use hard_file::compare_file;
 pub use jobs::{
     Answers, AovSelection, CompareJob, Comparison, FILE_SET, FilmSums, Frame, HardJob, Integrator, Kept,
-    KeptSet, RaySet, RenderJob, RenderOutput, Sampler,
+    KeptSet, Primary, RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
 pub use key::{KeyHash, picture_key};

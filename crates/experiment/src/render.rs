@@ -7,14 +7,15 @@ use std::time::Instant;
 use rasray_ads::RayQueue;
 use rasray_gpu::Device;
 use rasray_integrators::{
-    AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves, waves_of,
+    AmbientOcclusion, AovPass, Film, IntegratorDesc, IntegratorError, Path, Raycast, Traced, Visibility,
+    Wave, waves, waves_of,
 };
 use rasray_scene::needs::Needs;
 use rasray_tracer::TracerError;
 
 use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, Integrator, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, Integrator, Primary, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
 use crate::stage::{Built, Stage, device_error, tracer_error};
@@ -33,9 +34,24 @@ pub(super) fn integrator(
         Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
     };
     made.map_err(|error| match error {
-        rasray_integrators::IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
+        IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
         other => device_error(other),
     })
+}
+
+/// What answers the camera rays of a frame in place of traces; nothing where they are traced.
+fn visibility(device: &Device, stage: &Stage, frame: &Frame) -> Result<Option<Visibility>, ExperimentError> {
+    match frame.primary {
+        Primary::Trace => Ok(None),
+        Primary::Raster => {
+            Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
+                IntegratorError::CannotDraw { .. } => {
+                    ExperimentError::device(error, "choose --primary trace, or another --device")
+                }
+                other => device_error(other),
+            })
+        }
+    }
 }
 
 /// Which pixels are made.
@@ -75,13 +91,22 @@ pub(super) fn render_pixels(
         desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
     }
     let integrator = integrator(frame, &desc)?;
+    let visibility = visibility(device, stage, frame)?;
+    if let Some(visibility) = &visibility {
+        device.submit(|recorder| visibility.record_reset(recorder)).map_err(device_error)?;
+    }
+    let traced = Traced::from(built.structure.as_ref()).with_primary(visibility.as_ref());
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
-    let first_use_ms = use_once(device, integrator.as_ref(), built)?;
+    let first_use_ms = use_once(device, integrator.as_ref(), traced)?;
     let Waves { samples_done, unfinished, passes } = loop {
-        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, wanted, progress)? {
+        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, traced, wanted, progress)? {
             break rendered;
         }
     };
+    if let Some(visibility) = &visibility {
+        let covering = visibility.read_counts(device).map_err(device_error)?.covering;
+        tracing::info!(covering, "triangles drawn over all pixels, of all waves: they reach behind the eye");
+    }
     let faults = film.read_faults(device).map_err(device_error)?;
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
@@ -111,6 +136,7 @@ fn render_waves(
     device: &Device,
     integrator: &dyn rasray_integrators::Integrator,
     built: &Built,
+    traced: Traced<'_>,
     wanted: &Wanted<'_>,
     progress: &mut OnProgress<'_>,
 ) -> Result<Option<Waves>, ExperimentError> {
@@ -130,9 +156,7 @@ fn render_waves(
             break;
         }
         let submitted = device
-            .submit_passes(timing, |recorder| {
-                integrator.record_wave(recorder, built.structure.as_ref().into(), wave)
-            })
+            .submit_passes(timing, |recorder| integrator.record_wave(recorder, traced, wave))
             .map_err(device_error)?;
         submitted.value.map_err(device_error)?;
         // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
@@ -157,14 +181,13 @@ fn render_waves(
 fn use_once(
     device: &Device,
     integrator: &dyn rasray_integrators::Integrator,
-    built: &Built,
+    traced: Traced<'_>,
 ) -> Result<f64, ExperimentError> {
     let started = Instant::now();
     let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-    let submitted = device
-        .submit(|recorder| integrator.record_wave(recorder, built.structure.as_ref().into(), one))
-        .map_err(device_error)?;
+    let submitted =
+        device.submit(|recorder| integrator.record_wave(recorder, traced, one)).map_err(device_error)?;
     submitted.value.map_err(device_error)?;
     device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
     Ok(started.elapsed().as_secs_f64() * 1.0e3)
@@ -183,6 +206,16 @@ fn count_unfinished(device: &Device, built: &Built, queues: &[&RayQueue]) -> Res
         unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
     }
     Ok(unfinished)
+}
+
+/// Milliseconds that traces took; absent where none was recorded.
+pub(super) fn trace_ms(passes: &Passes) -> Option<f64> {
+    Some(passes.total(|label| label.contains("/trace_"))).filter(|ms| *ms > 0.0)
+}
+
+/// Milliseconds that drawing what the camera sees took; absent where camera rays are traced.
+pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
+    (frame.primary == Primary::Raster).then(|| passes.total(|label| label.contains("/visibility")))
 }
 
 /// Renders an image with all requested additional images.
@@ -215,7 +248,6 @@ pub(super) fn render(
     }
     let mut passes = built.passes.report();
     passes.extend(pixels.passes.report());
-    let is_trace = |label: &str| label.contains("/trace_");
     let mut output = RenderOutput {
         width: frame.width,
         height: frame.height,
@@ -231,7 +263,8 @@ pub(super) fn render(
         times: Times {
             timer: pixels.passes.timer(),
             first_use_ms: Some(pixels.first_use_ms),
-            trace_ms: Some(pixels.passes.total(is_trace)),
+            trace_ms: trace_ms(&pixels.passes),
+            visible_ms: visible_ms(&pixels.passes, &frame),
             ..Times::default()
         },
         spread: BTreeMap::new(),
@@ -259,13 +292,14 @@ fn add_aovs(
     let pixels = job.frame.width * job.frame.height;
     let capacity = rasray_integrators::wave_capacity(device).min(pixels);
     let aov = AovPass::new(device, &stage.scene, capacity).map_err(device_error)?;
+    let visibility = visibility(device, stage, &job.frame)?;
+    let traced = Traced::from(built.structure.as_ref()).with_primary(visibility.as_ref());
     loop {
         device.submit(|recorder| aov.record_reset(recorder)).map_err(device_error)?;
         for wave in waves(pixels, 1, capacity) {
             let wave = Wave { sample: 0, ..wave };
-            let submitted = device
-                .submit(|recorder| aov.record_wave(recorder, built.structure.as_ref().into(), wave))
-                .map_err(device_error)?;
+            let submitted =
+                device.submit(|recorder| aov.record_wave(recorder, traced, wave)).map_err(device_error)?;
             submitted.value.map_err(device_error)?;
         }
         if count_unfinished(device, built, &[aov.queue()])? == 0 {

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use rasray_ads::PRIMITIVE_NONE;
 use rasray_experiment::{
-    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, RaySet, Sampler,
+    CompareJob, Comparison, DeviceChoice, Frame, HardJob, Integrator, LoadedScene, Primary, RaySet, Sampler,
     StructureOptions, SystemConfig, default_view, load, open,
 };
 use rasray_hard_cases::Scale;
@@ -35,6 +35,7 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
         spp: 1,
         seed: SEED,
         sampler: Sampler::Sobol,
+        primary: Primary::Trace,
     };
     CompareJob {
         scene: &loaded.scene,

@@ -6,7 +6,7 @@ use std::ops::Range;
 use rasray_ads::{QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
-use rasray_integrators::{Integrator, waves};
+use rasray_integrators::{Integrator, waves_of};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, TracerError};
 
 use crate::FrameError;
@@ -150,9 +150,7 @@ impl FrameRenderer {
                 integrator.record_reset(recorder);
             }
             let film = integrator.film();
-            let count = input.samples.end.saturating_sub(input.samples.start);
-            for mut wave in waves(film.pixel_count(), count, integrator.wave_capacity()) {
-                wave.sample += input.samples.start;
+            for wave in waves_of(film.pixel_count(), input.samples.clone(), integrator.wave_capacity()) {
                 integrator.record_wave(recorder, structure.into(), wave)?;
             }
             readbacks[slot as usize].record(recorder, integrator.as_ref());

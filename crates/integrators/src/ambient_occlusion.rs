@@ -79,7 +79,7 @@ impl Integrator for AmbientOcclusion {
         let all = Domain::First(wave.pixel_count);
         let constants = WaveConstants { range: self.range, ..WaveConstants::from(wave) };
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
-        traced.record_closest(recorder, &self.queue, all)?;
+        traced.record_primary(recorder, &self.queue, wave)?;
         self.shadow_queue.record_select_none(recorder);
         self.bindings.record(recorder, &self.spawn, &self.queue, all, &constants);
         self.shadow_queue.record_take(recorder);

@@ -65,7 +65,7 @@ impl AovPass {
         check_wave(wave, self.queue.capacity(), self.pixel_count)?;
         let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
-        traced.record_closest(recorder, &self.queue, all)?;
+        traced.record_primary(recorder, &self.queue, wave)?;
         self.bindings.record(recorder, &self.store, &self.queue, all, &constants);
         Ok(())
     }

@@ -52,6 +52,12 @@ pub enum IntegratorError {
         /// What is possible.
         expected: &'static str,
     },
+    /// What the camera sees cannot be found by drawing.
+    #[error("what the camera sees cannot be drawn: {reason}")]
+    CannotDraw {
+        /// What the device lacks.
+        reason: String,
+    },
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] rasray_gpu::GpuError),

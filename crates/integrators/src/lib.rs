@@ -45,6 +45,7 @@ mod kernels;
 mod path;
 mod raycast;
 mod traced;
+mod visibility;
 mod wave;
 
 pub use ambient_occlusion::AmbientOcclusion;
@@ -53,9 +54,10 @@ pub use error::IntegratorError;
 pub use film::{Film, PIXEL_LIMIT};
 pub use integrator::{Integrator, IntegratorDesc};
 pub use path::{BOUNCE_LIMIT, Path};
-pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState};
+pub use rasray_shaders_glsl::records::{AovPixel, FilmFaults, FilmPixel, PathState, VisibilityCounts};
 pub use raycast::Raycast;
 pub use traced::Traced;
+pub use visibility::Visibility;
 pub use wave::{WAVE_LIMIT, Wave, wave_capacity, waves, waves_of};
 
 /// What the readme shows compiles.

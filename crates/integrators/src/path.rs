@@ -110,7 +110,11 @@ impl Integrator for Path {
         shadows.record_select_none(recorder);
         for round in 0..self.rounds {
             constants.round = round;
-            traced.record_closest(recorder, paths, live)?;
+            if round == 0 {
+                traced.record_primary(recorder, paths, wave)?;
+            } else {
+                traced.record_closest(recorder, paths, live)?;
+            }
             self.bindings.record(recorder, &self.shade, paths, live, &constants);
             // In the last round every path has reached the maximum number of scatterings and samples no light.
             if round + 1 < self.rounds {

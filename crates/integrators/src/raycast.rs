@@ -60,7 +60,7 @@ impl Integrator for Raycast {
         check_wave(wave, self.queue.capacity(), self.film.pixel_count())?;
         let (constants, all) = (WaveConstants::from(wave), Domain::First(wave.pixel_count));
         self.bindings.record(recorder, &self.primary, &self.queue, all, &constants);
-        traced.record_closest(recorder, &self.queue, all)?;
+        traced.record_primary(recorder, &self.queue, wave)?;
         self.bindings.record(recorder, &self.shade, &self.queue, all, &constants);
         Ok(())
     }

@@ -3,6 +3,8 @@
 use rasray_ads::{AdsError, Domain, RayQueue, Structure, TraceMode};
 use rasray_gpu::Recorder;
 
+use crate::{Visibility, Wave};
+
 /// A structure for nearest hits and one for occlusion: usually the same. A different one for occlusion may be cheaper.
 #[derive(Clone, Copy)]
 pub struct Traced<'a> {
@@ -10,21 +12,48 @@ pub struct Traced<'a> {
     pub closest: &'a dyn Structure,
     /// Tests for occlusion.
     pub occluded: &'a dyn Structure,
+    /// Finds what camera rays hit by drawing; where absent, they are traced as all others.
+    pub primary: Option<&'a Visibility>,
 }
 
 impl<'a> From<&'a dyn Structure> for Traced<'a> {
     fn from(structure: &'a dyn Structure) -> Self {
-        Self { closest: structure, occluded: structure }
+        Self { closest: structure, occluded: structure, primary: None }
     }
 }
 
 impl<'a, S: Structure> From<&'a S> for Traced<'a> {
     fn from(structure: &'a S) -> Self {
-        Self { closest: structure, occluded: structure }
+        Self { closest: structure, occluded: structure, primary: None }
     }
 }
 
-impl Traced<'_> {
+impl<'a> Traced<'a> {
+    /// The same with camera rays answered by `primary`.
+    #[must_use]
+    pub fn with_primary(self, primary: Option<&'a Visibility>) -> Self {
+        Self { primary, ..self }
+    }
+
+    /// Records hits and surfaces of the camera rays of a wave.
+    ///
+    /// # Errors
+    /// The structure was made without a scene.
+    pub(crate) fn record_primary(
+        self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        wave: Wave,
+    ) -> Result<(), AdsError> {
+        match self.primary {
+            Some(visibility) => {
+                visibility.record(recorder, queue, wave);
+                Ok(())
+            }
+            None => self.record_closest(recorder, queue, Domain::First(wave.pixel_count)),
+        }
+    }
+
     /// Records hits and surfaces of the slots of `domain`.
     ///
     /// # Errors

@@ -186,6 +186,9 @@ pub struct Run {
     /// Scatterings at most; absent unless paths are traced.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bounces: Option<u32>,
+    /// `trace` or `raster`: how what camera rays hit was found; absent for ray sets.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub primary: Option<String>,
     /// Seed of all random numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seed: Option<u32>,
@@ -267,6 +270,9 @@ pub struct Times {
     /// Rays in to hits out.
     #[serde(default, skip_serializing_if = "absent")]
     pub trace_ms: Option<f64>,
+    /// What the camera sees, found by drawing; absent where its rays were traced.
+    #[serde(default, skip_serializing_if = "absent")]
+    pub visible_ms: Option<f64>,
     /// Everything.
     #[serde(default, skip_serializing_if = "absent")]
     pub frame_ms: Option<f64>,

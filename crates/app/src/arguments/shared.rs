@@ -1,11 +1,12 @@
 //! Groups of options that several commands take.
 
-use super::structure::sampler_parser;
+use super::structure::{primary_parser, sampler_parser};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use rasray_experiment::{
-    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Sampler, default_view, named_view, placed_view,
+    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Primary, Sampler, default_view, named_view,
+    placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Environment, LoadOptions, Scene, SceneError, load_environment};
@@ -80,6 +81,9 @@ pub struct FrameArguments {
     /// Where random numbers come from
     #[arg(long, value_parser = sampler_parser(), default_value = Sampler::Sobol.name())]
     pub sampler: Sampler,
+    /// How what the camera sees first is found, of images
+    #[arg(long, value_parser = primary_parser(), default_value = Primary::Trace.name())]
+    pub primary: Primary,
 }
 
 impl FrameArguments {
@@ -108,7 +112,8 @@ impl FrameArguments {
             Integrator::Raycast => Integrator::Raycast,
         };
         let Size { width, height } = self.size;
-        Ok(Frame { integrator, width, height, spp: self.spp, seed: self.seed, sampler: self.sampler })
+        let Self { spp, seed, sampler, primary, .. } = *self;
+        Ok(Frame { integrator, width, height, spp, seed, sampler, primary })
     }
 }
 

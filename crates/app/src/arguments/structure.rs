@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
-use rasray_experiment::{ExperimentError, RaySet, Sampler, StructureOptions};
+use rasray_experiment::{ExperimentError, Primary, RaySet, Sampler, StructureOptions};
 use rasray_systems::{Group, OPTIONS, OptionRow, Preset, SYSTEMS, System, Values};
 use serde_json::Value;
 
@@ -35,6 +35,13 @@ pub fn sampler_parser() -> impl TypedValueParser<Value = Sampler> {
     let names = Sampler::ALL.map(|sampler| PossibleValue::new(sampler.name()).help(sampler.doc()));
     PossibleValuesParser::new(names)
         .map(|name| Sampler::named(&name).expect("only names of samplers are possible values"))
+}
+
+/// Reads how the camera's first hits are found.
+pub fn primary_parser() -> impl TypedValueParser<Value = Primary> {
+    let names = Primary::ALL.map(|primary| PossibleValue::new(primary.name()).help(primary.doc()));
+    PossibleValuesParser::new(names)
+        .map(|name| Primary::named(&name).expect("only names of ways are possible values"))
 }
 
 /// The options of a structure on the command line.

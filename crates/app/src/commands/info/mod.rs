@@ -9,7 +9,9 @@ use crate::arguments::InfoArguments;
 use crate::error::AppError;
 use crate::progress::during;
 use crate::terminal;
-use rasray_experiment::{AovSelection, Frame, OpenBackend, RenderJob, Sampler, SceneInfo, default_view};
+use rasray_experiment::{
+    AovSelection, Frame, OpenBackend, Primary, RenderJob, Sampler, SceneInfo, default_view,
+};
 use rasray_report::json_shown;
 use rasray_scene::needs::Needs;
 use serde_json::Value;
@@ -40,6 +42,7 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             spp: 1,
             seed: 0,
             sampler: Sampler::Sobol,
+            primary: Primary::Trace,
         };
         let view = during("scene", "looking for a view", || default_view(&loaded.scene));
         if let Some(system) = system {

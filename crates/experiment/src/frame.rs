@@ -1,0 +1,148 @@
+//! An image to make, as plain data.
+
+use rasray_scene::needs::{self, Workload};
+
+/// What light does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Path tracing with light sampling.
+    Path {
+        /// At most this many scatterings; 0 is emission alone, 1 is direct light.
+        bounces: u32,
+    },
+    /// Cosine-weighted visibility of a white environment.
+    AmbientOcclusion {
+        /// Metres within which something occludes; absent: any distance.
+        distance: Option<f32>,
+    },
+    /// What the camera sees, unlit.
+    Raycast,
+}
+
+impl Integrator {
+    /// Its name in reports and images.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Path { .. } => "path",
+            Self::AmbientOcclusion { .. } => "ao",
+            Self::Raycast => "raycast",
+        }
+    }
+
+    /// Bounces, where it has them.
+    pub fn bounces(&self) -> Option<u32> {
+        match self {
+            Self::Path { bounces } => Some(*bounces),
+            _ => None,
+        }
+    }
+}
+
+/// An image to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// What light does.
+    pub integrator: Integrator,
+    /// Pixels a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Seed of all random numbers.
+    pub seed: u32,
+    /// Where they come from.
+    pub sampler: Sampler,
+    /// How what the camera sees first is found.
+    pub primary: Primary,
+}
+
+/// How what camera rays hit is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Primary {
+    /// Rays are traced through the structure.
+    #[default]
+    Trace,
+    /// Triangles are drawn, whatever the structure stores, and tested at each pixel's ray.
+    Raster,
+}
+
+impl Primary {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Trace, Self::Raster];
+
+    /// Its name on the command line and in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Trace => "trace",
+            Self::Raster => "raster",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Trace => "Rays are traced through the structure",
+            Self::Raster => {
+                "Triangles are drawn and tested at each pixel's ray: the same hits where the structure finds every one, \
+                 exact first hits where it does not"
+            }
+        }
+    }
+
+    /// The one of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|primary| primary.name() == name)
+    }
+}
+
+/// Where random numbers come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sampler {
+    /// Points spread evenly over the samples of a pixel: least noise where their number is a power of two.
+    #[default]
+    Sobol,
+    /// Independent numbers.
+    Pcg,
+}
+
+impl Sampler {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Sobol, Self::Pcg];
+
+    /// Its name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sobol => "sobol",
+            Self::Pcg => "pcg",
+        }
+    }
+
+    /// What it is, in one line of help.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Sobol => {
+                "Points spread evenly over the samples of a pixel: least noise where --spp is a power of two"
+            }
+            Self::Pcg => "Independent numbers",
+        }
+    }
+
+    /// The sampler of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|sampler| sampler.name() == name)
+    }
+}
+
+impl Frame {
+    /// What an image like this one looks at in a scene.
+    pub fn workload(&self) -> Workload {
+        match self.integrator {
+            Integrator::Path { bounces } => Workload { integrator: needs::Integrator::Path, bounces },
+            Integrator::AmbientOcclusion { .. } => {
+                Workload { integrator: needs::Integrator::AmbientOcclusion, bounces: 1 }
+            }
+            Integrator::Raycast => Workload { integrator: needs::Integrator::Raycast, bounces: 0 },
+        }
+    }
+}

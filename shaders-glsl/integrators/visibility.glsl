@@ -1,0 +1,41 @@
+// What: what passes that find what the camera sees by drawing share: which slots they work on, and the hits of the queue
+// as words, so that fragments can take their minimum.
+// Reads, writes: hits of the queue, counts.
+// Source: Burns and Hunt 2013, the visibility buffer, with ids decided by the test that rays are decided by.
+#ifndef INTEGRATORS_VISIBILITY_GLSL
+#define INTEGRATORS_VISIBILITY_GLSL
+
+#include "ads/queue.glsl"
+#include "scene/constants.glsl"
+
+#ifndef INTEGRATOR_SET
+#define INTEGRATOR_SET 1
+#endif
+
+// Counts of the triangles drawn since they were cleared. 4 bytes.
+struct VisibilityCounts {
+    uint covering;        // triangles drawn over all pixels of a wave: those that reach behind the eye within the view
+};
+
+layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer VisibilityCountsBuffer { VisibilityCounts visibility_counts; };
+
+// The same binding as the hits of ads/queue.glsl. Where a hit is filled with ones, it is farther than any hit and names
+// no primitive. Positive floats order like their bits.
+layout(set = QUEUE_SET, binding = 2, scalar) coherent buffer QueueHitWordBuffer { uint queue_hit_words[]; };
+
+layout(push_constant, scalar) uniform VisibilityConstants {
+    uint visibility_first_pixel;  // of the wave
+    uint visibility_pixel_count;
+    uint visibility_round;        // VISIBILITY_*
+};
+
+// Words of the hit of a slot.
+uint visibility_t_word(uint slot) {
+    return 4u * slot;
+}
+
+uint visibility_primitive_word(uint slot) {
+    return 4u * slot + 1u;
+}
+
+#endif

@@ -1,0 +1,38 @@
+// What: the hit and the surface of every slot of a wave from the triangle that drawing found, as a trace would store
+// them.
+// Reads: rays of the queue, the primitives of its hits, geometry, scene. Writes: hits and surfaces of the queue.
+// Source: the visibility buffer, its second pass.
+#version 460
+#include "contract/extensions.glsl"
+#include "ads/geometry.glsl"
+#include "ads/triangle.glsl"
+#include "contract/trace_state.glsl"
+#include "integrators/visibility.glsl"
+#include "scene/surface.glsl"
+
+layout(local_size_x = QUEUE_GROUP_SIZE) in;
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= visibility_pixel_count) {
+        return;
+    }
+    Ray ray = queue_ray(slot);
+    uint primitive = queue_hit_words[visibility_primitive_word(slot)];
+    vec3 a;
+    vec3 b;
+    vec3 c;
+    geometry_vertices(primitive, a, b, c);
+    float t;
+    vec2 barycentrics;
+    float t_error;
+    if (primitive == PRIMITIVE_NONE || !ray_is_valid(ray)
+        || !triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
+        queue_set_hit(slot, Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0));
+        queue_surfaces[slot].valid = 0u;
+        queue_surfaces[slot].primitive = PRIMITIVE_NONE;
+        return;
+    }
+    queue_set_hit(slot, Hit(t, primitive, barycentrics.x, barycentrics.y));
+    queue_set_surface(slot, scene_surface(ray, t, primitive, barycentrics));
+}
