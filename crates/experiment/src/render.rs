@@ -4,36 +4,17 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_ads::RayQueue;
 use rasray_gpu::Device;
-use rasray_integrators::{AmbientOcclusion, AovPass, Film, IntegratorDesc, Path, Raycast, Wave, waves};
+use rasray_integrators::{AovPass, Wave, waves};
 use rasray_scene::needs::Needs;
-use rasray_tracer::TracerError;
 
+use crate::accumulation::{Accumulation, count_unfinished};
 use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, Frame, Integrator, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, Frame, RenderJob, RenderOutput};
 use crate::passes::Passes;
-use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::stage::{Built, Stage, device_error};
 use rasray_report::{Counters, Times};
-
-/// Makes the integrator of a frame.
-pub(super) fn integrator(
-    frame: &Frame,
-    desc: &IntegratorDesc<'_>,
-) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
-    let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
-        Integrator::Path { bounces } => Path::new(desc, bounces).map(|i| Box::new(i) as _),
-        Integrator::AmbientOcclusion { distance } => {
-            AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
-        }
-        Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
-    };
-    made.map_err(|error| match error {
-        rasray_integrators::IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
-        other => device_error(other),
-    })
-}
 
 /// Pixels and what they cost.
 pub(super) struct Pixels {
@@ -55,114 +36,43 @@ pub(super) fn render_pixels(
     task: &str,
     progress: &mut OnProgress<'_>,
 ) -> Result<Pixels, ExperimentError> {
-    let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
-    let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
-    if *needs == Needs::all() {
-        desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
-    }
-    let integrator = integrator(frame, &desc)?;
+    let mut accumulation = Accumulation::new(device, stage, frame, needs)?;
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
-    let first_use_ms = use_once(device, integrator.as_ref(), built)?;
-    let Waves { samples_done, unfinished, passes } = loop {
-        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, frame, task, progress)? {
-            break rendered;
-        }
-    };
-    let faults = film.read_faults(device).map_err(device_error)?;
+    let first_use_ms = accumulation.use_once(device, built)?;
+    render_waves(device, &mut accumulation, built, frame, task, progress)?;
+    let faults = accumulation.film.read_faults(device).map_err(device_error)?;
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
     let mut counters = built.counters()?;
-    counters.unfinished = Some(unfinished);
-    let beauty = film.read(device).map_err(device_error)?;
-    Ok(Pixels { beauty, samples_done, passes, counters, first_use_ms })
+    counters.unfinished = Some(accumulation.unfinished());
+    let beauty = accumulation.read(device)?;
+    let samples_done = accumulation.samples_done();
+    Ok(Pixels { beauty, samples_done, passes: accumulation.passes, counters, first_use_ms })
 }
 
-/// Waves of samples that are on the film.
-struct Waves {
-    samples_done: u32,
-    /// Rays without an answer.
-    unfinished: u64,
-    passes: Passes,
-}
-
-/// Renders all samples. Nothing where rays need more rounds than they had: then film and counters start at 0 again, and
-/// the structure allows more from now on.
+/// Renders all samples, or those up to an early end, which is taken between samples, so that all pixels have the same
+/// number of them.
 fn render_waves(
     device: &Device,
-    integrator: &dyn rasray_integrators::Integrator,
+    accumulation: &mut Accumulation,
     built: &Built,
     frame: &Frame,
     task: &str,
     progress: &mut OnProgress<'_>,
-) -> Result<Option<Waves>, ExperimentError> {
-    let timing = device.best_timing();
-    let pixels = frame.width * frame.height;
-    let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
-    let total = waves_a_sample * u64::from(frame.spp);
-    let mut passes = Passes::default();
-    let mut samples_done = 0;
-    let mut unfinished = 0;
+) -> Result<(), ExperimentError> {
+    let total = u64::from(accumulation.waves_per_sample()) * u64::from(frame.spp);
+    let mut done = 0;
     let mut stopping = false;
-    for (done, wave) in (1..).zip(waves(pixels, frame.spp, integrator.wave_capacity())) {
-        // An early end is taken between samples, so that all pixels have the same number of them.
-        if stopping && wave.first_pixel == 0 {
-            break;
+    while accumulation.samples_done() < frame.spp && !(stopping && accumulation.is_between_samples()) {
+        if !accumulation.advance(device, built)? {
+            (done, stopping) = (0, false);
+            continue;
         }
-        let submitted = device
-            .submit_passes(timing, |recorder| {
-                integrator.record_wave(recorder, built.structure.as_ref().into(), wave)
-            })
-            .map_err(device_error)?;
-        submitted.value.map_err(device_error)?;
-        // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
-        // Queues count on from wave to wave.
-        unfinished = count_unfinished(device, built, &integrator.queues())?;
-        if unfinished > 0 && built.structure.allow_more_rounds() {
-            device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-            return Ok(None);
-        }
-        passes.add(&submitted.passes);
-        if wave.first_pixel + wave.pixel_count == pixels {
-            samples_done += 1;
-        }
-        let now = Progress { task, done, total, unit: "waves" };
-        stopping |= progress(now) == ControlFlow::Break(());
+        done += 1;
+        stopping |= progress(Progress { task, done, total, unit: "waves" }) == ControlFlow::Break(());
     }
-    Ok(Some(Waves { samples_done, unfinished, passes }))
-}
-
-/// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
-/// Returns milliseconds. Film and counters start at 0 after it.
-fn use_once(
-    device: &Device,
-    integrator: &dyn rasray_integrators::Integrator,
-    built: &Built,
-) -> Result<f64, ExperimentError> {
-    let started = Instant::now();
-    let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
-    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-    let submitted = device
-        .submit(|recorder| integrator.record_wave(recorder, built.structure.as_ref().into(), one))
-        .map_err(device_error)?;
-    submitted.value.map_err(device_error)?;
-    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-    Ok(started.elapsed().as_secs_f64() * 1.0e3)
-}
-
-/// Downloads the counters of all queues and returns how many rays have no answer; rays that met an unbuilt structure
-/// count as well. Refuses rays that met list entries that name nothing.
-fn count_unfinished(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
-    let mut unfinished = 0;
-    for queue in queues {
-        let counters = queue.download_counters(device).map_err(device_error)?;
-        if counters.corrupted > 0 {
-            let (structure, entries) = (built.structure.name(), counters.corrupted.into());
-            return Err(tracer_error(&TracerError::Corrupted { structure, entries }));
-        }
-        unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
-    }
-    Ok(unfinished)
+    Ok(())
 }
 
 /// Renders an image with all requested additional images.

@@ -9,6 +9,7 @@ mod render;
 mod shared;
 mod structure;
 pub mod values;
+mod view;
 
 pub use compare::CompareArguments;
 pub use documents::{CompletionsArguments, ManArguments};
@@ -19,6 +20,7 @@ pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
 };
 pub use structure::StructureArguments;
+pub use view::ViewerArguments;
 
 use crate::error::AppError;
 use clap::parser::ValueSource;
@@ -33,6 +35,7 @@ Examples:
   rasray render cornell --output cornell.png
   rasray render scene.glb --integrator ao --ao-distance 2 --spp 64 --output ao.exr
   rasray compare spheres:10k --systems mmrt,brute-force --rays 20000 --report r.json
+  rasray view scene.glb
   rasray info scene.glb
 
 A scene is a file (.gltf .glb .obj .ply) or a built-in with parameters (cornell, spheres:300k).
@@ -67,6 +70,8 @@ pub enum Command {
     Render(Box<RenderArguments>),
     /// Trace the same rays through several systems and compare speed and error
     Compare(Box<CompareArguments>),
+    /// Look at a scene in a window, which moves and refines (builds with the cargo feature viewer)
+    View(Box<ViewerArguments>),
     /// Show the device, or what a scene holds and needs
     Info(InfoArguments),
     /// Print completions of this command line for a shell
@@ -76,7 +81,7 @@ pub enum Command {
 }
 
 /// The words of [`Command`].
-const COMMANDS: [&str; 5] = ["render", "compare", "info", "completions", "man"];
+const COMMANDS: [&str; 6] = ["render", "compare", "view", "info", "completions", "man"];
 
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]
@@ -100,7 +105,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Refusal::Error(AppError::usage(
                 "nothing was asked for",
-                "say render, compare or info; 'rasray help' explains them, with examples",
+                "say render, compare, view or info; 'rasray help' explains them, with examples",
             )),
             _ => Refusal::Error(usage_error(&error, command)),
         }),

@@ -7,8 +7,10 @@ mod info;
 mod render;
 mod steps;
 mod targets;
+mod view;
 
 pub(crate) use compare::compare;
 pub(crate) use documents::{completions, man};
 pub(crate) use info::info;
 pub(crate) use render::render;
+pub(crate) use view::view;

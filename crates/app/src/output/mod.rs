@@ -12,6 +12,8 @@ pub use destination::Destination;
 pub use format::ImageFormat;
 pub use levels::hint;
 pub use png::encode as encode_png;
+#[cfg(feature = "viewer")]
+pub(crate) use png::encode_bytes as encode_png_bytes;
 pub(crate) use save_rays::{SaveTargets, save};
 
 #[cfg(test)]

@@ -11,14 +11,17 @@ use rasray_metrics::tone_map;
 /// # Errors
 /// What the encoder says, in words.
 pub fn encode(output: &RenderOutput, exposure: f32) -> Result<Vec<u8>, String> {
+    encode_bytes(&tone_map(&output.beauty, exposure), [output.width, output.height])
+}
+
+/// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels.
+///
+/// # Errors
+/// What the encoder says, in words.
+pub(crate) fn encode_bytes(pixels: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     PngEncoder::new(&mut bytes)
-        .write_image(
-            &tone_map(&output.beauty, exposure),
-            output.width,
-            output.height,
-            ExtendedColorType::Rgb8,
-        )
+        .write_image(pixels, width, height, ExtendedColorType::Rgb8)
         .map_err(|error| error.to_string())?;
     Ok(bytes)
 }

@@ -91,6 +91,7 @@ fn help_and_version_go_to_stdout() {
         ("--help", &["render", "compare", "info", "Exit codes", "Examples"][..]),
         ("render --help", &["--system", "--output", "--ao-distance", "Examples", "sRGB", "SIGINT"]),
         ("compare --help", &["--systems", "--ray-set", "mmrt.march=samples"]),
+        ("view --help", &["Examples", "drag", "--features viewer"]),
         ("info --help", &["Examples"]),
         ("--version", &["rasray", env!("CARGO_PKG_VERSION")]),
     ] {
