@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use rasray_ads::StructureKind;
 use rasray_experiment::{
     Accumulation, Built, Chosen, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity,
     texels, work_per_pixel,
@@ -12,12 +11,12 @@ use rasray_gpu_scene::{SceneTables, View};
 use rasray_report::Pass;
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
-use rasray_systems::{Preset, SYSTEMS};
 
 use crate::picture::{Picture, Pixels};
 use crate::preview_size::PreviewSize;
 use crate::scene_at_time::SceneAtTime;
 use crate::settings::{Redo, Settings, Shown, Standpoint};
+use crate::traced::{Traced, exact_config, follow};
 
 /// Chooses the camera of a scene as the command line said.
 pub type ChooseCamera = dyn Fn(&Scene) -> Result<Chosen, ExperimentError> + Send;
@@ -42,12 +41,6 @@ pub enum Step {
     Picture(Box<Picture>),
     /// Nothing is left to do for these settings.
     Done,
-}
-
-/// A structure with the configuration that it was built for.
-struct Traced {
-    config: SystemConfig,
-    built: Built,
 }
 
 /// Makes pictures on a device. What fails is made anew by the next settings.
@@ -337,50 +330,6 @@ impl Engine {
             resolved: traced.built.resolved()?,
         })))
     }
-}
-
-/// A system whose hits are exact, and not the one that is shown.
-fn exact_config(shown: &SystemConfig) -> SystemConfig {
-    let is_exact = |config: &SystemConfig| {
-        config
-            .spec()
-            .and_then(|spec| spec.kind().map_err(|error| ExperimentError::usage(error.to_string(), "")))
-            .is_ok_and(|kind| kind == StructureKind::Primitive)
-    };
-    let robust = |system| SystemConfig {
-        system,
-        preset: Preset::Robust,
-        options: rasray_experiment::StructureOptions::default(),
-        variant: None,
-    };
-    let others = SYSTEMS.iter().filter(|system| *system != shown.system).map(robust);
-    others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
-}
-
-/// Makes the structure of a configuration for the scene and its camera, where there is none or another; builds it anew
-/// where the camera has moved and it depends on that. One whose build fails is dropped.
-fn follow(
-    device: &Device,
-    stage: Option<&(Stage, Needs)>,
-    traced: &mut Option<Traced>,
-    config: &SystemConfig,
-    say: &mut dyn FnMut(&str),
-) -> Result<(), ExperimentError> {
-    let Some((stage, _)) = stage else { return Ok(()) };
-    match traced.take() {
-        Some(mut kept) if kept.config == *config => {
-            if kept.built.is_stale(&stage.scene) {
-                kept.built.follow_camera(device, &stage.scene)?;
-            }
-            *traced = Some(kept);
-        }
-        _ => {
-            say("building the structure");
-            let built = Built::new(device, &config.spec()?, &stage.scene, stage.scene.eye())?;
-            *traced = Some(Traced { config: config.clone(), built });
-        }
-    }
-    Ok(())
 }
 
 /// The film that is there, or a new one, whose kernels are compiled before it is timed.

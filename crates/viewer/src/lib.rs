@@ -17,6 +17,7 @@ mod preview_size;
 mod scene_at_time;
 mod session;
 mod settings;
+mod traced;
 #[cfg(feature = "window")]
 mod window;
 mod worker;

@@ -16,7 +16,7 @@ Examples:
 
 Left drag turns around the scene, right drag looks around, the middle button and Shift with a left drag move
 sideways, the wheel goes nearer; W A S D and E Q fly. Space plays, P saves the picture, C copies the command
-line that makes it again, R puts the camera back, Tab hides the panel, Ctrl+Q closes. Everything else is on
+line that makes it again, R puts the camera back, H hides the panel, Ctrl+Q closes. Everything else is on
 the panel. The picture refines while nothing moves, up to --spp samples.
 
 The window needs the cargo feature viewer, which takes some minutes more to build:

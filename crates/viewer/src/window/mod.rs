@@ -212,7 +212,10 @@ impl Viewer<'_> {
         let primitives = context.tessellate(std::mem::take(&mut output.shapes), scale);
         let size = live.window.inner_size();
         let size = [size.width, size.height];
-        live.painter.paint(size, scale, &primitives, &mut output.textures_delta)?;
+        let painted = live.painter.paint(size, scale, &primitives, &mut output.textures_delta);
+        // What an error left there is dropped on purpose.
+        output.textures_delta.clear();
+        painted?;
         if let Some(settings) = self.session.changed_settings(now) {
             self.worker.want(settings);
         }

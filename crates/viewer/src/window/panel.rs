@@ -28,7 +28,7 @@ const KEYS: &[(&str, &str)] = &[
     ("Space", "play, pause"),
     ("P", "save the picture"),
     ("C", "copy the command line"),
-    ("Tab", "hide or show this panel"),
+    ("H", "hide or show this panel"),
     ("Ctrl+Q", "close"),
 ];
 
@@ -86,7 +86,6 @@ impl Panel {
     }
 
     fn take_keys(&mut self, context: &egui::Context, session: &mut Session, save: &mut SavePicture<'_>) {
-        // Before widgets, which would take it to go on to the next of them.
         let pressed = |key| context.input_mut(|input| input.consume_key(Modifiers::NONE, key));
         if context.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Q)) {
             self.wants_to_close = true;
@@ -94,7 +93,7 @@ impl Panel {
         if context.egui_wants_keyboard_input() {
             return;
         }
-        if pressed(Key::Tab) {
+        if pressed(Key::H) {
             self.is_open = !self.is_open;
         }
         if pressed(Key::Space) {
