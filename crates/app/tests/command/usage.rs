@@ -139,3 +139,13 @@ fn stdout_that_takes_nothing_is_lost_data_and_one_that_closes_is_not() {
     drop(child.stdout.take());
     assert_eq!(child.wait().expect("the command ends").code(), Some(0));
 }
+
+#[cfg(not(feature = "viewer"))]
+#[test]
+fn without_its_window_the_command_says_how_to_build_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = rasray(folder.path(), "view cornell");
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(text.contains("without its window") && text.contains("--features viewer -- view cornell"), "{text}");
+}

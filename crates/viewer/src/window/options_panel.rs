@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use egui::{DragValue, RichText};
-use rasray_report::in_line;
 use rasray_systems::{Group, OptionRow, SYSTEMS};
 use serde_json::Value;
 
@@ -71,7 +70,7 @@ fn show_option(
     let set = options.text(row.name);
     let name = RichText::new(row.name);
     let name = if set.is_some() { name.strong() } else { name };
-    ui.label(name).on_hover_text(in_line(row.doc));
+    ui.label(name).on_hover_text(row.doc);
     let in_force = set.clone().or_else(|| {
         let value = resolved.get(row.name)?;
         Some(value.as_str().map_or_else(|| value.to_string(), str::to_owned))
