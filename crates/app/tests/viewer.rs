@@ -1,5 +1,5 @@
 //! The window as a person uses it: on a display of its own, with real keys and drags. Built with the feature `viewer` alone:
-//! `cargo test -p rasray-app --features viewer --test viewer`. Skipped by name without Xvfb or xdotool.
+//! `tests/README.md` has the command. Skipped by name without Xvfb or xdotool.
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};

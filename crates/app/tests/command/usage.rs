@@ -147,5 +147,8 @@ fn without_its_window_the_command_says_how_to_build_it() {
     let output = rasray(folder.path(), "view cornell");
     assert_eq!(output.status.code(), Some(2));
     let text = stderr(&output);
-    assert!(text.contains("without its window") && text.contains("--features viewer -- view cornell"), "{text}");
+    assert!(
+        text.contains("without its window") && text.contains("--features viewer -- view cornell"),
+        "{text}"
+    );
 }

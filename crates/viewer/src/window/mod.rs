@@ -28,6 +28,12 @@ use panel::Panel;
 /// How often is looked whether a signal asked for the end.
 const POLL: Duration = Duration::from_millis(100);
 
+/// How long a frame that was asked for may take to come before it is asked for again.
+const HIDDEN: Duration = Duration::from_secs(1);
+
+/// From one frame to the next while an animation plays.
+const PLAYING: Duration = Duration::from_millis(16);
+
 /// Least inner size of the window, pixels.
 const LEAST: PhysicalSize<u32> = PhysicalSize::new(480, 320);
 
@@ -224,7 +230,7 @@ impl Viewer<'_> {
             .get(&egui::ViewportId::ROOT)
             .map_or(Duration::MAX, |viewport| viewport.repaint_delay);
         if self.session.playback.playing {
-            pause = Duration::ZERO;
+            pause = pause.min(PLAYING);
         }
         if let Some(at) = self.session.wakes_at() {
             pause = pause.min(Duration::from_secs_f64((at - now).clamp(0.001, 10.0)));
@@ -236,6 +242,14 @@ impl Viewer<'_> {
     fn request_frame(&self) {
         if let Some(live) = &self.live {
             live.window.request_redraw();
+        }
+    }
+
+    /// Asks for a frame where one is due. A window that is hidden may not get it, and must not ask all the time.
+    fn request_due_frame(&mut self) {
+        if Instant::now() >= self.wake_at {
+            self.wake_at = Instant::now() + HIDDEN;
+            self.request_frame();
         }
     }
 
@@ -263,8 +277,8 @@ impl ApplicationHandler<()> for Viewer<'_> {
             self.end = End::Stopped;
             events.exit();
         }
-        if matches!(cause, StartCause::ResumeTimeReached { .. }) && Instant::now() >= self.wake_at {
-            self.request_frame();
+        if matches!(cause, StartCause::ResumeTimeReached { .. }) {
+            self.request_due_frame();
         }
     }
 
@@ -297,10 +311,8 @@ impl ApplicationHandler<()> for Viewer<'_> {
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        self.request_due_frame();
         let poll = Instant::now() + POLL;
         events.set_control_flow(ControlFlow::WaitUntil(poll.min(self.wake_at)));
-        if Instant::now() >= self.wake_at {
-            self.request_frame();
-        }
     }
 }
