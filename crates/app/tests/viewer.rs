@@ -161,7 +161,12 @@ fn a_window_follows_keys_and_drags_and_its_pictures_are_those_of_render() {
     let first = bytes(&first);
     assert_eq!(made_by(folder.path(), &first_line), first, "{first_line}");
 
-    display.xdotool("mousemove 150 300 mousedown 1 mousemove_relative --sync 60 20 mouseup 1");
+    // As fast as a hand: what happens within one frame of a debug build is a click.
+    display.xdotool("mousemove 150 300 sleep 0.5 mousedown 1");
+    for _ in 0..5 {
+        display.xdotool("sleep 0.3 mousemove_relative 12 4");
+    }
+    display.xdotool("sleep 0.3 mouseup 1");
     std::thread::sleep(Duration::from_secs(2));
     let (turned, turned_line) = window.save();
     let turned = bytes(&turned);
