@@ -83,7 +83,7 @@ mod with_window {
             bounds: default_view::bounds(&loaded.scene).unwrap_or_default(),
             output,
         });
-        let device = during("device", "opening", || Ok(open_device(&given.device.choice())?))?;
+        let device = during("device", "opening", || open_device(&given.device.choice()))?;
         let (choice, validation) = (given.view.clone(), given.device.validation);
         let source = SceneSource {
             loaded,
@@ -97,9 +97,7 @@ mod with_window {
             engine: Box::new(move || Engine::new(device, validation, source, settings)),
             session,
             stop: &|| interrupt.requested(),
-            save: &mut |place, size, pixels| {
-                save(place, size, pixels, interrupt).map_err(|error| error.to_string())
-            },
+            save: &mut |saved| save(saved, interrupt).map_err(|error| error.to_string()),
         })?;
         match end {
             End::Closed => Ok(()),
