@@ -3,6 +3,7 @@
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
 use rasray_gpu::PassCommands;
+use rasray_gpu_scene::TexelRuns;
 use rasray_report::Device;
 use std::ops::ControlFlow;
 
@@ -80,6 +81,14 @@ pub struct TexelCapacity {
     pub texels: u64,
     /// Name of the device.
     pub device: String,
+}
+
+impl TexelCapacity {
+    /// Of a device.
+    pub fn of(device: &rasray_gpu::Device) -> Self {
+        let texels = TexelRuns::of(device.limits()).most_texels();
+        Self { texels, device: device.name().to_owned() }
+    }
 }
 
 /// What renders. Every method reports failure of the device as [`ExperimentError::Device`], and lost data

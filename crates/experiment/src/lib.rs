@@ -14,6 +14,7 @@
 //! # Ok::<(), rasray_experiment::ExperimentError>(())
 //! ```
 
+mod accumulation;
 mod backend;
 mod camera;
 mod compare;
@@ -48,6 +49,7 @@ mod traced_set;
 mod whole;
 mod work_maps;
 
+pub use accumulation::Accumulation;
 pub use backend::{
     Backend, ChosenPath, DeviceChoice, DeviceDescription, Feature, OnProgress, OpenBackend, Progress,
     TexelCapacity,
@@ -68,12 +70,13 @@ pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};
-pub use renderer::open;
+pub use renderer::{open, open_device};
 pub use scene_info::SceneInfo;
 pub use scene_source::{LoadedScene, load, load_with};
 pub use selection::{ReadValue, one_system, several_systems};
 pub use shard::Shard;
-pub use stage::{Built, Stage};
+pub use stage::{Built, Resolved, Stage};
 pub use system_config::{StructureOptions, SystemConfig};
 pub use traced_set::{TracedSet, trace_in_turns};
 pub use whole::check_run;
+pub use work_maps::work_per_pixel;

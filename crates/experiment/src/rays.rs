@@ -82,11 +82,6 @@ impl RaySource<'_> {
         camera_ray(self.view, self.frame_origin, place)
     }
 
-    /// The camera's ray through a point of the image, pixels from its upper left corner.
-    pub(super) fn through(&self, place: Vec2) -> Ray {
-        from_shading(&camera_ray(self.view, self.frame_origin, place))
-    }
-
     /// Cosine-weighted directions from what camera rays hit exactly.
     fn bounce(&self, count: u32) -> Vec<Ray> {
         let mut rays = Vec::with_capacity(count as usize);
@@ -148,7 +143,7 @@ fn direction(stream: RandomStream) -> [f32; 3] {
     [ring * azimuth.cos(), ring * azimuth.sin(), z]
 }
 
-fn from_shading(ray: &shading::Ray) -> Ray {
+pub(super) fn from_shading(ray: &shading::Ray) -> Ray {
     Ray {
         origin: ray.origin.to_array(),
         t_min: 0.0,

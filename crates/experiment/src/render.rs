@@ -4,55 +4,18 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_ads::RayQueue;
 use rasray_gpu::Device;
-use rasray_integrators::{
-    AmbientOcclusion, AovPass, Film, IntegratorDesc, IntegratorError, Path, Raycast, Traced, Visibility,
-    Wave, waves, waves_of,
-};
+use rasray_integrators::{AovPass, Traced, Wave, waves};
 use rasray_scene::needs::Needs;
-use rasray_tracer::TracerError;
 
+use crate::accumulation::{Accumulation, count_unfinished, visibility};
 use crate::backend::{OnProgress, Progress};
 use crate::error::ExperimentError;
-use crate::jobs::{AovSelection, FilmSums, Frame, Integrator, Primary, RenderJob, RenderOutput};
+use crate::jobs::{AovSelection, FilmSums, Frame, Primary, RenderJob, RenderOutput};
 use crate::passes::Passes;
 use crate::shard::Shard;
-use crate::stage::{Built, Stage, device_error, tracer_error};
+use crate::stage::{Built, Stage, device_error};
 use rasray_report::{Counters, Times};
-
-/// Makes the integrator of a frame.
-pub(super) fn integrator(
-    frame: &Frame,
-    desc: &IntegratorDesc<'_>,
-) -> Result<Box<dyn rasray_integrators::Integrator>, ExperimentError> {
-    let made: Result<Box<dyn rasray_integrators::Integrator>, _> = match frame.integrator {
-        Integrator::Path { bounces } => Path::new(desc, bounces).map(|i| Box::new(i) as _),
-        Integrator::AmbientOcclusion { distance } => {
-            AmbientOcclusion::new(desc, distance.unwrap_or(f32::INFINITY)).map(|i| Box::new(i) as _)
-        }
-        Integrator::Raycast => Raycast::new(desc).map(|i| Box::new(i) as _),
-    };
-    made.map_err(|error| match error {
-        IntegratorError::Option { .. } => ExperimentError::usage(error.to_string(), ""),
-        other => device_error(other),
-    })
-}
-
-/// What answers the camera rays of a frame in place of traces; nothing where they are traced.
-fn visibility(device: &Device, stage: &Stage, frame: &Frame) -> Result<Option<Visibility>, ExperimentError> {
-    match frame.primary {
-        Primary::Trace => Ok(None),
-        Primary::Raster => {
-            Visibility::new(device, &stage.scene, false).map(Some).map_err(|error| match error {
-                IntegratorError::CannotDraw { .. } => {
-                    ExperimentError::device(error, "choose --primary trace, or another --device")
-                }
-                other => device_error(other),
-            })
-        }
-    }
-}
 
 /// Which pixels are made.
 pub(super) struct Wanted<'a> {
@@ -85,127 +48,50 @@ pub(super) fn render_pixels(
     progress: &mut OnProgress<'_>,
 ) -> Result<Pixels, ExperimentError> {
     let Wanted { frame, shard, needs, task } = *wanted;
-    let film = Film::new(device, frame.width, frame.height).map_err(device_error)?;
-    let mut desc = IntegratorDesc::new(device, &stage.scene, &film);
-    if *needs == Needs::all() {
-        desc.features = rasray_gpu_scene::ShadingFeatures::ALL;
-    }
-    let integrator = integrator(frame, &desc)?;
-    let visibility = visibility(device, stage, frame)?;
-    if let Some(visibility) = &visibility {
-        device.submit(|recorder| visibility.record_reset(recorder)).map_err(device_error)?;
-    }
-    let traced = Traced::from(built.structure.as_ref()).with_primary(visibility.as_ref());
+    let mut accumulation = Accumulation::new(device, stage, frame, shard, needs)?;
     _ = progress(Progress { task, done: 0, total: 0, unit: "first use of the shaders" });
-    let first_use_ms = use_once(device, integrator.as_ref(), traced)?;
-    let Waves { samples_done, unfinished, passes } = loop {
-        if let Some(rendered) = render_waves(device, integrator.as_ref(), built, traced, wanted, progress)? {
-            break rendered;
-        }
-    };
-    if let Some(visibility) = &visibility {
-        let covering = visibility.read_counts(device).map_err(device_error)?.covering;
-        tracing::info!(covering, "triangles drawn over all pixels, of all waves: they reach behind the eye");
-    }
-    let faults = film.read_faults(device).map_err(device_error)?;
+    let first_use_ms = accumulation.use_once(device, built)?;
+    render_waves(device, &mut accumulation, built, wanted, progress)?;
+    accumulation.log_visibility(device)?;
+    let faults = accumulation.film.read_faults(device).map_err(device_error)?;
     if faults.non_finite > 0 {
         tracing::warn!("{} samples were not finite numbers and are left out", faults.non_finite);
     }
     let mut counters = built.counters()?;
-    counters.unfinished = Some(unfinished);
-    let film = film.read_pixels(device).map_err(device_error)?;
+    counters.unfinished = Some(accumulation.unfinished());
+    let film = accumulation.film.read_pixels(device).map_err(device_error)?;
     let beauty = film.iter().map(|pixel| pixel.mean()).collect();
     let sums = shard.map(|_| FilmSums {
         sums: film.iter().map(|pixel| pixel.sum).collect(),
         counts: film.iter().map(|pixel| pixel.samples).collect(),
     });
-    Ok(Pixels { beauty, sums, samples_done, passes, counters, first_use_ms })
+    let samples_done = accumulation.samples_done();
+    Ok(Pixels { beauty, sums, samples_done, passes: accumulation.passes, counters, first_use_ms })
 }
 
-/// Waves of samples that are on the film.
-struct Waves {
-    samples_done: u32,
-    /// Rays without an answer.
-    unfinished: u64,
-    passes: Passes,
-}
-
-/// Renders the samples. Nothing where rays need more rounds than they had: then film and counters start at 0 again, and
-/// the structure allows more from now on.
+/// Renders the samples, or those up to an early end, which is taken between samples, so that all pixels have the same
+/// number of them.
 fn render_waves(
     device: &Device,
-    integrator: &dyn rasray_integrators::Integrator,
+    accumulation: &mut Accumulation,
     built: &Built,
-    traced: Traced<'_>,
     wanted: &Wanted<'_>,
     progress: &mut OnProgress<'_>,
-) -> Result<Option<Waves>, ExperimentError> {
+) -> Result<(), ExperimentError> {
     let Wanted { frame, shard, task, .. } = *wanted;
-    let samples = shard.unwrap_or_default().samples(frame.spp);
-    let timing = device.best_timing();
-    let pixels = frame.width * frame.height;
-    let waves_a_sample = u64::from(pixels.div_ceil(integrator.wave_capacity()));
-    let total = waves_a_sample * samples.len() as u64;
-    let mut passes = Passes::default();
-    let mut samples_done = 0;
-    let mut unfinished = 0;
+    let samples = shard.unwrap_or_default().samples(frame.spp).len() as u32;
+    let total = u64::from(accumulation.waves_per_sample()) * u64::from(samples);
+    let mut done = 0;
     let mut stopping = false;
-    for (done, wave) in (1..).zip(waves_of(pixels, samples, integrator.wave_capacity())) {
-        // An early end is taken between samples, so that all pixels have the same number of them.
-        if stopping && wave.first_pixel == 0 {
-            break;
+    while accumulation.samples_done() < samples && !(stopping && accumulation.is_between_samples()) {
+        if !accumulation.advance(device, built)? {
+            (done, stopping) = (0, false);
+            continue;
         }
-        let submitted = device
-            .submit_passes(timing, |recorder| integrator.record_wave(recorder, traced, wave))
-            .map_err(device_error)?;
-        submitted.value.map_err(device_error)?;
-        // What is on the film lacks light where a ray had no answer, so it is found now and not after the last wave.
-        // Queues count on from wave to wave.
-        unfinished = count_unfinished(device, built, &integrator.queues())?;
-        if unfinished > 0 && built.structure.allow_more_rounds() {
-            device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-            return Ok(None);
-        }
-        passes.add(&submitted.passes);
-        if wave.first_pixel + wave.pixel_count == pixels {
-            samples_done += 1;
-        }
-        let now = Progress { task, done, total, unit: "waves" };
-        stopping |= progress(now) == ControlFlow::Break(());
+        done += 1;
+        stopping |= progress(Progress { task, done, total, unit: "waves" }) == ControlFlow::Break(());
     }
-    Ok(Some(Waves { samples_done, unfinished, passes }))
-}
-
-/// Renders one pixel and forgets it: software drivers compile a kernel at its first dispatch, which is no trace.
-/// Returns milliseconds. Film and counters start at 0 after it.
-fn use_once(
-    device: &Device,
-    integrator: &dyn rasray_integrators::Integrator,
-    traced: Traced<'_>,
-) -> Result<f64, ExperimentError> {
-    let started = Instant::now();
-    let one = Wave { first_pixel: 0, pixel_count: 1, sample: 0 };
-    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-    let submitted =
-        device.submit(|recorder| integrator.record_wave(recorder, traced, one)).map_err(device_error)?;
-    submitted.value.map_err(device_error)?;
-    device.submit(|recorder| integrator.record_reset(recorder)).map_err(device_error)?;
-    Ok(started.elapsed().as_secs_f64() * 1.0e3)
-}
-
-/// Downloads the counters of all queues and returns how many rays have no answer; rays that met an unbuilt structure
-/// count as well. Refuses rays that met list entries that name nothing.
-fn count_unfinished(device: &Device, built: &Built, queues: &[&RayQueue]) -> Result<u64, ExperimentError> {
-    let mut unfinished = 0;
-    for queue in queues {
-        let counters = queue.download_counters(device).map_err(device_error)?;
-        if counters.corrupted > 0 {
-            let (structure, entries) = (built.structure.name(), counters.corrupted.into());
-            return Err(tracer_error(&TracerError::Corrupted { structure, entries }));
-        }
-        unfinished += u64::from(counters.unfinished) + u64::from(counters.not_ready);
-    }
-    Ok(unfinished)
+    Ok(())
 }
 
 /// Milliseconds that traces took; absent where none was recorded.

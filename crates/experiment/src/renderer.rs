@@ -1,7 +1,6 @@
 //! Jobs on a Vulkan device.
 
 use rasray_gpu::{Device as GpuDevice, DeviceDesc};
-use rasray_gpu_scene::TexelRuns;
 
 use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, TexelCapacity};
 use crate::describe::requirements;
@@ -18,16 +17,7 @@ struct Renderer {
 impl Renderer {
     /// Opens the wanted device.
     fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
-        let device = GpuDevice::create(&DeviceDesc {
-            requirements: requirements(),
-            preference: choice.device.clone(),
-            validation: choice.validation,
-            application: "rasray".to_owned(),
-        })
-        .map_err(|error| {
-            ExperimentError::device(error, "`rasray info` lists the devices and what they lack")
-        })?;
-        tracing::info!(device = device.name(), why = device.why_chosen(), "device");
+        let device = open_device(choice)?;
         Ok(Self { device, validation: choice.validation })
     }
 
@@ -53,8 +43,7 @@ impl Backend for Renderer {
     }
 
     fn texel_capacity(&self) -> TexelCapacity {
-        let texels = TexelRuns::of(self.device.limits()).most_texels();
-        TexelCapacity { texels, device: self.device.name().to_owned() }
+        TexelCapacity::of(&self.device)
     }
 
     fn render(
@@ -98,10 +87,26 @@ impl Backend for Renderer {
     }
 }
 
-/// Opens the wanted device.
+/// Opens the wanted device, for code that works on it itself.
 ///
 /// # Errors
 /// [`ExperimentError::Device`]: no such device, or it lacks something required.
+pub fn open_device(choice: &DeviceChoice) -> Result<GpuDevice, ExperimentError> {
+    let device = GpuDevice::create(&DeviceDesc {
+        requirements: requirements(),
+        preference: choice.device.clone(),
+        validation: choice.validation,
+        application: "rasray".to_owned(),
+    })
+    .map_err(|error| ExperimentError::device(error, "`rasray info` lists the devices and what they lack"))?;
+    tracing::info!(device = device.name(), why = device.why_chosen(), "device");
+    Ok(device)
+}
+
+/// Opens the wanted device for jobs.
+///
+/// # Errors
+/// As [`open_device`].
 pub fn open(choice: &DeviceChoice) -> Result<Box<dyn Backend>, ExperimentError> {
     Ok(Box::new(Renderer::open(choice)?))
 }

@@ -36,6 +36,11 @@ impl Shard {
         place % self.of == self.number - 1
     }
 
+    /// The sample of this share at a place from 0, where samples have no end; the last index there is beyond it.
+    pub fn sample(self, place: u32) -> u32 {
+        (self.number - 1).saturating_add(place.saturating_mul(self.of))
+    }
+
     /// Those of the samples from 0 to `count` - 1 that are part of the share, in their order.
     pub fn samples(self, count: u32) -> StepBy<Range<u32>> {
         ((self.number - 1).min(count)..count).step_by(self.of as usize)
@@ -61,7 +66,9 @@ mod tests {
             samples.sort_unstable();
             assert_eq!(samples, (0..count).collect::<Vec<_>>());
         }
-        assert_eq!(Shard::new(2, 3).expect("a share").samples(8).collect::<Vec<_>>(), [1, 4, 7]);
+        let share = Shard::new(2, 3).expect("a share");
+        assert_eq!(share.samples(8).collect::<Vec<_>>(), [1, 4, 7]);
+        assert_eq!([0, 1, 2, u32::MAX].map(|place| share.sample(place)), [1, 4, 7, u32::MAX]);
     }
 
     #[test]

@@ -16,7 +16,7 @@ use serde_json::Value;
 use crate::error::ExperimentError;
 use crate::jobs::{Frame, Sampler};
 use crate::passes::{Passes, median, spread};
-use rasray_report::{Counters, Memory, Spread, Times};
+use rasray_report::{Counters, Memory, Pass, Spread, Times};
 
 /// What a device error is about.
 pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
@@ -119,8 +119,20 @@ impl Stage {
         self.scene.geometry().download(device).map_err(device_error)
     }
 
+    /// Looks from elsewhere, or at another size in pixels; the frame origin stays. Structures that depend on it are
+    /// stale then ([`Built::is_stale`]).
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn look(&mut self, view: &View) -> Result<(), ExperimentError> {
+        self.scene.update_camera(view).map_err(device_error)
+    }
+
     /// Sets how the pixels of an image are sampled.
-    pub(super) fn sample_as(&mut self, frame: &Frame) -> Result<(), ExperimentError> {
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn sample_as(&mut self, frame: &Frame) -> Result<(), ExperimentError> {
         let sampler = match frame.sampler {
             Sampler::Sobol => rasray_gpu_scene::Sampler::Sobol,
             Sampler::Pcg => rasray_gpu_scene::Sampler::Pcg,
@@ -195,7 +207,7 @@ fn ads_error(error: AdsError) -> FirstBuild {
 }
 
 /// Options and paths by name.
-type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
+pub type Resolved = (BTreeMap<String, Value>, BTreeMap<String, String>);
 
 /// A structure, built, with what the building cost.
 pub struct Built {
@@ -266,6 +278,16 @@ impl Built {
         Ok(())
     }
 
+    /// Whether the scene's camera has moved so that the build is none for it.
+    pub fn is_stale(&self, scene: &GpuScene) -> bool {
+        self.structure.depends_on().are_stale(self.viewpoint, scene.viewpoint().at(scene.eye()))
+    }
+
+    /// Times of the passes of builds.
+    pub fn pass_times(&self) -> Vec<Pass> {
+        self.passes.report()
+    }
+
     /// Builds once more and keeps the times.
     ///
     /// # Errors
@@ -303,14 +325,20 @@ impl Built {
     }
 
     /// Options and paths as the structure resolved them.
-    pub(super) fn resolved(&self) -> Result<Resolved, ExperimentError> {
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn resolved(&self) -> Result<Resolved, ExperimentError> {
         let report = self.structure.report().map_err(device_error)?;
         let paths = report.paths.into_iter().map(|(name, value)| (name.to_owned(), value));
         Ok((rasray_report::options(report.options), paths.collect()))
     }
 
     /// Bytes of the structure, by part, with its formula.
-    pub(super) fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
+    ///
+    /// # Errors
+    /// The device fails.
+    pub fn memory(&self, device: &Device) -> Result<Memory, ExperimentError> {
         let report = self.structure.report().map_err(device_error)?;
         Ok(Memory {
             structure_bytes: Some(report.bytes() - report.slack() - report.diagnostic_bytes),

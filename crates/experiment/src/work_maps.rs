@@ -1,13 +1,16 @@
 //! What the ray through each pixel's centre costs.
 
-use glam::Vec2;
-use rasray_ads::{Counters, Ray, TraceMode};
+use glam::{DVec3, Vec2};
+use rasray_ads::{Counters, Ray, RayWork, TraceMode};
 use rasray_gpu::Device;
+use rasray_reference::shading::{Sampler, View, camera_ray};
+use rasray_scene::Camera;
+use rasray_systems::Spec;
 use rasray_tracer::BatchTracer;
 
 use crate::contestant::Contestant;
 use crate::error::ExperimentError;
-use crate::rays::RaySource;
+use crate::rays::{RaySource, from_shading};
 use crate::stage::{Built, Stage, tracer_error};
 use rasray_report::Run;
 use rasray_report::figures::WorkMap;
@@ -16,8 +19,6 @@ use rasray_report::figures::WorkMap;
 const BATCH: usize = 131_072;
 
 /// A map for each system, kept with the system's run of camera rays, or its first.
-///
-/// Rays that write down their own work are slower, so the maps have structures of their own.
 pub(super) fn work_maps(
     device: &Device,
     stage: &Stage,
@@ -25,37 +26,57 @@ pub(super) fn work_maps(
     source: &RaySource<'_>,
     runs: &[Run],
 ) -> Result<Vec<WorkMap>, ExperimentError> {
-    let (width, height) = (source.view.width, source.view.height);
-    let rays = centres(source);
-    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let View { camera, width, height, .. } = source.view;
     let mut maps = Vec::new();
     for contestant in contestants {
         let Some(run) = run_of(contestant, runs) else { continue };
-        let spec = contestant.spec.clone().with_counters(Counters::PerRay);
-        let built = Built::new(device, &spec, &stage.scene, source.center)?;
-        let outcome = tracer
-            .trace(built.structure.as_ref(), &rays, TraceMode::Closest, device.best_timing())
-            .map_err(|e| tracer_error(&e))?;
-        if outcome.work.len() != rays.len() {
-            continue;
+        let work = work_per_pixel(device, stage, &contestant.spec, source.center, camera, [*width, *height])?;
+        if let Some(work) = work {
+            maps.push(WorkMap { run, ..work });
         }
-        maps.push(WorkMap {
-            run,
-            width,
-            height,
-            cells: outcome.work.iter().map(|work| work.cells).collect(),
-            entries: outcome.work.iter().map(|work| work.entries).collect(),
-            tests: outcome.work.iter().map(|work| work.tests).collect(),
-        });
     }
     Ok(maps)
 }
 
+/// What the ray through each pixel's centre costs in a structure of this spec, built as seen from `eye` (metres,
+/// relative to the frame origin); its run is 0. Absent where the structure counts nothing per ray. The size is in pixels.
+///
+/// Rays that write down their own work are slower, so the map has a structure of its own.
+///
+/// # Errors
+/// The device lacks something or fails, or the structure or rays do not become complete.
+pub fn work_per_pixel(
+    device: &Device,
+    stage: &Stage,
+    spec: &Spec,
+    eye: [f32; 3],
+    camera: &Camera,
+    [width, height]: [u32; 2],
+) -> Result<Option<WorkMap>, ExperimentError> {
+    let view =
+        View { camera: camera.clone(), width, height, samples: 1, seed: 0, sampler: Sampler::default() };
+    let rays = centres(&view, stage.scene.frame_origin());
+    let tracer = BatchTracer::new(device, rays.len().clamp(1, BATCH) as u32).map_err(|e| tracer_error(&e))?;
+    let built = Built::new(device, &spec.clone().with_counters(Counters::PerRay), &stage.scene, eye)?;
+    let outcome = tracer
+        .trace(built.structure.as_ref(), &rays, TraceMode::Closest, device.best_timing())
+        .map_err(|e| tracer_error(&e))?;
+    let of = |count: fn(&RayWork) -> u32| outcome.work.iter().map(count).collect();
+    Ok((outcome.work.len() == rays.len()).then(|| WorkMap {
+        run: 0,
+        width,
+        height,
+        cells: of(|work| work.cells),
+        entries: of(|work| work.entries),
+        tests: of(|work| work.tests),
+    }))
+}
+
 /// Rays through the centres of all pixels, rows from the top.
-fn centres(source: &RaySource<'_>) -> Vec<Ray> {
-    let (width, height) = (source.view.width, source.view.height);
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    pixels.map(|(x, y)| source.through(Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()
+fn centres(view: &View, frame_origin: DVec3) -> Vec<Ray> {
+    let pixels = (0..view.height).flat_map(|y| (0..view.width).map(move |x| (x, y)));
+    let through = |place| from_shading(&camera_ray(view, frame_origin, place));
+    pixels.map(|(x, y)| through(Vec2::new(x as f32 + 0.5, y as f32 + 0.5))).collect()
 }
 
 fn run_of(contestant: &Contestant<'_>, runs: &[Run]) -> Option<usize> {

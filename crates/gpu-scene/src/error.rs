@@ -38,4 +38,10 @@ pub enum GpuSceneError {
     /// The geometry could not be bound.
     #[error(transparent)]
     Ads(#[from] rasray_ads::AdsError),
+    /// What deforms the scene is no clip: only the host knows its shapes.
+    #[error("{scene} is simulated, or in numbered files: pose it on the host (Scene::at) and upload it anew")]
+    DeformedByHost {
+        /// Name of the scene.
+        scene: String,
+    },
 }

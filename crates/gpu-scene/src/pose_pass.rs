@@ -69,7 +69,8 @@ impl PosePass {
     /// images of the scene are not looked at.
     ///
     /// # Errors
-    /// `Malformed` where the tables are of a scene with other instances, out of memory, more words than 32 bits number, a
+    /// [`GpuSceneError::DeformedByHost`] for a scene that is simulated or in numbered files, `Malformed` where the tables are
+    /// of a scene with other instances, out of memory, more words than 32 bits number, a
     /// table larger than one binding can hold (the error names it), or a lost device.
     pub fn new(
         device: &Device,

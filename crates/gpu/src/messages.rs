@@ -17,6 +17,14 @@ impl ValidationLog {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
+    /// What a messenger of an instance that a host makes is made from, so that its messages are gathered here as well.
+    ///
+    /// # Safety
+    /// The log stays where it is until the messenger and its instance are gone.
+    pub unsafe fn messenger(&self) -> vk::DebugUtilsMessengerCreateInfoEXT<'static> {
+        messenger_info(self)
+    }
+
     fn push(&self, message: String) {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).push(message);
     }

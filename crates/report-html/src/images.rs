@@ -2,11 +2,12 @@
 
 use super::markup::Markup;
 use super::misfit;
-use super::picture::{MAGMA, address, colour, ramp};
+use super::picture::{address, ramp};
 use super::section::Section;
 use crate::HtmlError;
 use rasray_metrics::tone_map;
 use rasray_report::Report;
+use rasray_report::colour_scale::{MAGMA, colour};
 use rasray_report::figures::{Figures, Images, SystemImage};
 
 /// The images; absent unless images were compared.

@@ -1,10 +1,11 @@
 //! What each pixel's ray cost: heat maps of cells, entries and tests on one scale a quantity.
 
 use super::markup::Markup;
-use super::picture::{VIRIDIS, address, colour, ramp};
+use super::picture::{address, ramp};
 use super::section::Section;
 use crate::HtmlError;
 use rasray_report::Report;
+use rasray_report::colour_scale::{VIRIDIS, colour, place};
 use rasray_report::figures::{Figures, WorkMap};
 use rasray_report::grouped;
 
@@ -24,11 +25,6 @@ const QUANTITIES: [Quantity; 3] = [
     },
     Quantity { title: "Primitive tests per ray", unit: "tests", values: |map| &map.tests },
 ];
-
-/// Where `count` stands on a scale that ends at `most`: logarithmic, and 0 at 0.
-fn place(count: u32, most: u32) -> f64 {
-    if most == 0 { 0.0 } else { f64::from(count).ln_1p() / f64::from(most).ln_1p() }
-}
 
 /// Counts that the legend names: 0, powers of ten or halves of them where few fit, and the largest.
 fn ticks(most: u32) -> Vec<u32> {

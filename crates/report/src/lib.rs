@@ -2,6 +2,7 @@
 //! text: tables for terminals ([`table()`]), and for pages in Markdown ([`markdown()`]).
 
 mod accuracy;
+pub mod colour_scale;
 pub mod figures;
 mod markdown;
 mod run_text;

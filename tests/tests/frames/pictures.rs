@@ -157,7 +157,7 @@ fn frames_in_flight_are_the_pictures_of_single_frames() {
             assert!(picture.built, "frame {number}: the block moved");
             // Posed by the host, positions differ in their last bits.
             let moment = Moment { seconds: 0.25 * number as f64, clips: vec![0] };
-            let posed = scene.at(&moment);
+            let posed = scene.at(&moment).expect("a rig");
             let on_host =
                 still(device, &posed, &tables(&posed), &spec, &FrameInput { pose: None, ..input.clone() });
             let image =

@@ -66,14 +66,21 @@ impl<'a> Stage<'a> {
 
     /// Tables that the host makes of a moment.
     pub fn fresh(&self, moment: &Moment) -> SceneTables {
-        SceneTables::new(&self.scene.at(moment), self.origin, &Parts::ALL).expect("the scene is whole")
+        SceneTables::new(&self.scene.at(moment).expect("a rig"), self.origin, &Parts::ALL)
+            .expect("the scene is whole")
     }
 
     /// Poses the scene on the device.
     pub fn pose(&self, moment: &Moment) {
         let frame = self.pass.frame(&self.scene, moment).expect("the pass is of this scene");
-        let cameras: Vec<_> =
-            self.scene.at(moment).cameras.iter().map(|camera| camera.world_from_camera).collect();
+        let cameras: Vec<_> = self
+            .scene
+            .at(moment)
+            .expect("a rig")
+            .cameras
+            .iter()
+            .map(|camera| camera.world_from_camera)
+            .collect();
         assert_eq!(frame.cameras(), cameras);
         let submitted = self.bench.device().submit(|recorder| self.pass.record(recorder, &frame));
         submitted.expect("the device works");

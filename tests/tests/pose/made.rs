@@ -129,12 +129,12 @@ fn instances_of_a_mesh_have_weights_of_their_own() {
     made.animation.rig.placements =
         vec![copy(0, 0.0), copy(1, 0.0), copy(1, 7.0), copy(2, 3.0), copy(2, -3.0)];
     made.instances = [0, 0, 0, 1, 1].map(|mesh| Instance { mesh, ..made.instances[0].clone() }).into();
-    let made = made.at(&Moment::default());
+    let made = made.at(&Moment::default()).expect("a rig");
     let meshes = made.meshes.len();
     let stage = Stage::new(&bench, made, DVec3::ZERO);
     assert_eq!(stage.pass.moving_draws(), [false, true, true, true, true]);
     assert_close("copies", worst(&stage), 4 * vertices, 1.0e-5);
-    let count = |seconds| stage.scene.at(&at(&stage.scene, seconds)).meshes.len() - meshes;
+    let count = |seconds| stage.scene.at(&at(&stage.scene, seconds)).expect("a rig").meshes.len() - meshes;
     assert_eq!([count(0.0), count(0.5)], [0, 1]);
 }
 

@@ -100,7 +100,7 @@ pub fn scene(meshes: Vec<Mesh>, rig: Rig, channels: Vec<Channel>) -> Scene {
         ..Scene::default()
     };
     // Without clips it is at rest.
-    scene.at(&Moment::default())
+    scene.at(&Moment::default()).expect("a rig")
 }
 
 /// A skin of a chain of joints in the world around `place`, which turn, for a mesh around `centre` of its own space.

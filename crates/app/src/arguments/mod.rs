@@ -10,6 +10,7 @@ mod render;
 mod shared;
 mod structure;
 pub mod values;
+mod view;
 
 pub use compare::CompareArguments;
 pub use documents::{CompletionsArguments, ManArguments};
@@ -21,6 +22,7 @@ pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
 };
 pub use structure::StructureArguments;
+pub use view::ViewerArguments;
 
 use crate::error::AppError;
 use clap::parser::ValueSource;
@@ -35,6 +37,7 @@ Examples:
   rasray render cornell --output cornell.png
   rasray render scene.glb --integrator ao --ao-distance 2 --spp 64 --output ao.exr
   rasray compare spheres:10k --systems mmrt,brute-force --rays 20000 --report r.json
+  rasray view scene.glb
   rasray info scene.glb
   rasray merge scene.png part.*.exr
 
@@ -72,6 +75,8 @@ pub enum Command {
     Merge(MergeArguments),
     /// Trace the same rays through several systems and compare speed and error
     Compare(Box<CompareArguments>),
+    /// Look at a scene in a window, which moves and refines (builds with the cargo feature viewer)
+    View(Box<ViewerArguments>),
     /// Show the device, or what a scene holds and needs
     Info(InfoArguments),
     /// Print completions of this command line for a shell
@@ -81,7 +86,7 @@ pub enum Command {
 }
 
 /// The words of [`Command`].
-const COMMANDS: [&str; 6] = ["render", "merge", "compare", "info", "completions", "man"];
+const COMMANDS: [&str; 7] = ["render", "merge", "compare", "view", "info", "completions", "man"];
 
 /// What parsing gave when there is no command to run.
 #[derive(Debug)]
@@ -105,7 +110,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<CommandLin
             ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Refusal::Text(error.render().to_string()),
             ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Refusal::Error(AppError::usage(
                 "nothing was asked for",
-                "say render, compare or info; 'rasray help' explains them, with examples",
+                "say render, compare, view or info; 'rasray help' explains them, with examples",
             )),
             _ => Refusal::Error(usage_error(&error, command)),
         }),

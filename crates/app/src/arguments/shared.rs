@@ -118,7 +118,7 @@ impl FrameArguments {
 }
 
 /// From where the scene is seen.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 #[command(
     next_help_heading = "Camera (default: the scene's first, or one before the scene, within it if it is a room)"
 )]

@@ -11,9 +11,11 @@ mod picture_targets;
 mod render;
 mod steps;
 mod targets;
+mod view;
 
 pub(crate) use compare::compare;
 pub(crate) use documents::{completions, man};
 pub(crate) use info::info;
 pub(crate) use merge::merge;
 pub(crate) use render::render;
+pub(crate) use view::view;

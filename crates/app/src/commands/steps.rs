@@ -62,6 +62,12 @@ pub(super) fn read_scene(
     time: Option<f64>,
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
+    if time.is_none() && reading.clip.is_some() {
+        return Err(AppError::usage(
+            "--clip says what moves the scene, and nothing says when",
+            "say --time SECONDS, or to `rasray render` --frames FIRST-LAST",
+        ));
+    }
     let loaded = during("scene", "reading", || prepare(name, reading, time))?;
     let chosen = during("scene", "looking for a view", || view.choose(&loaded.scene))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
@@ -84,13 +90,11 @@ pub(super) fn load_scene(name: &OsStr, fps: Option<f64>, has_frames: bool) -> Re
 }
 
 /// Loads a scene as the command line asks: with its environment, its alpha masks, and light.
-fn prepare(name: &OsStr, reading: &SceneArguments, time: Option<f64>) -> Result<LoadedScene, AppError> {
-    if time.is_none() && reading.clip.is_some() {
-        return Err(AppError::usage(
-            "--clip says what moves the scene, and nothing says when",
-            "say --time SECONDS, or to `rasray render` --frames FIRST-LAST",
-        ));
-    }
+pub(super) fn prepare(
+    name: &OsStr,
+    reading: &SceneArguments,
+    time: Option<f64>,
+) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
     // A time that is not that of --time is that of a frame.
@@ -104,7 +108,6 @@ fn prepare(name: &OsStr, reading: &SceneArguments, time: Option<f64>) -> Result<
     }
     Ok(loaded)
 }
-
 /// Makes images smaller where the device does not hold all of them, and warns of it.
 pub(super) fn fit_images(
     loaded: &mut LoadedScene,

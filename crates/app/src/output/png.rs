@@ -10,8 +10,20 @@ use rasray_metrics::tone_map;
 /// # Errors
 /// What the encoder says, in words.
 pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result<Vec<u8>, String> {
+    encode_bytes(&tone_map(&output.beauty, exposure), [output.width, output.height], key)
+}
+
+/// The bytes of a PNG file of pixels of three bytes each, rows from the top; the size in pixels; with the key of the image.
+///
+/// # Errors
+/// What the encoder says, in words.
+pub(crate) fn encode_bytes(
+    pixels: &[u8],
+    [width, height]: [u32; 2],
+    key: Option<&str>,
+) -> Result<Vec<u8>, String> {
     let write = |bytes: &mut Vec<u8>| {
-        let mut encoder = png::Encoder::new(bytes, output.width, output.height);
+        let mut encoder = png::Encoder::new(bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
@@ -19,7 +31,7 @@ pub fn encode(output: &RenderOutput, exposure: f32, key: Option<&str>) -> Result
             encoder.add_text_chunk(KEY.to_owned(), key.to_owned())?;
         }
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&tone_map(&output.beauty, exposure))?;
+        writer.write_image_data(pixels)?;
         writer.finish()
     };
     let mut bytes = Vec::new();

@@ -91,6 +91,7 @@ fn help_and_version_go_to_stdout() {
         ("--help", &["render", "compare", "info", "Exit codes", "Examples"][..]),
         ("render --help", &["--system", "--output", "--ao-distance", "Examples", "sRGB", "SIGINT"]),
         ("compare --help", &["--systems", "--ray-set", "mmrt.march=samples"]),
+        ("view --help", &["Examples", "drag", "--features viewer"]),
         ("info --help", &["Examples"]),
         ("--version", &["rasray", env!("CARGO_PKG_VERSION")]),
     ] {
@@ -137,4 +138,17 @@ fn stdout_that_takes_nothing_is_lost_data_and_one_that_closes_is_not() {
     let mut child = command().stdout(Stdio::piped()).spawn().expect("the command starts");
     drop(child.stdout.take());
     assert_eq!(child.wait().expect("the command ends").code(), Some(0));
+}
+
+#[cfg(not(feature = "viewer"))]
+#[test]
+fn without_its_window_the_command_says_how_to_build_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = rasray(folder.path(), "view cornell");
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(
+        text.contains("without its window") && text.contains("--features viewer -- view cornell"),
+        "{text}"
+    );
 }

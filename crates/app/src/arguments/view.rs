@@ -1,0 +1,60 @@
+//! Options of `rasray view`.
+
+use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
+use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::values;
+use clap::Args;
+use rasray_systems::{Preset, SYSTEMS, System};
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  rasray view cornell
+  rasray view scene.glb --size 1280x720 --integrator ao
+  rasray view walk.glb --system mmrt --preset published --time 0.5
+
+Left drag turns around the scene, right drag looks around, the middle button and Shift with a left drag move
+sideways, the wheel goes nearer; W A S D and E Q fly. Space plays, P saves the picture, C copies the command
+line that makes it again, R puts the camera back, H hides the panel, Ctrl+Q closes. Everything else is on
+the panel. The picture refines while nothing moves, up to --spp samples.
+
+The window needs the cargo feature viewer, which takes some minutes more to build:
+  cargo run --release --package rasray-app --features viewer -- view cornell
+`tools/rasray view cornell` builds it so.";
+
+/// Options of `rasray view`.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP, mut_arg("spp", |argument| argument.default_value("256")))]
+pub struct ViewerArguments {
+    /// A file (.gltf .glb .obj .ply) or a built-in scene with parameters
+    #[arg(value_name = "SCENE")]
+    pub scene: OsString,
+    /// What rays are traced through
+    #[arg(long, value_parser = system_parser(), default_value = SYSTEMS[0].name)]
+    pub system: &'static System,
+    /// How closely the system follows its paper
+    #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
+    pub preset: Preset,
+    /// Where pictures are saved, .png; a run of # is a number [default: the scene's name and .####.png]
+    #[arg(long, short, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Stops of exposure
+    #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, default_value = "0")]
+    pub exposure: f32,
+    /// The image and what light does.
+    #[command(flatten)]
+    pub frame: FrameArguments,
+    /// From where.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// How the scene is read.
+    #[command(flatten)]
+    pub reading: SceneArguments,
+    /// Options of the structure.
+    #[command(flatten)]
+    pub structure: StructureArguments,
+    /// Where the work is done.
+    #[command(flatten)]
+    pub device: DeviceArguments,
+}

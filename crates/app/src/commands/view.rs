@@ -1,0 +1,178 @@
+//! `rasray view`.
+
+#[cfg(not(feature = "viewer"))]
+pub(crate) use without_window::view;
+
+#[cfg(feature = "viewer")]
+pub(crate) use with_window::view;
+
+#[cfg(not(feature = "viewer"))]
+mod without_window {
+    use crate::arguments::ViewerArguments;
+    use crate::error::AppError;
+    use crate::interrupt::Interrupt;
+
+    /// Says how to get the window.
+    ///
+    /// # Errors
+    /// Always.
+    pub(crate) fn view(given: &ViewerArguments, _interrupt: &Interrupt) -> Result<(), AppError> {
+        Err(AppError::usage(
+            "this rasray was built without its window",
+            format!(
+                "build it with: cargo run --release --package rasray-app --features viewer -- view {}",
+                given.scene.to_string_lossy()
+            ),
+        ))
+    }
+}
+
+#[cfg(feature = "viewer")]
+mod with_window {
+    use crate::arguments::values::Switch;
+    use crate::arguments::{NeedsName, SceneArguments, ViewArguments, ViewerArguments};
+    use crate::commands::steps::{keep_inputs, prepare};
+    use crate::error::AppError;
+    use crate::interrupt::Interrupt;
+    use crate::output::{self, Destination, ImageFormat};
+    use crate::progress::during;
+    use crate::terminal;
+    use rasray_experiment::{Chosen, ExperimentError, LoadedScene, one_system, open_device};
+    use rasray_scene::{Scene, default_view};
+    use rasray_viewer::{
+        End, Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing,
+        check_display, run,
+    };
+    use std::path::{Path, PathBuf};
+
+    /// Opens a window for a scene, until it is closed.
+    ///
+    /// # Errors
+    /// As of a render, and where there is no display.
+    pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(), AppError> {
+        check_display()?;
+        let frame = given.frame.frame()?;
+        let system = one_system(given.system, given.preset, &given.structure.0)?;
+        let output = given.output.clone().unwrap_or_else(|| default_output(&given.scene));
+        if ImageFormat::of(&output)? != ImageFormat::Png {
+            return Err(AppError::input(&output, "the window saves 8-bit pictures", "name a .png"));
+        }
+        keep_inputs("--output", Some(&Destination::check(&output)?), &given.scene)?;
+        let loaded = during("scene", "reading", || prepare(&given.scene, &given.reading, None))?;
+        check_view(given, &loaded)?;
+        terminal::warn_of_scene(&loaded.scene, loaded.triangles);
+
+        let seconds = given.reading.time;
+        let settings = Settings {
+            standpoint: Standpoint::AsGiven,
+            seconds,
+            system,
+            frame,
+            shown: Shown::Picture,
+            moving: false,
+        };
+        let animation = &loaded.scene.animation;
+        let session = Session::new(Opening {
+            scene: given.scene.clone(),
+            camera_words: camera_words(&given.view),
+            time_words: words("--clip", given.reading.clip.clone()),
+            other_words: other_words(given),
+            settings: settings.clone(),
+            exposure: given.exposure,
+            duration: if animation.clips.is_empty() && animation.deformer.is_none() {
+                0.0
+            } else {
+                animation.duration.into()
+            },
+            bounds: default_view::bounds(&loaded.scene).unwrap_or_default(),
+            output,
+        });
+        let device = during("device", "opening", || open_device(&given.device.choice()))?;
+        let (choice, validation) = (given.view.clone(), given.device.validation);
+        let source = SceneSource {
+            loaded,
+            clip: given.reading.clip.clone(),
+            needs_all: given.reading.needs == NeedsName::All,
+            camera: Box::new(move |scene: &Scene| choice.choose(scene)),
+        };
+        let end = run(Viewing {
+            device: device.name().to_owned(),
+            validation,
+            engine: Box::new(move || Engine::new(device, validation, source, settings)),
+            session,
+            stop: &|| interrupt.requested(),
+            save: &mut |saved| save(saved, interrupt).map_err(|error| error.to_string()),
+        })?;
+        match end {
+            End::Closed => Ok(()),
+            End::Stopped => Err(AppError::interrupted("the window was closed by a signal", "")),
+        }
+    }
+
+    /// Refuses a camera, a time or a clip that the scene does not have before a window is opened.
+    fn check_view(given: &ViewerArguments, loaded: &LoadedScene) -> Result<Chosen, ExperimentError> {
+        let SceneArguments { time, clip, .. } = &given.reading;
+        if time.is_none() && clip.is_none() {
+            return given.view.choose(&loaded.scene);
+        }
+        let mut posed = loaded.clone();
+        posed.pose(time.unwrap_or(0.0), clip.as_deref())?;
+        given.view.choose(&posed.scene)
+    }
+
+    /// Writes a picture and says how to make it again.
+    fn save(saved: &SavedPicture<'_>, interrupt: &Interrupt) -> Result<(), AppError> {
+        let png = output::encode_png_bytes(saved.pixels, saved.size, None)
+            .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))?;
+        Destination::check(saved.place)?.write(&png, interrupt)?;
+        if let Some(line) = saved.command_line {
+            let what =
+                if saved.is_finished { "it is made by" } else { "when refined to its end it is made by" };
+            terminal::note(&format!("{what}: {line}"));
+        }
+        Ok(())
+    }
+
+    /// The name of the scene and a number.
+    fn default_output(scene: &std::ffi::OsStr) -> PathBuf {
+        let name = Path::new(scene).file_stem().unwrap_or_default().to_string_lossy();
+        // Parameters of a built-in scene are no part of a file's name.
+        let name = name.split(':').next().filter(|name| !name.is_empty()).unwrap_or("scene");
+        PathBuf::from(format!("{name}.####.png"))
+    }
+
+    /// An option with its value, where it was given.
+    fn words(option: &str, value: Option<String>) -> Vec<String> {
+        value.into_iter().flat_map(|value| [option.to_owned(), value]).collect()
+    }
+
+    fn camera_words(view: &ViewArguments) -> Vec<String> {
+        let point = |point: [f64; 3]| point.map(|value| value.to_string()).join(",");
+        let mut all = words("--camera", view.camera.clone());
+        all.extend(words("--eye", view.eye.map(point)));
+        all.extend(words("--target", view.target.map(point)));
+        all.extend(words("--fov", view.fov.map(|fov| fov.to_string())));
+        all
+    }
+
+    /// What a render is told as well, and the window does not change.
+    fn other_words(given: &ViewerArguments) -> Vec<String> {
+        let mut all = words("--environment", given.reading.environment.clone());
+        all.extend(words("--alpha", (given.reading.alpha == Switch::Off).then(|| "off".to_owned())));
+        all.extend(words("--needs", (given.reading.needs == NeedsName::All).then(|| "all".to_owned())));
+        all.extend(words("--device", given.device.device.clone()));
+        all
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+
+        #[test]
+        fn pictures_are_named_after_the_scene() {
+            let of = |scene: &str| default_output(scene.as_ref());
+            assert_eq!(of("spheres:10k"), PathBuf::from("spheres.####.png"));
+            assert_eq!(of("far/walk.glb"), PathBuf::from("walk.####.png"));
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! A window without the command: `cargo run -p rasray-viewer --features window --example window -- cornell`. Pictures are
+//! saved as .ppm, and how `rasray render` makes them is printed.
+
+use rasray_experiment::{
+    DeviceChoice, Frame, Integrator, Sampler, StructureOptions, SystemConfig, default_view, load, open_device,
+};
+use rasray_scene::{Scene, default_view as view};
+use rasray_systems::{Preset, SYSTEMS};
+use rasray_viewer::{
+    Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing, run,
+};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let name = std::env::args_os().nth(1).unwrap_or("cornell".into());
+    let validation = std::env::args_os().any(|word| word == "--validation");
+    let mut loaded = load(&name)?;
+    loaded.light(None);
+    let frame = Frame {
+        integrator: Integrator::Path { bounces: 3 },
+        width: 320,
+        height: 180,
+        spp: 16,
+        seed: 1,
+        sampler: Sampler::Sobol,
+    };
+    let options = StructureOptions::default();
+    let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };
+    let standpoint = Standpoint::AsGiven;
+    let settings =
+        Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false };
+    let session = Session::new(Opening {
+        scene: name,
+        camera_words: Vec::new(),
+        time_words: Vec::new(),
+        other_words: Vec::new(),
+        settings: settings.clone(),
+        exposure: 0.0,
+        duration: loaded.scene.animation.duration.into(),
+        bounds: view::bounds(&loaded.scene).unwrap_or_default(),
+        output: "window.###.ppm".into(),
+    });
+    let device = open_device(&DeviceChoice { device: None, validation })?;
+    let source = SceneSource {
+        loaded,
+        clip: None,
+        needs_all: false,
+        camera: Box::new(|scene: &Scene| Ok(default_view(scene))),
+    };
+    let end = run(Viewing {
+        device: device.name().to_owned(),
+        engine: Box::new(move || Engine::new(device, validation, source, settings)),
+        session,
+        validation,
+        stop: &|| false,
+        save: &mut |saved: &SavedPicture<'_>| {
+            let [width, height] = saved.size;
+            let bytes = [format!("P6\n{width} {height}\n255\n").as_bytes(), saved.pixels].concat();
+            std::fs::write(saved.place, bytes).map_err(|error| error.to_string())?;
+            println!("{}: {}", saved.place.display(), saved.command_line.unwrap_or("a map"));
+            Ok(())
+        },
+    })?;
+    println!("{end:?}");
+    Ok(())
+}

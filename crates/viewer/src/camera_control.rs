@@ -1,0 +1,213 @@
+//! A camera that is moved by hand.
+
+use glam::{DMat3, DVec3};
+use rasray_experiment::{ExperimentError, placed_view};
+use rasray_scene::{Camera, Projection};
+
+/// How steeply it can look up and down: short of straight up, where a camera without roll has no right side.
+const STEEPEST: f64 = 89.0 * std::f64::consts::PI / 180.0;
+
+/// Numbers of a camera as the command line has them: eye and target in metres, the full vertical angle of view in degrees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rounded {
+    /// Where it stands.
+    pub eye: String,
+    /// What it looks at.
+    pub target: String,
+    /// How much it sees.
+    pub fov: String,
+}
+
+impl Rounded {
+    /// The camera that these numbers stand for.
+    ///
+    /// # Errors
+    /// Eye and target are one place.
+    pub fn camera(&self) -> Result<Camera, ExperimentError> {
+        let wrong =
+            || ExperimentError::usage("the camera is not at a place that numbers can say", "reset it");
+        let point = |text: &str| -> Option<[f64; 3]> {
+            let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.parse().ok()).collect();
+            numbers?.try_into().ok()
+        };
+        let (eye, target) = point(&self.eye).zip(point(&self.target)).ok_or_else(wrong)?;
+        let fov = self.fov.parse().map_err(|_| wrong())?;
+        Ok(placed_view(eye, target, Some(fov))?.camera)
+    }
+}
+
+/// Where a camera stands and what it turns around, world, metres. It stays upright: y is up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraControl {
+    eye: DVec3,
+    target: DVec3,
+    /// Full vertical angle of view, degrees.
+    fov: f64,
+}
+
+impl CameraControl {
+    /// Takes over from a camera. It turns around the point in front of it that is `distance` metres away. A roll is lost; a
+    /// parallel projection becomes a perspective that sees as much at that point.
+    pub fn from_camera(camera: &Camera, distance: f64) -> Self {
+        let frame = &camera.world_from_camera;
+        let eye = frame.translation;
+        let forward = (-frame.matrix3.z_axis).normalize_or(DVec3::NEG_Z);
+        let distance = if distance.is_finite() && distance > 0.0 { distance } else { 1.0 };
+        let fov = match camera.projection {
+            Projection::Perspective { fov_y } => f64::from(fov_y).to_degrees(),
+            Projection::Orthographic { half_height } => {
+                2.0 * (f64::from(half_height) / distance).atan().to_degrees()
+            }
+        };
+        let mut control = Self { eye, target: eye + forward * distance, fov: fov.clamp(0.01, 175.0) };
+        // Not straight up or down.
+        control.orbit(0.0, 0.0);
+        control
+    }
+
+    fn distance(&self) -> f64 {
+        (self.target - self.eye).length()
+    }
+
+    /// Right, up and back.
+    fn axes(&self) -> DMat3 {
+        let back = (self.eye - self.target).normalize_or(DVec3::Z);
+        let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
+        DMat3::from_cols(right, back.cross(right), back)
+    }
+
+    /// The direction of `offset` turned around y and then up, not beyond [`STEEPEST`]; radians.
+    fn turned(offset: DVec3, around: f64, up: f64) -> DVec3 {
+        let length = offset.length();
+        let pitch = (offset.y / length).clamp(-1.0, 1.0).asin();
+        let pitch = (pitch + up).clamp(-STEEPEST, STEEPEST);
+        let heading = offset.x.atan2(offset.z) + around;
+        length * DVec3::new(heading.sin() * pitch.cos(), pitch.sin(), heading.cos() * pitch.cos())
+    }
+
+    /// Turns around the target, radians: to the right of it, and over it.
+    pub fn orbit(&mut self, right: f64, over: f64) {
+        self.eye = self.target + Self::turned(self.eye - self.target, right, over);
+    }
+
+    /// Turns where it stands, radians: to the right, and upwards.
+    pub fn look(&mut self, right: f64, up: f64) {
+        self.target = self.eye + Self::turned(self.target - self.eye, -right, up);
+    }
+
+    /// Moves along its own right and up, in heights of the picture at the target.
+    pub fn pan(&mut self, right: f64, up: f64) {
+        let height = 2.0 * self.distance() * (0.5 * self.fov.to_radians()).tan();
+        let axes = self.axes();
+        self.shift((axes.x_axis * right + axes.y_axis * up) * height);
+    }
+
+    /// Goes nearer to the target (positive) or away from it, by a tenth of the distance a step.
+    pub fn zoom(&mut self, steps: f64) {
+        let distance = self.distance() * 0.9_f64.powf(steps);
+        if distance.is_finite() && distance > 1.0e-9 * (1.0 + self.eye.length()) {
+            self.eye = self.target + self.axes().z_axis * distance;
+        }
+    }
+
+    /// Flies: forward, right and up (along y), metres.
+    pub fn fly(&mut self, forward: f64, right: f64, up: f64) {
+        let axes = self.axes();
+        self.shift(axes.x_axis * right - axes.z_axis * forward + DVec3::Y * up);
+    }
+
+    fn shift(&mut self, by: DVec3) {
+        if by.is_finite() {
+            self.eye += by;
+            self.target += by;
+        }
+    }
+
+    /// The numbers of the camera, with no more digits than can be seen: a thousandth of a thousandth of the distance to the
+    /// target.
+    pub fn rounded(&self) -> Rounded {
+        let digits = (6.0 - self.distance().log10().ceil()).clamp(0.0, 15.0) as usize;
+        let number = |value: f64| trimmed(&format!("{value:.digits$}"));
+        let point = |point: DVec3| point.to_array().map(number).join(",");
+        Rounded {
+            eye: point(self.eye),
+            target: point(self.target),
+            fov: trimmed(&format!("{:.5}", self.fov)),
+        }
+    }
+}
+
+/// A number without zeros at its end.
+fn trimmed(text: &str) -> String {
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rasray_scene::default_view::camera_looking_at;
+
+    fn control() -> CameraControl {
+        let camera = camera_looking_at("", DVec3::new(0.0, 1.0, 5.0), DVec3::new(0.0, 1.0, 0.0), 0.8);
+        CameraControl::from_camera(&camera, 5.0)
+    }
+
+    fn close(one: DVec3, other: DVec3) -> bool {
+        (one - other).length() < 1.0e-9
+    }
+
+    #[test]
+    fn taking_over_changes_nothing_that_can_be_seen() {
+        let camera = control().rounded().camera().expect("a camera");
+        let before = camera_looking_at("", DVec3::new(0.0, 1.0, 5.0), DVec3::new(0.0, 1.0, 0.0), 0.8);
+        assert!(camera.world_from_camera.abs_diff_eq(before.world_from_camera, 1.0e-6));
+        let Projection::Perspective { fov_y } = camera.projection else { panic!("perspective") };
+        assert!((fov_y - 0.8).abs() < 1.0e-6);
+    }
+
+    #[test]
+    fn an_orbit_keeps_target_and_distance_and_a_look_keeps_the_eye() {
+        let mut orbit = control();
+        orbit.orbit(std::f64::consts::FRAC_PI_2, 0.0);
+        assert!(close(orbit.eye, DVec3::new(5.0, 1.0, 0.0)), "{:?}", orbit.eye);
+        orbit.orbit(0.3, 0.4);
+        assert!(close(orbit.target, control().target) && (orbit.distance() - 5.0).abs() < 1.0e-9);
+        let mut look = control();
+        look.look(std::f64::consts::FRAC_PI_2, 0.0);
+        assert!(close(look.eye, control().eye) && close(look.target, DVec3::new(5.0, 1.0, 5.0)));
+        look.look(0.0, 9.0);
+        assert!(look.target.y > look.eye.y && look.rounded().camera().is_ok(), "never straight up");
+    }
+
+    #[test]
+    fn moving_takes_the_target_along_and_zooming_does_not() {
+        let mut moved = control();
+        moved.fly(1.0, 2.0, 3.0);
+        assert!(
+            close(moved.eye, DVec3::new(2.0, 4.0, 4.0)) && close(moved.target, DVec3::new(2.0, 4.0, -1.0))
+        );
+        let mut panned = control();
+        panned.pan(0.5, 0.0);
+        let half = 5.0 * 0.4_f64.tan();
+        assert!((panned.eye - DVec3::new(half, 1.0, 5.0)).length() < 1.0e-6, "{:?}", panned.eye);
+        let mut zoomed = control();
+        zoomed.zoom(1.0);
+        assert!(close(zoomed.target, control().target) && (zoomed.distance() - 4.5).abs() < 1.0e-9);
+        zoomed.zoom(1.0e6);
+        assert!(zoomed.distance() > 0.0 && zoomed.rounded().camera().is_ok());
+    }
+
+    #[test]
+    fn numbers_are_short_and_stand_for_one_camera() {
+        let mut control = control();
+        control.orbit(0.123, 0.456);
+        let rounded = control.rounded();
+        assert!(rounded.eye.split(',').all(|number| number.len() <= 9), "{}", rounded.eye);
+        assert_eq!(rounded.target, "0,1,0");
+        let again = CameraControl::from_camera(&rounded.camera().expect("a camera"), control.distance());
+        assert!((again.eye - control.eye).length() < 1.0e-4);
+        let far = CameraControl { eye: DVec3::splat(3.0e7), target: DVec3::ZERO, fov: 45.0 };
+        assert_eq!(far.rounded().eye, "30000000,30000000,30000000");
+    }
+}

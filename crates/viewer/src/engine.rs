@@ -1,0 +1,378 @@
+//! Pictures of settings, step by step. What a change does not make necessary is kept.
+
+use std::time::Instant;
+
+use rasray_experiment::{
+    Accumulation, Built, Chosen, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity,
+    texels, work_per_pixel,
+};
+use rasray_gpu::Device;
+use rasray_gpu_scene::{SceneTables, View};
+use rasray_report::Pass;
+use rasray_scene::needs::Needs;
+use rasray_scene::{Camera, Scene};
+
+use crate::picture::{Picture, Pixels};
+use crate::preview_size::PreviewSize;
+use crate::scene_at_time::SceneAtTime;
+use crate::settings::{Redo, Settings, Shown, Standpoint};
+use crate::traced::{Traced, exact_config, follow};
+
+/// Chooses the camera of a scene as the command line said.
+pub type ChooseCamera = dyn Fn(&Scene) -> Result<Chosen, ExperimentError> + Send;
+
+/// What is looked at.
+pub struct SceneSource {
+    /// As it was read: lit, and at rest or at a time.
+    pub loaded: LoadedScene,
+    /// The clip that moves it; absent: all that can be played at once.
+    pub clip: Option<String>,
+    /// Whether everything is uploaded and compiled in, and not only what a picture can show.
+    pub needs_all: bool,
+    /// The camera while nobody moves it.
+    pub camera: Box<ChooseCamera>,
+}
+
+/// What a step gave.
+pub enum Step {
+    /// There is more to do; nothing new is to be seen.
+    Working,
+    /// A picture.
+    Picture(Box<Picture>),
+    /// Nothing is left to do for these settings.
+    Done,
+}
+
+/// Makes pictures on a device. What fails is made anew by the next settings.
+pub struct Engine {
+    device: Device,
+    /// Whether messages of the validation layer are errors.
+    validation: bool,
+    scene: SceneAtTime,
+    needs_all: bool,
+    choose: Box<ChooseCamera>,
+    settings: Settings,
+    stage: Option<(Stage, Needs)>,
+    traced: Option<Traced>,
+    exact: Option<Traced>,
+    /// Of the whole picture.
+    film: Option<Accumulation>,
+    exact_film: Option<Accumulation>,
+    /// Of pictures while something moves, and its size.
+    preview: Option<([u32; 2], Accumulation)>,
+    preview_size: PreviewSize,
+    /// Whether films hold samples of other settings.
+    stale: bool,
+    /// Whether the picture of these settings is complete.
+    done: bool,
+    sample_ms: f64,
+}
+
+impl Engine {
+    /// Nothing is made before the first step.
+    pub fn new(device: Device, validation: bool, source: SceneSource, settings: Settings) -> Self {
+        let SceneSource { loaded, clip, needs_all, camera } = source;
+        Self {
+            device,
+            validation,
+            scene: SceneAtTime::new(loaded, clip),
+            needs_all,
+            choose: camera,
+            settings,
+            stage: None,
+            traced: None,
+            exact: None,
+            film: None,
+            exact_film: None,
+            preview: None,
+            preview_size: PreviewSize::default(),
+            stale: true,
+            done: false,
+            sample_ms: 0.0,
+        }
+    }
+
+    /// Changes the settings, and drops what must be made anew for them.
+    pub fn apply(&mut self, settings: Settings) {
+        let redo = Redo::between(&self.settings, &settings);
+        self.settings = settings;
+        self.drop_for(redo);
+    }
+
+    fn drop_for(&mut self, redo: Redo) {
+        if redo.scene {
+            self.stage = None;
+            self.exact = None;
+        }
+        if redo.structure {
+            self.traced = None;
+        }
+        if redo.film || redo.scene {
+            (self.film, self.exact_film, self.preview) = (None, None, None);
+        }
+        if redo.samples {
+            self.stale = true;
+            self.done = false;
+        }
+    }
+
+    /// Does the next piece of work: at most one wave of rays after what must be made. `say` is told in a few words what
+    /// takes long.
+    ///
+    /// # Errors
+    /// The settings ask for what cannot be, the device fails, or a structure or rays do not become complete. The next step
+    /// tries again.
+    pub fn step(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+        if self.done {
+            return Ok(Step::Done);
+        }
+        let step = self.make(say)?;
+        match self.device.validation_messages().first() {
+            Some(message) if self.validation => Err(ExperimentError::device(
+                format!("the validation layer says: {message}"),
+                "this is a defect; please report it with the command line",
+            )),
+            _ => Ok(step),
+        }
+    }
+
+    fn make(&mut self, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+        self.settings.system.spec()?;
+        let camera = self.prepare_scene(say)?;
+        let size = self.picture_size();
+        self.look(&camera, size)?;
+        let config = self.config(&camera);
+        follow(&self.device, self.stage.as_ref(), &mut self.traced, &config, say)?;
+        if self.stale {
+            for film in [&mut self.film, &mut self.exact_film].into_iter().flatten() {
+                film.clear(&self.device)?;
+            }
+            if let Some((_, film)) = &mut self.preview {
+                film.clear(&self.device)?;
+            }
+            self.stale = false;
+        }
+        match self.settings.shown {
+            _ if self.settings.moving => self.preview(camera, size, say),
+            Shown::Picture => self.refine(camera, say),
+            Shown::Difference => self.difference(camera, say),
+            Shown::Cells | Shown::Entries | Shown::Tests => self.work(camera, say),
+        }
+    }
+
+    /// The scene on the device at its time, and the camera there.
+    fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ExperimentError> {
+        if self.stage.is_none() {
+            self.scene.show(self.settings.seconds)?;
+        }
+        let camera = match &self.settings.standpoint {
+            Standpoint::AsGiven => (self.choose)(&self.scene.loaded().scene)?.camera,
+            Standpoint::Placed(rounded) => rounded.camera()?,
+        };
+        let eye = camera.world_from_camera.translation;
+        let origin = SceneTables::default_frame_origin(&self.scene.loaded().scene, eye);
+        if self.stage.as_ref().is_some_and(|(stage, _)| stage.scene.frame_origin() != origin) {
+            // Positions so far from the eye have too few digits left.
+            self.drop_for(Redo::ALL);
+        }
+        if self.stage.is_none() {
+            say("scene to the device");
+            let Frame { width, height, seed, .. } = self.settings.frame;
+            let needs = if self.needs_all {
+                Needs::all()
+            } else {
+                Needs::of(&self.scene.loaded().scene, self.settings.frame.workload())
+            };
+            let capacity = TexelCapacity::of(&self.device);
+            if let Some(text) = texels::fit(self.scene.loaded_mut(), &needs, &capacity)? {
+                tracing::warn!("{text} (smaller-images)");
+            }
+            let scene = &self.scene.loaded().scene;
+            let stage = Stage::new(&self.device, scene, &camera, [width, height], seed, &needs)?;
+            self.stage = Some((stage, needs));
+        }
+        Ok(camera)
+    }
+
+    /// Pixels a row and rows of the picture that is being made.
+    fn picture_size(&self) -> [u32; 2] {
+        let Frame { width, height, .. } = self.settings.frame;
+        if self.settings.moving { self.preview_size.size([width, height]) } else { [width, height] }
+    }
+
+    fn look(&mut self, camera: &Camera, [width, height]: [u32; 2]) -> Result<(), ExperimentError> {
+        let Some((stage, _)) = &mut self.stage else { return Ok(()) };
+        stage.look(&View { camera: camera.clone(), width, height, seed: self.settings.frame.seed })?;
+        stage.sample_as(&self.settings.frame)
+    }
+
+    /// The configuration as a render has it.
+    fn config(&self, camera: &Camera) -> SystemConfig {
+        let Frame { width, height, .. } = self.settings.frame;
+        self.settings.system.clone().serving(self.settings.frame.workload()).seen_by(camera, width, height)
+    }
+
+    /// One wave of the whole picture.
+    fn refine(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+        let Self { device, stage, traced, film, settings, .. } = self;
+        let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
+        let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
+        if !advance(device, film, traced, &mut self.sample_ms)? {
+            return Ok(Step::Working);
+        }
+        self.done = film.samples_done() >= settings.frame.spp;
+        let pixels = Pixels::Radiance(film.read(device)?);
+        let (samples, passes) = (film.samples_done(), film.pass_times());
+        self.picture(camera, pixels, samples, passes)
+    }
+
+    /// One wave with as few pixels as it takes to follow.
+    fn preview(
+        &mut self,
+        camera: Camera,
+        size: [u32; 2],
+        say: &mut dyn FnMut(&str),
+    ) -> Result<Step, ExperimentError> {
+        let Self { device, stage, traced, preview, settings, .. } = self;
+        let (Some((stage, needs)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
+        let [width, height] = size;
+        let frame = Frame { width, height, ..settings.frame };
+        let mut film = match preview.take() {
+            Some((own, film)) if own == size => Some(film),
+            _ => None,
+        };
+        opened(device, stage, &mut film, &frame, needs, &traced.built, say)?;
+        let (_, film) = preview.insert((size, film.expect("it was opened just now")));
+        if !advance(device, film, traced, &mut self.sample_ms)? {
+            return Ok(Step::Working);
+        }
+        self.done = film.samples_done() >= frame.spp;
+        let pixels = Pixels::Radiance(film.read(device)?);
+        let (samples, passes) = (film.samples_done(), film.pass_times());
+        let full = [settings.frame.width, settings.frame.height];
+        self.preview_size.took(self.sample_ms, full, width * height);
+        self.picture(camera, pixels, samples, passes)
+    }
+
+    /// One wave of the picture or of the same through a structure that is exact, whichever has fewer samples.
+    fn difference(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+        let config = exact_config(&self.settings.system);
+        follow(&self.device, self.stage.as_ref(), &mut self.exact, &config, say)?;
+        let Self { device, stage, traced, exact, film, exact_film, settings, .. } = self;
+        let (Some((stage, needs)), Some(traced), Some(exact)) = (stage, traced, exact) else {
+            return Ok(Step::Working);
+        };
+        let film = opened(device, stage, film, &settings.frame, needs, &traced.built, say)?;
+        let exact_film = opened(device, stage, exact_film, &settings.frame, needs, &exact.built, say)?;
+        if film.samples_done() <= exact_film.samples_done() {
+            advance(device, film, traced, &mut self.sample_ms)?;
+            return Ok(Step::Working);
+        }
+        if !advance(device, exact_film, exact, &mut 0.0)? || film.samples_done() != exact_film.samples_done()
+        {
+            return Ok(Step::Working);
+        }
+        self.done = film.samples_done() >= settings.frame.spp;
+        let name = exact.config.system.name;
+        let pixels = Pixels::of_difference(&film.read(device)?, &exact_film.read(device)?, name);
+        let (samples, passes) = (film.samples_done(), film.pass_times());
+        self.picture(camera, pixels, samples, passes)
+    }
+
+    /// The map of what the rays through the pixels' centres cost.
+    fn work(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
+        let Self { device, stage, traced, settings, .. } = self;
+        let (Some((stage, _)), Some(traced)) = (stage, traced) else { return Ok(Step::Working) };
+        say("counting the work of rays");
+        let size = [settings.frame.width, settings.frame.height];
+        let spec = traced.config.spec()?;
+        let map = work_per_pixel(device, stage, &spec, stage.scene.eye(), &camera, size)?;
+        let map = map.ok_or_else(|| {
+            let name = traced.config.system.name;
+            ExperimentError::usage(format!("system {name} does not count its work"), "choose another system")
+        })?;
+        let counts = match settings.shown {
+            Shown::Cells => map.cells,
+            Shown::Entries => map.entries,
+            _ => map.tests,
+        };
+        self.done = true;
+        let pixels = Pixels::of_counts(&counts, &format!("{} per ray", settings.shown.name()));
+        let samples = settings.frame.spp;
+        self.picture(camera, pixels, samples, Vec::new())
+    }
+
+    fn picture(
+        &self,
+        camera: Camera,
+        pixels: Pixels,
+        samples: u32,
+        samples_passes: Vec<Pass>,
+    ) -> Result<Step, ExperimentError> {
+        let (Some((stage, _)), Some(traced)) = (&self.stage, &self.traced) else { return Ok(Step::Working) };
+        let mut memory = traced.built.memory(&self.device)?;
+        for (name, bytes) in stage.scene.bytes_by_part() {
+            memory.by_part.insert(format!("scene {name}"), *bytes);
+        }
+        let mut passes = traced.built.pass_times();
+        passes.extend(samples_passes);
+        let [width, height] = stage.scene.image_size();
+        Ok(Step::Picture(Box::new(Picture {
+            width,
+            height,
+            pixels,
+            settings: self.settings.clone(),
+            samples,
+            camera,
+            sample_ms: self.sample_ms,
+            passes,
+            memory,
+            resolved: traced.built.resolved()?,
+        })))
+    }
+}
+
+/// The film that is there, or a new one, whose kernels are compiled before it is timed.
+fn opened<'a>(
+    device: &Device,
+    stage: &Stage,
+    film: &'a mut Option<Accumulation>,
+    frame: &Frame,
+    needs: &Needs,
+    built: &Built,
+    say: &mut dyn FnMut(&str),
+) -> Result<&'a mut Accumulation, ExperimentError> {
+    if film.is_none() {
+        say("first use of the shaders");
+        let mut made = Accumulation::new(device, stage, frame, None, needs)?;
+        made.use_once(device, built)?;
+        *film = Some(made);
+    }
+    Ok(film.as_mut().expect("it was made just now"))
+}
+
+/// One wave; whether a sample is whole after it. Rays without an answer are an error.
+fn advance(
+    device: &Device,
+    film: &mut Accumulation,
+    traced: &Traced,
+    sample_ms: &mut f64,
+) -> Result<bool, ExperimentError> {
+    let started = Instant::now();
+    if film.is_between_samples() {
+        *sample_ms = 0.0;
+    }
+    let advanced = film.advance(device, &traced.built)?;
+    *sample_ms += started.elapsed().as_secs_f64() * 1.0e3;
+    if film.unfinished() > 0 {
+        return Err(ExperimentError::refused(
+            format!(
+                "{}: {} rays had no answer after the last round",
+                traced.config.system.name,
+                film.unfinished()
+            ),
+            "the picture is not shown; where very many triangles lie in one place --system bvh has shorter work",
+        ));
+    }
+    Ok(advanced && film.is_between_samples())
+}

@@ -1,0 +1,36 @@
+//! A window for scenes: the same structures and integrators as `rasray render`, live.
+//!
+//! What a viewer does is here without a window: a [`Session`] holds what was chosen and turns keys, drags and widgets into
+//! [`Settings`]; an [`Engine`] makes pictures of settings on a device, step by step, and repeats only what a change makes
+//! necessary ([`Redo`]); a [`Worker`] runs it in a thread, so that a window never waits for a build. The picture that
+//! refinement ends at is the one that `rasray render` writes for the session's command line, bit by bit.
+//!
+//! With the feature `window`, `run` opens the window.
+
+mod camera_control;
+mod command_line;
+mod engine;
+mod option_controls;
+mod picture;
+mod playback;
+mod preview_size;
+mod scene_at_time;
+mod session;
+mod settings;
+mod traced;
+#[cfg(feature = "window")]
+mod window;
+mod worker;
+
+pub use camera_control::{CameraControl, Rounded};
+pub use command_line::quoted;
+pub use engine::{ChooseCamera, Engine, SceneSource, Step};
+pub use option_controls::{Control, OptionValues};
+pub use picture::{Legend, Picture, Pixels};
+pub use playback::Playback;
+pub use preview_size::PreviewSize;
+pub use session::{Failure, Opening, Session};
+pub use settings::{Redo, Settings, Shown, Standpoint};
+#[cfg(feature = "window")]
+pub use window::{End, SavePicture, SavedPicture, Viewing, check_display, run};
+pub use worker::{Update, Worker};

@@ -1,0 +1,191 @@
+//! What a picture is made from, and what must be made anew where it changes.
+
+use crate::camera_control::Rounded;
+use rasray_experiment::{Frame, SystemConfig};
+
+/// What is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shown {
+    /// The picture.
+    #[default]
+    Picture,
+    /// How far it is from the same picture through a structure whose hits are exact.
+    Difference,
+    /// Cells visited by the ray through each pixel's centre.
+    Cells,
+    /// Entries or nodes that it read.
+    Entries,
+    /// Primitives that it was tested against.
+    Tests,
+}
+
+impl Shown {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Picture, Self::Difference, Self::Cells, Self::Entries, Self::Tests];
+
+    /// A label.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Picture => "picture",
+            Self::Difference => "difference",
+            Self::Cells => "cells",
+            Self::Entries => "entries",
+            Self::Tests => "tests",
+        }
+    }
+
+    /// What it is, in a sentence.
+    pub fn doc(self) -> &'static str {
+        match self {
+            Self::Picture => "The picture",
+            Self::Difference => {
+                "Absolute difference to the same picture through a structure whose hits are exact"
+            }
+            Self::Cells => "Cells visited by the ray through each pixel's centre",
+            Self::Entries => "List entries or nodes read by the ray through each pixel's centre",
+            Self::Tests => "Primitives tested by the ray through each pixel's centre",
+        }
+    }
+
+    /// Whether it is a map of what rays cost, for which no light is needed.
+    pub fn is_work(self) -> bool {
+        matches!(self, Self::Cells | Self::Entries | Self::Tests)
+    }
+}
+
+/// From where the scene is seen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standpoint {
+    /// As the command line said; a camera of the scene moves with it.
+    AsGiven,
+    /// From where these numbers say.
+    Placed(Rounded),
+}
+
+/// Everything that a picture depends on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// From where.
+    pub standpoint: Standpoint,
+    /// Time of the animation, seconds; absent at rest.
+    pub seconds: Option<f64>,
+    /// Through what.
+    pub system: SystemConfig,
+    /// Size, integrator, number of samples and their seed.
+    pub frame: Frame,
+    /// What is shown.
+    pub shown: Shown,
+    /// Whether something moves: the picture then has fewer pixels where that is needed to follow.
+    pub moving: bool,
+}
+
+/// What must be made anew. What is made from something that is made anew is made anew as well.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Redo {
+    /// The scene on the device: posed and uploaded.
+    pub scene: bool,
+    /// The structure.
+    pub structure: bool,
+    /// Films, and what fills them.
+    pub film: bool,
+    /// The samples on the films.
+    pub samples: bool,
+}
+
+impl Redo {
+    /// Everything.
+    pub const ALL: Self = Self { scene: true, structure: true, film: true, samples: true };
+
+    /// What must be made anew for `new` where everything is there for `old`.
+    pub fn between(old: &Settings, new: &Settings) -> Self {
+        if old == new {
+            return Self::default();
+        }
+        // The scene on the device holds what its pictures can show, and no more.
+        let scene = old.seconds != new.seconds || old.frame.workload() != new.frame.workload();
+        let structure = scene || old.system != new.system;
+        let size = |frame: &Frame| [frame.width, frame.height];
+        let film =
+            scene || old.frame.integrator != new.frame.integrator || size(&old.frame) != size(&new.frame);
+        Self { scene, structure, film, samples: true }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use rasray_experiment::{Integrator, Primary, Sampler, StructureOptions};
+    use rasray_systems::{Preset, SYSTEMS};
+
+    /// Settings that tests start from.
+    pub(crate) fn some() -> Settings {
+        let frame = Frame {
+            integrator: Integrator::Path { bounces: 3 },
+            width: 40,
+            height: 30,
+            spp: 4,
+            seed: 1,
+            sampler: Sampler::Sobol,
+            primary: Primary::Trace,
+        };
+        let system = SystemConfig {
+            system: &SYSTEMS[0],
+            preset: Preset::Robust,
+            options: StructureOptions::default(),
+            variant: None,
+        };
+        let standpoint = Standpoint::AsGiven;
+        Settings { standpoint, seconds: None, system, frame, shown: Shown::Picture, moving: false }
+    }
+
+    fn redo(change: impl FnOnce(&mut Settings)) -> Redo {
+        let old = some();
+        let mut new = old.clone();
+        change(&mut new);
+        Redo::between(&old, &new)
+    }
+
+    #[test]
+    fn nothing_is_made_anew_for_nothing() {
+        assert_eq!(redo(|_| ()), Redo::default());
+    }
+
+    #[test]
+    fn a_camera_costs_samples_alone() {
+        let samples = Redo { samples: true, ..Redo::default() };
+        let from = |eye: &str| {
+            Standpoint::Placed(Rounded { eye: eye.into(), target: "0,0,0".into(), fov: "45".into() })
+        };
+        assert_eq!(redo(|new| new.standpoint = from("1,0,0")), samples);
+        assert_eq!(redo(|new| new.moving = true), samples);
+        assert_eq!(redo(|new| new.frame.seed = 2), samples);
+        assert_eq!(redo(|new| new.frame.spp = 8), samples);
+        assert_eq!(redo(|new| new.shown = Shown::Cells), samples);
+        let mut placed = some();
+        placed.standpoint = from("1,0,0");
+        let mut elsewhere = placed.clone();
+        assert_eq!(Redo::between(&placed, &elsewhere), Redo::default());
+        elsewhere.standpoint = from("0,1,0");
+        assert_eq!(Redo::between(&placed, &elsewhere), samples);
+    }
+
+    #[test]
+    fn an_option_costs_the_structure_and_not_the_film() {
+        let structure = Redo { structure: true, samples: true, ..Redo::default() };
+        assert_eq!(redo(|new| new.system.system = &SYSTEMS[1]), structure);
+        let options = StructureOptions::default().with("grid", 8);
+        assert_eq!(redo(|new| new.system.options = options), structure);
+    }
+
+    #[test]
+    fn a_size_costs_the_film_and_not_the_structure() {
+        let film = Redo { film: true, samples: true, ..Redo::default() };
+        assert_eq!(redo(|new| new.frame.width = 41), film);
+    }
+
+    #[test]
+    fn a_time_and_another_light_cost_everything() {
+        assert_eq!(redo(|new| new.seconds = Some(0.5)), Redo::ALL);
+        assert_eq!(redo(|new| new.frame.integrator = Integrator::Raycast), Redo::ALL);
+    }
+}

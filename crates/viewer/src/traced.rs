@@ -1,0 +1,57 @@
+//! Structures that follow scene and camera.
+
+use rasray_ads::StructureKind;
+use rasray_experiment::{Built, ExperimentError, Stage, StructureOptions, SystemConfig};
+use rasray_gpu::Device;
+use rasray_scene::needs::Needs;
+use rasray_systems::{Preset, SYSTEMS};
+
+/// A structure with the configuration that it was built for.
+pub(crate) struct Traced {
+    pub(crate) config: SystemConfig,
+    pub(crate) built: Built,
+}
+
+/// A system whose hits are exact, and not the one that is shown.
+pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
+    let is_exact = |config: &SystemConfig| {
+        config
+            .spec()
+            .and_then(|spec| spec.kind().map_err(|error| ExperimentError::usage(error.to_string(), "")))
+            .is_ok_and(|kind| kind == StructureKind::Primitive)
+    };
+    let robust = |system| SystemConfig {
+        system,
+        preset: Preset::Robust,
+        options: StructureOptions::default(),
+        variant: None,
+    };
+    let others = SYSTEMS.iter().filter(|system| *system != shown.system).map(robust);
+    others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
+}
+
+/// Makes the structure of a configuration for the scene and its camera, where there is none or another; builds it anew
+/// where the camera has moved and it depends on that. One whose build fails is dropped.
+pub(crate) fn follow(
+    device: &Device,
+    stage: Option<&(Stage, Needs)>,
+    traced: &mut Option<Traced>,
+    config: &SystemConfig,
+    say: &mut dyn FnMut(&str),
+) -> Result<(), ExperimentError> {
+    let Some((stage, _)) = stage else { return Ok(()) };
+    match traced.take() {
+        Some(mut kept) if kept.config == *config => {
+            if kept.built.is_stale(&stage.scene) {
+                kept.built.follow_camera(device, &stage.scene)?;
+            }
+            *traced = Some(kept);
+        }
+        _ => {
+            say("building the structure");
+            let built = Built::new(device, &config.spec()?, &stage.scene, stage.scene.eye())?;
+            *traced = Some(Traced { config: config.clone(), built });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,200 @@
+//! Pictures of an engine on a device, without a window: those of a render, bit by bit, after every kind of change.
+
+use std::ffi::OsStr;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use rasray_experiment::{
+    AovSelection, Backend, DeviceChoice, Frame, Integrator, Primary, RenderJob, Sampler, StructureOptions,
+    SystemConfig, default_view, load, open, open_device,
+};
+use rasray_scene::Scene;
+use rasray_scene::needs::Needs;
+use rasray_systems::{Preset, System};
+use rasray_viewer::{
+    Engine, Picture, Pixels, Rounded, SceneSource, Settings, Shown, Standpoint, Step, Update, Worker,
+};
+
+const VALIDATED: DeviceChoice = DeviceChoice { device: None, validation: true };
+
+fn system(name: &str) -> SystemConfig {
+    let system = System::named(name).expect("a system");
+    SystemConfig { system, preset: Preset::Robust, options: StructureOptions::default(), variant: None }
+}
+
+fn settings() -> Settings {
+    let frame = Frame {
+        integrator: Integrator::AmbientOcclusion { distance: None },
+        width: 33,
+        height: 20,
+        spp: 2,
+        seed: 7,
+        sampler: Sampler::Sobol,
+        primary: Primary::Trace,
+    };
+    let system = system("bricks");
+    Settings {
+        standpoint: Standpoint::AsGiven,
+        seconds: None,
+        system,
+        frame,
+        shown: Shown::Picture,
+        moving: false,
+    }
+}
+
+fn engine(settings: &Settings) -> Engine {
+    let mut loaded = load(OsStr::new("cornell")).expect("built in");
+    loaded.light(None);
+    let source = SceneSource {
+        loaded,
+        clip: None,
+        needs_all: false,
+        camera: Box::new(|scene: &Scene| Ok(default_view(scene))),
+    };
+    let device = open_device(&VALIDATED).expect("a device");
+    Engine::new(device, true, source, settings.clone())
+}
+
+/// The picture that refinement ends at.
+fn finished(engine: &mut Engine) -> Picture {
+    let mut last = None;
+    for _ in 0..1000 {
+        match engine.step(&mut |_| ()).expect("a step") {
+            Step::Working => (),
+            Step::Picture(picture) => last = Some(*picture),
+            Step::Done => return last.expect("a picture before the end"),
+        }
+    }
+    panic!("it does not end");
+}
+
+/// The first picture.
+fn first(engine: &mut Engine) -> Picture {
+    loop {
+        match engine.step(&mut |_| ()).expect("a step") {
+            Step::Working => (),
+            Step::Picture(picture) => return *picture,
+            Step::Done => panic!("no picture"),
+        }
+    }
+}
+
+fn radiance(picture: &Picture) -> &[[f32; 3]] {
+    match &picture.pixels {
+        Pixels::Radiance(radiance) => radiance,
+        Pixels::Map(..) => panic!("a map"),
+    }
+}
+
+/// What a render of the same settings gives.
+fn rendered(backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
+    let mut loaded = load(OsStr::new("cornell")).expect("built in");
+    loaded.light(None);
+    let camera = match &settings.standpoint {
+        Standpoint::AsGiven => default_view(&loaded.scene).camera,
+        Standpoint::Placed(rounded) => rounded.camera().expect("a camera"),
+    };
+    let job = RenderJob {
+        shard: None,
+        scene: &loaded.scene,
+        camera,
+        system: settings.system.clone(),
+        frame: settings.frame,
+        aovs: AovSelection::default(),
+        needs: Needs::of(&loaded.scene, settings.frame.workload()),
+        repetitions: 0,
+    };
+    backend.render(&job, &mut |_| std::ops::ControlFlow::Continue(())).expect("a picture").beauty
+}
+
+#[test]
+fn pictures_are_those_of_a_render_after_every_change() {
+    let mut backend = open(&VALIDATED).expect("a device");
+    let mut settings = settings();
+    let mut engine = engine(&settings);
+    let mut seen: Vec<Vec<[f32; 3]>> = Vec::new();
+    let mut check = |engine: &mut Engine, settings: &Settings, what: &str| {
+        engine.apply(settings.clone());
+        let picture = finished(engine);
+        let expected = rendered(backend.as_mut(), settings);
+        assert!(radiance(&picture) == expected, "{what}: another picture than a render");
+        assert_eq!(
+            (picture.samples, [picture.width, picture.height]),
+            (settings.frame.spp, [33, 20]),
+            "{what}"
+        );
+        seen.push(expected);
+    };
+    check(&mut engine, &settings, "at first");
+    let placed = Rounded { eye: "0.5,1.25,3".into(), target: "0,1,0".into(), fov: "50".into() };
+    settings.standpoint = Standpoint::Placed(placed);
+    check(&mut engine, &settings, "another camera");
+    settings.frame.seed = 8;
+    check(&mut engine, &settings, "another seed");
+    settings.system = system("bvh");
+    check(&mut engine, &settings, "another system");
+    settings.frame.integrator = Integrator::Raycast;
+    check(&mut engine, &settings, "another integrator");
+    // While something moves there are fewer pixels, and afterwards all of them.
+    settings.moving = true;
+    engine.apply(settings.clone());
+    let preview = first(&mut engine);
+    assert!(preview.width < 33 && preview.settings.moving && !preview.is_finished());
+    // A small one is fast, so that all pixels come back.
+    assert!(finished(&mut engine).settings.moving);
+    settings.moving = false;
+    check(&mut engine, &settings, "after something moved");
+    assert!(seen[0] != seen[1] && seen[1] != seen[2] && seen[3] != seen[4], "changes that can be seen");
+    assert!(seen[2] == seen[3] && seen[4] == seen[5], "and such that cannot");
+}
+
+#[test]
+fn exact_systems_have_no_difference_and_work_is_counted() {
+    let mut settings = settings();
+    settings.frame.integrator = Integrator::Raycast;
+    settings.shown = Shown::Difference;
+    let mut engine = engine(&settings);
+    let picture = finished(&mut engine);
+    let Pixels::Map(colours, legend) = &picture.pixels else { panic!("a map") };
+    assert_eq!((colours.len(), legend.most), (33 * 20, 0.0));
+    for shown in [Shown::Cells, Shown::Tests] {
+        settings.shown = shown;
+        engine.apply(settings.clone());
+        let picture = finished(&mut engine);
+        let Pixels::Map(_, legend) = &picture.pixels else { panic!("a map") };
+        assert!(legend.most >= 1.0 && legend.mean > 0.0, "{shown:?}: {legend:?}");
+    }
+}
+
+#[test]
+fn a_failure_is_told_and_the_next_settings_go_on() {
+    let good = settings();
+    let mut bad = good.clone();
+    bad.system.options = bad.system.options.with("grid", 0);
+    let (sender, updates) = channel();
+    let worker = Worker::start(
+        move || engine(&bad),
+        move |update| {
+            // The test may have failed meanwhile.
+            _ = sender.send(update);
+        },
+    )
+    .expect("a thread");
+    let next = || updates.recv_timeout(Duration::from_secs(300)).expect("an update");
+    loop {
+        match next() {
+            Update::Failed { message, .. } => break assert!(message.contains("grid"), "{message}"),
+            Update::Status(_) => (),
+            Update::Picture(_) => panic!("a picture of what cannot be"),
+        }
+    }
+    worker.want(good);
+    loop {
+        match next() {
+            Update::Picture(picture) if picture.is_finished() => break,
+            Update::Picture(_) | Update::Status(_) => (),
+            Update::Failed { message, .. } => panic!("{message}"),
+        }
+    }
+}
