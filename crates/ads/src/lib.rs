@@ -38,6 +38,7 @@ mod pools;
 mod pyramid;
 mod queue;
 mod scan;
+mod status;
 mod steps;
 mod structure;
 mod viewpoint;
@@ -65,10 +66,10 @@ pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 pub use scan::Scan;
+pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{
-    BuildStatus, Check, Dependencies, Growth, InlineTrace, PoolSize, PoolStatus, Sizes, Structure,
-    StructureKind, StructureReport, TraceMode,
+    Dependencies, InlineTrace, PoolSize, Sizes, Structure, StructureKind, StructureReport, TraceMode,
 };
 pub use viewpoint::{CameraView, Viewpoint};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};

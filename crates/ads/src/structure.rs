@@ -2,7 +2,7 @@
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
 
-use crate::{AdsError, Counters, Domain, Geometry, PoolName, RayQueue, Viewpoint};
+use crate::{AdsError, BuildStatus, Check, Counters, Domain, Geometry, PoolName, RayQueue, Viewpoint};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,91 +91,6 @@ impl Sizes {
     /// Elements of a pool; 0 where none has that name.
     pub fn elements(&self, name: &str) -> u64 {
         self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
-    }
-}
-
-/// Demand and capacity of a pool in a build.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PoolStatus {
-    /// Name of the pool.
-    pub name: &'static str,
-    /// Elements the build needs; exact also beyond the capacity. For pages it is the number that this build began
-    /// or would have begun, which varies slightly with the order of threads; `check` adds a margin for it.
-    pub demand: u64,
-    /// Elements the pool holds.
-    pub capacity: u64,
-}
-
-/// The outcome of a build, read by the caller after its own wait.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct BuildStatus {
-    /// Whether traces will answer.
-    pub complete: bool,
-    /// Whether traces that were recorded after the build have answers. Differs from `complete` where the pools were
-    /// replaced since.
-    pub was_complete: bool,
-    /// Pools whose demand the build counted.
-    pub pools: Vec<PoolStatus>,
-    /// Lists too long to be sorted; they are searched in full.
-    pub unsorted: u64,
-    /// Triangles with a corner outside of the bounds that their geometry states, with a vertex that it does not have, or
-    /// beyond its maximum; with any of them the build is not complete.
-    pub outside: u32,
-    /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces find are
-    /// in [`crate::QueueCounters::corrupted`].
-    pub corrupted: u64,
-}
-
-impl BuildStatus {
-    /// The demand for a pool; absent where none has that name.
-    pub fn demand(&self, name: &str) -> Option<u64> {
-        self.pools.iter().find(|pool| pool.name == name).map(|pool| pool.demand)
-    }
-}
-
-/// What to do after a build.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Check {
-    /// Everything was stored.
-    Complete,
-    /// Resize to this and build again.
-    Grow(Sizes),
-}
-
-impl BuildStatus {
-    /// The result of [`Structure::check`]: `plan` computes the sizes for demands with the given growth.
-    ///
-    /// # Errors
-    /// As [`Structure::check`].
-    pub fn check(
-        &self,
-        headroom: u32,
-        plan: impl Fn(Growth) -> Result<Sizes, AdsError>,
-    ) -> Result<Check, AdsError> {
-        if self.outside > 0 {
-            return Err(AdsError::OutsideBounds { triangles: self.outside });
-        }
-        if self.complete {
-            return Ok(Check::Complete);
-        }
-        // Without headroom is better than not at all.
-        plan(Growth { percent: headroom }).or_else(|_| plan(Growth { percent: 0 })).map(Check::Grow)
-    }
-}
-
-/// How far beyond its demand a pool grows.
-#[derive(Clone, Copy, Debug)]
-pub struct Growth {
-    percent: u32,
-}
-
-impl Growth {
-    /// Elements for a pool of this demand and capacity: never less than its capacity.
-    pub fn of(self, demand: u64, capacity: u64) -> u64 {
-        if demand <= capacity {
-            return capacity;
-        }
-        demand.saturating_add(demand.saturating_mul(self.percent.into()) / 100)
     }
 }
 

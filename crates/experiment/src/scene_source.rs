@@ -71,7 +71,7 @@ pub fn load_with(name: &OsStr, options: &LoadOptions) -> Result<LoadedScene, Exp
         let shown = scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(0.0));
         let sha256 = digest(shown.unwrap_or(path))?;
         // Of numbered files the one that is shown changes with the time: keys of pictures have it by its digest.
-        let first = shown.is_none().then_some(sha256.as_str()).unwrap_or_default();
+        let first = if shown.is_none() { sha256.as_str() } else { "" };
         let mut content = KeyHash::default().with("file", first);
         for file in &scene.files {
             content = content.with("file", digest(file)?);

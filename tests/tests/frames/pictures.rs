@@ -52,7 +52,7 @@ struct Set {
 
 fn view(scene: &Scene, moved: f64) -> View {
     let mut camera = scene.cameras[0].clone();
-    camera.world_from_camera = camera.world_from_camera * DAffine3::from_translation(DVec3::X * moved);
+    camera.world_from_camera *= DAffine3::from_translation(DVec3::X * moved);
     View { camera, width: SIZE[0], height: SIZE[1], seed: 7 }
 }
 

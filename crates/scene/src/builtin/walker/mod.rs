@@ -190,7 +190,7 @@ fn walk(joints: &[Joint]) -> Clip {
     let seconds = |key: usize| key as f64 / KEYS_PER_SECOND as f64;
     let times: Vec<f32> = (0..=keys).map(|key| seconds(key) as f32).collect();
     let mut places = Vec::with_capacity(times.len());
-    let mut turns = vec![Vec::with_capacity(times.len()); COUNT];
+    let mut turns = vec![Vec::new(); COUNT];
     for key in 0..=keys {
         let stance = stance(joints, seconds(key));
         places.push(stance.pelvis.as_vec3().to_array());
