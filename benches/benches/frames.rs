@@ -20,16 +20,16 @@ use rasray_systems::Spec;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Systems with their options; the first is what the others are divided by.
-const SYSTEMS: &[(&str, &str, &[(&str, &str)])] = &[
-    ("bvh", "robust", &[("builder", "lbvh")]),
-    ("bvh", "robust", &[("builder", "sah")]),
-    ("bricks", "robust", &[]),
-    ("dirt", "robust", &[]),
-    ("hu", "robust", &[]),
-    ("mmrt", "robust", &[]),
-    ("selective", "robust", &[]),
-    ("ldc", "robust", &[]),
+/// Systems with an option each; the first is what the others are divided by.
+const SYSTEMS: [(&str, Option<(&str, &str)>); 8] = [
+    ("bvh", Some(("builder", "lbvh"))),
+    ("bvh", Some(("builder", "sah"))),
+    ("bricks", None),
+    ("dirt", None),
+    ("hu", None),
+    ("mmrt", None),
+    ("selective", None),
+    ("ldc", None),
 ];
 
 /// Rays per pixel of the frames in the table.
@@ -81,11 +81,10 @@ fn main() -> Result<()> {
         loaded.triangles
     );
     let mut measured = Vec::new();
-    for (system, preset, options) in SYSTEMS {
-        let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
-        let spec = Spec::new(system, preset, given)?;
-        let title =
-            options.first().map_or_else(|| (*system).to_owned(), |(_, value)| format!("{system} {value}"));
+    for (system, option) in SYSTEMS {
+        let given = option.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        let spec = Spec::new(system, "robust", given)?;
+        let title = option.map_or_else(|| system.to_owned(), |(_, value)| format!("{system} {value}"));
         measured.push((title, frames(&device, &loaded, &spec, size, count)?));
     }
     print(&measured);

@@ -36,7 +36,7 @@ pub struct ViewerArguments {
     /// How closely the system follows its paper
     #[arg(long, value_parser = preset_parser(), default_value = Preset::Robust.name())]
     pub preset: Preset,
-    /// Where pictures are saved, .png; a run of # is a number [default: the scene's name and .####.png]
+    /// Where pictures are saved, .png; a run of # is a number [default: as SCENE is named]
     #[arg(long, short, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Stops of exposure
