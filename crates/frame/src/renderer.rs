@@ -6,7 +6,7 @@ use std::ops::Range;
 use rasray_ads::{QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
-use rasray_integrators::{Integrator, waves_of};
+use rasray_integrators::{Integrator, Traced, Visibility, waves_of};
 use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, TracerError};
 
 use crate::FrameError;
@@ -61,6 +61,8 @@ pub struct FrameRenderer {
     scene: GpuScene,
     pose: Option<PosePass>,
     integrator: Box<dyn Integrator>,
+    /// What answers camera rays in place of traces.
+    visibility: Option<Visibility>,
     frames: Frames,
     readbacks: Vec<Readback>,
     /// What the device was told last.
@@ -91,12 +93,19 @@ impl FrameRenderer {
             scene,
             pose,
             integrator,
+            visibility: None,
             frames,
             readbacks,
             posed: None,
             continues: VecDeque::new(),
             film_is_right: false,
         })
+    }
+
+    /// The same with camera rays answered by drawing, which was made for the same scene.
+    #[must_use]
+    pub fn with_visibility(self, visibility: Visibility) -> Self {
+        Self { visibility: Some(visibility), ..self }
     }
 
     /// The scene on the device.
@@ -133,7 +142,7 @@ impl FrameRenderer {
         if self.frames.free_slot().is_none() {
             return Err(TracerError::Busy { slots: self.frames.slots() }.into());
         }
-        let Self { scene, pose, integrator, frames, readbacks, .. } = self;
+        let Self { scene, pose, integrator, visibility, frames, readbacks, .. } = self;
         let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
         let pass = pose.as_ref().filter(|pass| pass.moves());
         if moved.is_some() && pass.is_some() {
@@ -149,9 +158,13 @@ impl FrameRenderer {
             if !input.continues {
                 integrator.record_reset(recorder);
             }
+            let traced = Traced::from(structure).with_primary(visibility.as_ref());
+            if let Some(visibility) = visibility {
+                visibility.record_reset(recorder);
+            }
             let film = integrator.film();
             for wave in waves_of(film.pixel_count(), input.samples.clone(), integrator.wave_capacity()) {
-                integrator.record_wave(recorder, structure.into(), wave)?;
+                integrator.record_wave(recorder, traced, wave)?;
             }
             readbacks[slot as usize].record(recorder, integrator.as_ref());
             Ok(())

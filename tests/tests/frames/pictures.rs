@@ -6,7 +6,7 @@ use glam::{DAffine3, DQuat, DVec3};
 use rasray_frame::{FrameInput, FrameRenderer, Picture, Shown, render_in_order};
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, Parts, PosePass, Sampling, SceneTables, View};
-use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, waves};
+use rasray_integrators::{Film, Integrator, IntegratorDesc, Path, Visibility, waves};
 use rasray_metrics::{Image, ImageError};
 use rasray_scene::animation::{
     Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
@@ -167,6 +167,23 @@ fn frames_in_flight_are_the_pictures_of_single_frames() {
             different += usize::from(means != found[0].film.means());
         }
         assert_eq!(different, 5, "frames differ, or nothing could go wrong");
+    }
+}
+
+/// Bricks find every triangle, so drawing what the camera sees changes no bit.
+#[test]
+fn first_hits_that_are_drawn_are_those_that_are_traced() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    let spec = spec("bricks", &[]);
+    let mut traced = renderer(device, &scene, &spec, 2);
+    let drawn = renderer(device, &scene, &spec, 2);
+    let visibility = Visibility::new(device, drawn.scene(), false).expect("the device draws");
+    let mut drawn = drawn.with_visibility(visibility);
+    let all = inputs(&traced, &scene, 3);
+    let (expected, found) = (pictures(&mut traced, all.clone()).0, pictures(&mut drawn, all).0);
+    for (expected, found) in expected.iter().zip(&found) {
+        assert_eq!(expected.film.means(), found.film.means(), "frame {}", expected.number);
     }
 }
 

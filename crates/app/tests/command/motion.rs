@@ -135,7 +135,7 @@ fn numbered_files_are_shown_at_their_times() {
         let report = std::fs::read(folder.path().join(format!("r{frame}.json"))).expect("the report");
         let report: Value = serde_json::from_slice(&report).expect("JSON");
         let file = format!("s.{number:03}.ply");
-        let pose = json!({ "time_s": f64::from(frame) / 8.0, "clips": [], "file": file });
+        let pose = json!({ "time_s": f64::from(frame) / 8.0, "clips": [], "frame": frame, "file": file });
         assert_eq!(report["scene"]["pose"], pose);
         assert_eq!(report["scene"]["triangles"], json!(1 + number));
     }
