@@ -146,7 +146,7 @@ mod tests {
         assert!(message(Config { slices: Some(1025), ..cube }).contains("slices is 1025"));
         assert!(message(Config { work_budget: Some(0), ..cube }).contains("work budget is 0"));
         let axes = Config::new(Views::Axes);
-        assert!(message(Config { slices: Some(8), ..axes }).contains("take grid"));
+        assert!(message(Config { slices: Some(8), ..axes }).contains("use `grid`"));
         let demand = Demand { entries: 1 << 32, ..Demand::default() };
         assert!(plan(&cube, &demand).unwrap_err().to_string().contains("entries"));
     }

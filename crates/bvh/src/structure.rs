@@ -245,7 +245,12 @@ impl Design for Tree {
     }
 
     fn used(_parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
-        (pool == Pool::Nodes).then_some(asked.nodes)
+        match pool {
+            Pool::Header => None,
+            Pool::Nodes => Some(asked.nodes),
+            Pool::Records => Some(asked.records),
+            Pool::Scratch => Some(asked.scratch),
+        }
     }
 
     fn report(parts: &Parts<Config>, header: &Header, asked: &Demand) -> StructureReport {

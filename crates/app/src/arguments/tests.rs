@@ -98,7 +98,7 @@ fn mistakes_are_two_lines_with_a_way_out() {
         ("render cornell -o a.png -q -v", "--verbose", "--help"),
         ("help rendr", "rendr", "--help"),
         ("completions powder", "powder", "powershell"),
-        ("view cornell", "view", "--help"),
+        ("show cornell", "show", "--help"),
     ];
     for (line, message, help) in cases {
         let error = refused(line);

@@ -64,6 +64,7 @@ fn a_slot_is_waited_for_before_it_is_used_again() {
     flights.wait_all().expect("both end");
     assert_eq!(flights.wait(0).expect("nothing is pending"), None);
     assert_eq!(device.download_as::<u32>(&buffer, 28, 2).expect("download"), [5, 7]);
+    drop((flights, buffer));
     finish(device);
 }
 
