@@ -159,7 +159,7 @@ impl FrameRenderer {
                 integrator.record_reset(recorder);
             }
             let traced = Traced::from(structure).with_primary(visibility.as_ref());
-            if let Some(visibility) = visibility {
+            if let Some(visibility) = &visibility {
                 visibility.record_reset(recorder);
             }
             let film = integrator.film();
