@@ -2,7 +2,8 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, Integrator, Sampler, StructureOptions, SystemConfig, default_view, load, open_device,
+    DeviceChoice, Frame, Integrator, Primary, Sampler, StructureOptions, SystemConfig, default_view, load,
+    open_device,
 };
 use rasray_scene::{Scene, default_view as view};
 use rasray_systems::{Preset, SYSTEMS};
@@ -22,6 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         spp: 16,
         seed: 1,
         sampler: Sampler::Sobol,
+        primary: Primary::Trace,
     };
     let options = StructureOptions::default();
     let system = SystemConfig { system: &SYSTEMS[0], preset: Preset::Robust, options, variant: None };
