@@ -1,6 +1,5 @@
 //! Submitting without waiting: frames in flight.
 
-use crate::access::Access;
 use crate::device::Device;
 use crate::error::{GpuError, Result};
 use crate::queue::{OneTime, TIMED_PASSES};
@@ -93,18 +92,10 @@ impl Flights {
         if pending.is_some() {
             return Err(misuse(format!("slot {slot} was not waited for since it was submitted")));
         }
-        work.begin(&device)?;
         if let Some(timers) = timers {
             timers.clear();
         }
-        let mut recorder = Recorder::for_submission(&device, work, timers.clone(), false);
-        recorder.emit_barrier(Access::ALL, Access::ALL);
-        let value = record(&mut recorder);
-        recorder.emit_host_barrier();
-        let mut completed = recorder.complete();
-        if let Some(error) = completed.error.take() {
-            return Err(error);
-        }
+        let (value, completed) = work.record(&device, timers.as_ref(), false, record)?;
         work.submit(&device, &completed.work())?;
         *pending = Some(completed);
         Ok(value)

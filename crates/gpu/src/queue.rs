@@ -9,8 +9,8 @@ use crate::access::Access;
 use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
-use crate::recorder::Recorder;
-use crate::timers::{PassTiming, Timing};
+use crate::recorder::{Completed, Recorder};
+use crate::timers::{PassTiming, Timers, Timing};
 
 /// How work is submitted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -82,16 +82,8 @@ impl Device {
             Timing::None | Timing::Host => None,
         };
         let work = OneTime::create(self, options.timeout.unwrap_or_else(|| self.timeout()))?;
-        work.begin(self)?;
         let split = options.timing == Timing::Host;
-        let mut recorder = Recorder::for_submission(self, &work, timers.clone(), split);
-        recorder.emit_barrier(Access::ALL, Access::ALL);
-        let value = record(&mut recorder);
-        recorder.emit_host_barrier();
-        let mut completed = recorder.complete();
-        if let Some(error) = completed.error.take() {
-            return Err(error);
-        }
+        let (value, mut completed) = work.record(self, timers.as_ref(), split, record)?;
         let during = if split { "work after the last pass".to_owned() } else { completed.work() };
         work.run(self, &during)?;
         let passes = match &timers {
@@ -173,6 +165,27 @@ impl OneTime {
         let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
         // SAFETY: the command buffer is in its initial state.
         unsafe { raw.begin_command_buffer(self.command, &info) }.during("vkBeginCommandBuffer", NEW_WORK)
+    }
+
+    /// Records what a submission does, after everything submitted before it and visible to the host at its end. What was
+    /// submitted last was waited for. Returns what `record` did and what the recording left behind.
+    pub(crate) fn record<R>(
+        &self,
+        device: &Device,
+        timers: Option<&Timers>,
+        split: bool,
+        record: impl FnOnce(&mut Recorder<'_>) -> R,
+    ) -> Result<(R, Completed)> {
+        self.begin(device)?;
+        let mut recorder = Recorder::for_submission(device, self, timers.cloned(), split);
+        recorder.emit_barrier(Access::ALL, Access::ALL);
+        let value = record(&mut recorder);
+        recorder.emit_host_barrier();
+        let mut completed = recorder.complete();
+        match completed.error.take() {
+            Some(error) => Err(error),
+            None => Ok((value, completed)),
+        }
     }
 
     /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
