@@ -48,6 +48,11 @@ BoxClip box_clip_begin(BoxCells axes, uvec3 cells, vec3 a, vec3 b, vec3 c) {
     return clip;
 }
 
+// Whether a triangle is no longer than a cell along any axis.
+bool box_clip_is_small(BoxClip clip) {
+    return all(lessThanEqual(clip.upper - clip.lower, vec3(1.0)));
+}
+
 // Widens depths by those of the edge pq within the square between two corners.
 void box_clip_edge(vec3 p, vec3 q, vec2 lower, vec2 upper, inout vec2 depths) {
     precise vec3 span = q - p;

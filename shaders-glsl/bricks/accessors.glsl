@@ -39,32 +39,31 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickTrianglesBuffer { v
 #define BRICK_CORNERS(s) brick_corners
 #endif
 
+// How many small triangles a list has, where cells may be divided: those no longer than a cell along any axis.
+#define BRICK_SMALL_COUNT(s, list) BRICK_LISTS(s)[BRICK_HEADER(s).cell_capacity + (list)]
+
 // Distances replace the sums of scans.
 #define BRICK_DISTANCES(s) BRICK_SUMS(s)
 
-// Fields of the second and of the third word of a record.
-#define BRICK_RECORD_X 0, 12
-#define BRICK_RECORD_Y 12, 12
-#define BRICK_RECORD_FACE 24, 8
-#define BRICK_RECORD_FIRST 0, 16
-#define BRICK_RECORD_LAST 16, 16
+// Words of a record, and the bit beside the brick's number: the triangle is no longer than a cell along any axis.
+#define BRICK_RECORD_WORDS 4u
+#define BRICK_RECORD_SMALL 0x80000000u
 
-// A triangle in a column of cells, between two slices.
+// The cells of a brick that a triangle reaches into, or some of them.
 struct BrickRecord {
     uint primitive;
-    uint x;
-    uint y;
-    uint face;
-    uint first;           // slice
-    uint last;
+    uint brick;
+    bool small;
+    uvec2 cells;          // as bits of a mask
 };
 
 BrickSlices brick_slices(BrickRef s) {
     return BrickSlices(int(BRICK_HEADER(s).slices), BRICK_HEADER(s).slice_first, BRICK_HEADER(s).slice_shift);
 }
 
-BoxCells brick_axes(BrickRef s) {
-    return BoxCells(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre, BRICK_HEADER(s).rounding);
+// Cells of a level: of the views, or the cells of those divided that often.
+BoxCells brick_axes(BrickRef s, uint level) {
+    return BoxCells(BRICK_HEADER(s).cells_lower, BRICK_HEADER(s).cells_per_metre * float(1u << (2u * level)), BRICK_HEADER(s).rounding);
 }
 
 // Faces of the cube, or the one view along an axis.
@@ -90,71 +89,73 @@ uint brick_stored_records(BrickRef s) {
     return min(BRICK_HEADER(s).record_demand, BRICK_HEADER(s).record_capacity);
 }
 
-// Index of the word of a brick, and of a word of its mask.
-uint brick_at(uint brick) {
-    return 3u * brick;
+// Bricks that fit into the pool.
+uint brick_stored(BrickRef s) {
+    return min(BRICK_HEADER(s).brick_demand, BRICK_HEADER(s).brick_capacity);
 }
 
-uint brick_mask_at(uint brick, uint word) {
-    return 3u * brick + 1u + word;
+uvec2 brick_mask(BrickRef s, uint brick) {
+    return uvec2(BRICK_WORDS(s)[brick_mask_at(brick, 0u)], BRICK_WORDS(s)[brick_mask_at(brick, 1u)]);
 }
 
-// Whether a brick lists nothing.
+// The cells of a brick that are divided.
+uvec2 brick_divided(BrickRef s, uint brick) {
+    return BRICK_DEPTH == 0u ? uvec2(0u)
+        : uvec2(BRICK_WORDS(s)[brick_divided_at(brick, 0u)], BRICK_WORDS(s)[brick_divided_at(brick, 1u)]);
+}
+
+// Whether a brick of a view lists nothing.
 bool brick_has_nothing(BrickRef s, uint brick) {
-    return (BRICK_WORDS(s)[brick_mask_at(brick, 0u)] | BRICK_WORDS(s)[brick_mask_at(brick, 1u)]) == 0u;
+    uvec2 cells = brick_mask(s, brick) | brick_divided(s, brick);
+    return (cells.x | cells.y) == 0u;
 }
 
-// Sets the bits of the cells of a record.
-void brick_mark(BrickRef s, BrickRecord record) {
-    uvec3 cells = brick_cells(s);
-    for (uint slice = record.first & ~1u; slice <= record.last; slice += 2u) {
-        ivec3 cell = ivec3(record.x, record.y, slice);
-        uint bit = brick_bit(cell);
-        uint bits = (slice >= record.first ? 1u << bit : 0u) | (slice < record.last ? 1u << (bit + 16u) : 0u);
-        uint brick = brick_index(record.face, cell, cells);
-        uint word = brick_mask_at(brick, brick_word(cell));
+// Where a brick of a level is, in bricks of that level.
+uvec3 brick_place_of(BrickRef s, uint brick, uint level) {
+    if (level == 0u) {
+        return brick_place(brick, brick_cells(s));
+    }
+    uint at = brick_place_at(brick);
+    uint columns = BRICK_WORDS(s)[at];
+    return uvec3(columns & 0xFFFFu, columns >> 16, BRICK_WORDS(s)[at + 1u]);
+}
+
+// Sets bits of a brick's mask.
+void brick_mark(BrickRef s, uint brick, uvec2 cells) {
+    for (uint word = 0u; word < 2u; word++) {
+        uint at = brick_mask_at(brick, word);
         // Most bits are set already, and reading is cheaper.
-        if ((BRICK_WORDS(s)[word] & bits) != bits) {
-            atomicOr(BRICK_WORDS(s)[word], bits);
+        if ((BRICK_WORDS(s)[at] & cells[word]) != cells[word]) {
+            atomicOr(BRICK_WORDS(s)[at], cells[word]);
         }
     }
 }
 
-// Stores a record and marks its cells, or counts that the capacity did not suffice.
-void brick_store_record(BrickRef s, BrickRecord record) {
+// Stores a record of a level and marks its cells, or counts that the capacity did not suffice.
+void brick_store_record(BrickRef s, uint level, BrickRecord record) {
     uint place = atomicAdd(BRICK_HEADER(s).record_demand, 1u);
     if (place < BRICK_HEADER(s).record_capacity) {
-        BRICK_RECORDS(s)[3u * place] = record.primitive;
-        BRICK_RECORDS(s)[3u * place + 1u] = bits_put(record.x, BRICK_RECORD_X) | bits_put(record.y, BRICK_RECORD_Y)
-            | bits_put(record.face, BRICK_RECORD_FACE);
-        BRICK_RECORDS(s)[3u * place + 2u] = bits_put(record.first, BRICK_RECORD_FIRST) | bits_put(record.last, BRICK_RECORD_LAST);
-        brick_mark(s, record);
+        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place] = record.primitive;
+        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 1u] = record.brick | (record.small ? BRICK_RECORD_SMALL : 0u);
+        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u] = record.cells.x;
+        BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u] = record.cells.y;
+        brick_mark(s, record.brick, record.cells);
+        uint of_level = place - BRICK_HEADER(s).record_first[level];
+        if (of_level % BRICK_GROUP_SIZE == 0u) {
+            atomicMax(BRICK_HEADER(s).record_groups[3u * level], min(of_level / BRICK_GROUP_SIZE + 1u, BRICK_GROUPS_MOST));
+        }
     }
 }
 
+void brick_set_cells(BrickRef s, uint place, uvec2 cells) {
+    BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u] = cells.x;
+    BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u] = cells.y;
+}
+
 BrickRecord brick_record(BrickRef s, uint place) {
-    uint column = BRICK_RECORDS(s)[3u * place + 1u];
-    uint slices = BRICK_RECORDS(s)[3u * place + 2u];
-    return BrickRecord(BRICK_RECORDS(s)[3u * place], bits_get(column, BRICK_RECORD_X), bits_get(column, BRICK_RECORD_Y),
-        bits_get(column, BRICK_RECORD_FACE), bits_get(slices, BRICK_RECORD_FIRST), bits_get(slices, BRICK_RECORD_LAST));
-}
-
-// The words of a brick, with the number that the scan wrote.
-struct BrickWords {
-    uint before;          // cells that list something in all bricks before
-    uvec2 mask;
-};
-
-BrickWords brick_words(BrickRef s, uint face, ivec3 cell, uvec3 cells) {
-    uint at = brick_at(brick_index(face, cell, cells));
-    return BrickWords(BRICK_WORDS(s)[at], uvec2(BRICK_WORDS(s)[at + 1u], BRICK_WORDS(s)[at + 2u]));
-}
-
-// The list of a cell of the brick that lists something.
-uint brick_list(BrickWords words, ivec3 cell) {
-    bool second = brick_word(cell) != 0u;
-    uint below = (1u << brick_bit(cell)) - 1u;
-    return words.before + uint(second ? bitCount(words.mask.x) + bitCount(words.mask.y & below) : bitCount(words.mask.x & below));
+    uint brick = BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 1u];
+    return BrickRecord(BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place], brick & ~BRICK_RECORD_SMALL, (brick & BRICK_RECORD_SMALL) != 0u,
+        uvec2(BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 2u], BRICK_RECORDS(s)[BRICK_RECORD_WORDS * place + 3u]));
 }
 
 #endif

@@ -19,7 +19,7 @@ struct BrickSpace {
 };
 
 BrickSpace brick_space(BrickRef s) {
-    return BrickSpace(brick_grid(s), brick_slices(s), brick_axes(s), brick_cells(s));
+    return BrickSpace(brick_grid(s), brick_slices(s), brick_axes(s, 0u), brick_cells(s));
 }
 
 // A triangle in a view.
@@ -33,6 +33,7 @@ struct BrickBin {
     ivec2 lower;          // first and last column and row that may hold any of it
     ivec2 upper;
     bool large;
+    bool small;           // no longer than a cell along any axis; of views along axes
 };
 
 // The triangle is relative to the centre. False where it reaches into no column of the view.
@@ -40,12 +41,14 @@ bool brick_bin_begin(BrickSpace space, BinTriangle triangle, uint face, out Bric
     bin.primitive = triangle.primitive;
     bin.face = face;
     bin.space = space;
+    bin.small = false;
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
         bin.clip = box_clip_begin(space.axes, space.cells, triangle.a, triangle.b, triangle.c);
         ivec2 last = ivec2(space.cells.xy) - 1;
         bin.lower = clamp(ivec2(floor(bin.clip.lower.xy - bin.clip.margin.xy)), ivec2(0), last);
         bin.upper = clamp(ivec2(floor(bin.clip.upper.xy + bin.clip.margin.xy)), ivec2(0), last);
         bin.large = bin_is_large(bin.lower, bin.upper);
+        bin.small = box_clip_is_small(bin.clip);
         return true;
     }
     vec3 a = face_from_world(triangle.a, face);
@@ -97,7 +100,12 @@ uint brick_bin_column(BrickRef s, BrickBin bin, ivec2 column) {
         return 0u;
     }
     uvec2 slices = brick_bin_slices(bin, depths);
-    brick_store_record(s, BrickRecord(bin.primitive, uint(column.x), uint(column.y), bin.face, slices.x, slices.y));
+    for (uint first = slices.x; first <= slices.y; first = (first | 3u) + 1u) {
+        uint last = min(slices.y, first | 3u);
+        uint brick = brick_index(bin.face, ivec3(column, first), bin.space.cells);
+        uvec2 cells = brick_column_bits(uvec2(column), first & 3u, last & 3u);
+        brick_store_record(s, 0u, BrickRecord(bin.primitive, brick, bin.small, cells));
+    }
     return slices.y - slices.x + 1u;
 }
 

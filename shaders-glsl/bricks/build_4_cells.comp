@@ -1,20 +1,25 @@
-// What: how many cells of each brick list something, for the scan that follows; one invocation per brick.
-// Reads: bricks (masks). Writes: bricks.
-// Source: not in the paper; count, scan, fill.
+// What: numbers the cells of a level that list something: each brick takes as many numbers as it has such cells. One invocation
+// also notes where bricks and records of the level end.
+// Reads: bricks (masks), header. Writes: bricks, header.cell_demand, header.brick_first, header.record_first.
+// Source: not in the paper.
 #version 460
 #include "contract/extensions.glsl"
-#include "bricks/accessors.glsl"
+#include "bricks/level.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
-
 void main() {
-    uint brick = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (brick < brick_total(brick_built)) {
-        BRICK_WORDS(brick_built)[brick_at(brick)] = uint(bitCount(BRICK_WORDS(brick_built)[brick_mask_at(brick, 0u)])
-            + bitCount(BRICK_WORDS(brick_built)[brick_mask_at(brick, 1u)]));
+    uint last = brick_stored(brick_built);
+    if (gl_GlobalInvocationID.x == 0u) {
+        BRICK_HEADER(brick_built).brick_first[brick_level + 1u] = last;
+        BRICK_HEADER(brick_built).record_first[brick_level + 1u] = brick_stored_records(brick_built);
+    }
+    uint first = BRICK_HEADER(brick_built).brick_first[brick_level] + gl_GlobalInvocationID.x;
+    for (uint brick = first; brick < last; brick += BRICK_LEVEL_STRIDE) {
+        uvec2 cells = brick_mask(brick_built, brick);
+        uint count = uint(bitCount(cells.x) + bitCount(cells.y));
+        if (count > 0u) {
+            BRICK_WORDS(brick_built)[brick_at(brick)] = atomicAdd(BRICK_HEADER(brick_built).cell_demand, count);
+        }
     }
 }

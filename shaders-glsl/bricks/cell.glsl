@@ -9,18 +9,34 @@
 
 // Values that are constant along a ray.
 struct BrickTraversal {
-    ivec3 cells;          // columns, rows and slices
+    ivec3 cells;          // columns, rows and slices, of the smallest cells
+    int shift;            // log2 of the smallest cells along a side of a cell of a view
+    float steepness;      // rows that the ray crosses for each column or slice, whichever are more
     // The following is for the faces of a cube only.
     BrickSlices slices;
     float half_side;      // half the columns of a face
     float column;         // width of one in x/z
     float rounding;       // metres: bound of how far rounding moves the ray
-    // Sizes of the lists.
+    // Sizes of the pools.
     uint stored;          // entries
     uint listed;          // cells with a list
+    uint bricks;
 };
 
-// Cells that a ray may cross in one step: all between first and last along each axis.
+// Bricks beyond an empty one that are empty too: along all axes towards an octant, or farther along columns and slices alone
+// where that is what a ray crosses in one step.
+ivec3 brick_empty_bricks(BrickRef s, uint brick, uint word, uint octant, float steepness) {
+    int cube = brick_distance(word, octant);
+    if (BRICK_DEPTH != 0u) {
+        int layer = brick_layer_distance(BRICK_WORDS(s)[brick_layer_at(brick)], octant);
+        if (layer > cube && min(1.0 / max(steepness, 1.0e-6), float(layer + 1)) * max(1.0, steepness) > float(cube + 1)) {
+            return ivec3(layer, 0, layer);
+        }
+    }
+    return ivec3(cube);
+}
+
+// The smallest cells that a ray may cross in one step: all between first and last along each axis.
 struct BrickBox {
     ivec3 first;
     ivec3 last;
@@ -28,30 +44,58 @@ struct BrickBox {
     uint list;
 };
 
+// The box of a brick whose cells are as large as 2^shift of the smallest along a side. False, and the brick of the cell, if
+// that is divided.
+bool brick_box_in(BrickRef s, inout uint brick, int shift, ivec3 cell, bvec3 up, inout BrickBox box) {
+    ivec3 at = cell >> shift;
+    uint word = brick_word(at);
+    uint bit = brick_bit(at);
+    uvec2 divided = brick_divided(s, brick);
+    if ((divided[word] >> bit & 1u) != 0u && shift > 0) {
+        brick = BRICK_WORDS(s)[brick_child_at(brick)] + brick_rank(divided, word, bit);
+        return false;
+    }
+    uvec2 cells = brick_mask(s, brick);
+    uvec2 all = cells | divided;
+    ivec3 first = at;
+    ivec3 last = at;
+    bool listed = (cells[word] >> bit & 1u) != 0u;
+    if (BRICK_SKIP != 0u && !listed) {
+        brick_empty_cells(all, at, up, first, last);
+    } else if (listed) {
+        box.listed = true;
+        box.list = BRICK_WORDS(s)[brick_at(brick)] + brick_rank(all, word, bit);
+    }
+    box.first = first << shift;
+    box.last = (last + 1 << shift) - 1;
+    return true;
+}
+
 BrickBox brick_box(BrickRef s, BrickTraversal traversal, uint face, ivec3 cell, bvec3 up) {
-    uint brick = brick_index(face, cell, uvec3(traversal.cells));
-    uint word = BRICK_WORDS(s)[brick_at(brick)];
+    uvec3 of_view = uvec3(traversal.cells) >> traversal.shift;
+    uint brick = brick_index(face, cell >> traversal.shift, of_view);
     BrickBox box = BrickBox(cell, cell, false, 0u);
-    int inside = 0;
-    int beyond = 0;
-    if (BRICK_SKIP != 0u && brick_is_empty(word)) {
-        inside = 3;
-        beyond = 4 * brick_distance(word, brick_octant(up));
-    } else {
-        uint bits = BRICK_WORDS(s)[brick_mask_at(brick, brick_word(cell))];
-        if (BRICK_SKIP != 0u && (bits & brick_octet(cell)) == 0u) {
-            inside = 1;
-        } else {
-            uint bit = brick_bit(cell);
-            box.listed = (bits >> bit & 1u) != 0u;
-            if (box.listed) {
-                box.list = word + uint(bitCount(bits & ((1u << bit) - 1u)))
-                    + (brick_word(cell) != 0u ? uint(bitCount(BRICK_WORDS(s)[brick_mask_at(brick, 0u)])) : 0u);
-            }
+    if (BRICK_SKIP != 0u) {
+        uint word = BRICK_WORDS(s)[brick_at(brick)];
+        if (brick_is_empty(word)) {
+            int inside = (4 << traversal.shift) - 1;
+            ivec3 beyond = brick_empty_bricks(s, brick, word, brick_octant(up), traversal.steepness) * (inside + 1);
+            box.first = max((cell & ~inside) - beyond, ivec3(0));
+            box.last = min((cell | inside) + beyond, traversal.cells - 1);
+            return box;
         }
     }
-    box.first = max((cell & ~inside) - beyond, ivec3(0));
-    box.last = min((cell | inside) + beyond, traversal.cells - 1);
+    int shift = traversal.shift;
+    for (uint level = 0u; level <= BRICK_DEPTH; level++) {
+        if (brick_box_in(s, brick, shift, cell, up, box)) {
+            break;
+        }
+        if (brick >= traversal.bricks) {
+            atomicAdd(BRICK_HEADER(s).corrupted, 1u);
+            break;
+        }
+        shift -= 2;
+    }
     return box;
 }
 

@@ -14,6 +14,17 @@
 // How far from its computed place a point of a ray may be, over the distance of the geometry: 16 units.
 #define BRICK_PLACE 9.6e-7
 
+// How often a cell may be divided into 4x4x4 smaller ones, and the small triangles that a cell lists before it is: small ones
+// are no longer than the cell along any axis.
+#define BRICK_DEPTH_MOST 3u
+#define BRICK_CROWDED 16u
+// Widths of a margin that a divided cell has at the least along an axis.
+#define BRICK_DIVIDED_MARGINS 8.0
+// Maximum columns along a side of a view of the smallest cells: positions of bricks have 16 bits.
+#define BRICK_FINEST_LIMIT 16384u
+// Workgroups of an indirect dispatch, whose invocations go on with what is left.
+#define BRICK_GROUPS_MOST 65535u
+
 // Maximum columns along a side of a view and maximum slices: loops over them stay far below the iterations that drivers
 // allow an invocation.
 #define BRICK_SIDE_LIMIT 1024u

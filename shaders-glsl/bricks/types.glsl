@@ -12,7 +12,10 @@ layout(constant_id = 40) const uint BRICK_VIEWS = BRICK_VIEWS_AXES;
 layout(constant_id = 41) const uint BRICK_SKIP = 1u;
 layout(constant_id = 42) const uint BRICK_CORNERS_KEPT = 1u;
 
-// State and sizes of bricks. 348 bytes.
+// How often cells are divided at most. Bricks that may have divided cells have words for those.
+layout(constant_id = 43) const uint BRICK_DEPTH = 0u;
+
+// State and sizes of bricks. 496 bytes.
 struct BrickHeader {
     uint status;          // STATUS_*; without STATUS_COMPLETE traces answer "not ready"
     uint demand;          // entries of all lists, also those beyond the capacity
@@ -44,7 +47,7 @@ struct BrickHeader {
     uvec2 triangles_address; // device address of the triangles' corners
     int slice_first;      // `BrickSlices.first`: bits of the depth at which slice 0 begins
     int slice_shift;      // `BrickSlices.shift`: 23 less the logarithm of the slices per octave
-    uint record_demand;   // triangles in columns, also those beyond the capacity
+    uint record_demand;   // records, also those beyond the capacity
     uint record_capacity; // records the pool holds
     uint cell_demand;     // cells that list something, as far as records fit
     uint cell_capacity;   // lists the pool holds
@@ -52,6 +55,14 @@ struct BrickHeader {
     uint large_demand;           // triangles in the large-triangle queue
     uint groups[3];       // workgroups for those triangles, one each
     uint octaves[BRICK_OCTAVES]; // triangles that begin that many octaves before the farthest geometry
+    uint depth;           // how often cells may be divided, BRICK_DEPTH or less
+    uint brick_demand;    // bricks of all levels, also those beyond the capacity
+    uint brick_capacity;  // bricks the pool holds
+    // Level 0 are the bricks of the views, level n + 1 those of divided cells of level n.
+    uint brick_first[5];  // first brick of each level, and behind the last
+    uint record_first[5]; // first record of each level, and behind the last
+    uint brick_groups[12]; // workgroups for the bricks of each level
+    uint record_groups[12]; // workgroups for the records of each level
 };
 
 #endif

@@ -1,12 +1,17 @@
 // What: the position of cells in bricks of 4x4x4, and the words of a brick.
 // Reads, writes: nothing.
 // A cell is (column, row, slice) of a view. A brick has a mask of 64 bits, one per cell that lists something,
-// in two words, and a word of its own: for a brick that lists something the number of such cells in all bricks
-// before it, for an empty one the number of further bricks that are empty too, towards each of eight octants.
+// in two words, and a word of its own: for a brick that lists something the number of its first list, for an empty
+// one of a view the number of further bricks that are empty too, towards each of eight octants. Where cells may be
+// divided, a brick also has a mask of those that are, the number of the first of their bricks, and its own position.
+// The list or the brick of a cell is found by counting the bits below its own.
 #ifndef BRICKS_WORDS_GLSL
 #define BRICKS_WORDS_GLSL
 
-#include "bricks/constants.glsl"
+#include "bricks/types.glsl"
+
+// Words of a brick.
+const uint BRICK_STRIDE = BRICK_DEPTH == 0u ? 3u : 8u;
 
 // Bricks of one view with these numbers of columns, rows and slices, each a multiple of 4.
 uint brick_count(uvec3 cells) {
@@ -20,6 +25,39 @@ uint brick_index(uint view, ivec3 cell, uvec3 cells) {
     return ((view * bricks.y + brick.y) * bricks.x + brick.x) * bricks.z + brick.z;
 }
 
+// The brick of that index within a view, in bricks.
+uvec3 brick_place(uint brick, uvec3 cells) {
+    uvec3 bricks = cells >> 2;
+    uint line = brick / bricks.z;
+    return uvec3(line % bricks.x, line / bricks.x % bricks.y, brick % bricks.z);
+}
+
+// Index of the word of a brick, of the two words of its masks, and of those that only bricks have whose cells may be divided.
+uint brick_at(uint brick) {
+    return BRICK_STRIDE * brick;
+}
+
+uint brick_mask_at(uint brick, uint word) {
+    return BRICK_STRIDE * brick + 1u + word;
+}
+
+uint brick_divided_at(uint brick, uint word) {
+    return BRICK_STRIDE * brick + 3u + word;
+}
+
+uint brick_child_at(uint brick) {
+    return BRICK_STRIDE * brick + 5u;
+}
+
+uint brick_place_at(uint brick) {
+    return BRICK_STRIDE * brick + 6u;
+}
+
+// Index of the word of an empty brick of a view that says how far its layer of columns and slices is empty.
+uint brick_layer_at(uint brick) {
+    return BRICK_STRIDE * brick + 6u;
+}
+
 // Which of the two words of the mask holds a cell's bit, and which bit that is.
 uint brick_word(ivec3 cell) {
     return uint(cell.z >> 1) & 1u;
@@ -29,9 +67,72 @@ uint brick_bit(ivec3 cell) {
     return uint((cell.x & 3) | (cell.y & 3) << 2 | (cell.z & 1) << 4);
 }
 
+// The cell of a bit, within its brick.
+ivec3 brick_cell_of_bit(uint word, uint bit) {
+    return ivec3(bit & 3u, bit >> 2 & 3u, bit >> 4 | word << 1);
+}
+
 // Bits of the 2x2x2 cells around a cell, in the word of its bit.
 uint brick_octet(ivec3 cell) {
     return 0x00330033u << uint((cell.x & 2) | (cell.y & 2) << 2);
+}
+
+// Bits of the cells of a brick between two of them.
+uvec2 brick_cells_between(ivec3 first, ivec3 last) {
+    uint column = (2u << last.x) - (1u << first.x);
+    uint rows = 0x1111u & (16u << 4 * last.y) - (1u << 4 * first.y);
+    uint slice = column * rows;
+    uvec4 slices = mix(uvec4(0u), uvec4(slice), bvec4(first.z <= 0, first.z <= 1 && last.z >= 1, first.z <= 2 && last.z >= 2, last.z >= 3));
+    return uvec2(slices.x | slices.y << 16, slices.z | slices.w << 16);
+}
+
+// First and last of the empty cells of a brick that a ray crosses in one step from an empty one: 2x2x2 of them where those are,
+// and as far as the brick where all cells ahead are empty, one axis after the other. `mask` has the bits of cells that are
+// not.
+void brick_empty_cells(uvec2 mask, ivec3 cell, bvec3 up, out ivec3 first, out ivec3 last) {
+    ivec3 own = cell & 3;
+    bool around = (mask[brick_word(cell)] & brick_octet(cell)) == 0u;
+    ivec3 lower = around ? own & ~1 : own;
+    ivec3 upper = around ? own | 1 : own;
+    for (int axis = 0; axis < 3; axis++) {
+        ivec3 from = lower;
+        ivec3 to = upper;
+        from[axis] = up[axis] ? from[axis] : 0;
+        to[axis] = up[axis] ? 3 : to[axis];
+        uvec2 hidden = mask & brick_cells_between(from, to);
+        if ((hidden.x | hidden.y) == 0u) {
+            lower = from;
+            upper = to;
+        }
+    }
+    first = (cell & ~3) + lower;
+    last = (cell & ~3) + upper;
+}
+
+// Bits of the cells of a column of a brick, from the first slice to the last of it.
+uvec2 brick_column_bits(uvec2 column, uint first, uint last) {
+    uint bit = (column.x & 3u) | (column.y & 3u) << 2;
+    uvec2 bits = uvec2(0u);
+    for (uint slice = first; slice <= last; slice++) {
+        uint cell = 1u << (bit + 16u * (slice & 1u));
+        bits |= slice < 2u ? uvec2(cell, 0u) : uvec2(0u, cell);
+    }
+    return bits;
+}
+
+// Takes a cell out of a mask; false where none is left.
+bool brick_take_cell(inout uvec2 mask, out uint word, out uint bit) {
+    word = mask.x != 0u ? 0u : 1u;
+    bit = uint(findLSB(mask[word]));
+    bool any_left = mask[word] != 0u;
+    mask[word] &= mask[word] - 1u;
+    return any_left;
+}
+
+// Bits of a mask below that one.
+uint brick_rank(uvec2 mask, uint word, uint bit) {
+    uint below = (1u << bit) - 1u;
+    return uint(word != 0u ? bitCount(mask.x) + bitCount(mask.y & below) : bitCount(mask.x & below));
 }
 
 // The octant towards which a ray steps; each of its three directions is up or down.
@@ -46,6 +147,11 @@ bool brick_is_empty(uint word) {
 // Bricks beyond an empty one, along each axis towards an octant, that are empty too: 0 to 7.
 int brick_distance(uint word, uint octant) {
     return int(word >> (3u * octant) & 7u);
+}
+
+// Bricks beyond an empty one, along columns and slices towards an octant, that are empty too in its own row.
+int brick_layer_distance(uint word, uint octant) {
+    return int(word >> (4u * (octant & 3u)) & 15u) - 1;
 }
 
 #endif

@@ -161,11 +161,12 @@ impl BuildTarget<'_> {
         label: &str,
         pipeline: &ComputePipeline,
         offset: u64,
+        step: u32,
         readers: Access,
     ) {
         recorder.begin_pass(label);
         recorder.bind_compute(pipeline);
-        self.bind(recorder, 0);
+        self.bind(recorder, step);
         recorder.dispatch_indirect(self.pools.header_buffer(), offset);
         recorder.barrier(Access::COMPUTE, readers);
         recorder.end_pass();

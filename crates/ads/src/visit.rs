@@ -65,7 +65,7 @@ impl Visit {
                 let readers = Access::COMPUTE | Access::INDIRECT_READ;
                 let label = format!("{}_bin", self.label);
                 target.compute_pass(recorder, &label, bin, triangle_groups(target), 0, readers);
-                target.indirect_pass(recorder, &format!("{label}_large"), large, *groups, Access::COMPUTE);
+                target.indirect_pass(recorder, &format!("{label}_large"), large, *groups, 0, Access::COMPUTE);
             }
         }
     }

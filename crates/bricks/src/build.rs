@@ -9,9 +9,17 @@ use rasray_shaders_glsl::constants::bricks::BRICK_GROUP_SIZE;
 use crate::layout::bricks_of;
 use crate::{Config, Header, Pool, Views};
 
-/// What the steps of the scan run over.
-const SCAN_LISTS: u32 = 0;
-const SCAN_BRICKS: u32 = 1;
+/// Bytes of the workgroups of an indirect dispatch.
+const GROUP_BYTES: u64 = 12;
+
+/// A pass over a level of bricks, once per level.
+#[derive(Debug)]
+struct OfLevel {
+    label: String,
+    pipeline: ComputePipeline,
+    /// Where the header has the workgroups of the first level.
+    groups: usize,
+}
 
 /// Pipelines of the build.
 #[derive(Debug)]
@@ -19,9 +27,11 @@ pub(crate) struct Build {
     /// The near region and the slices of a cube's faces, from depths; views along axes have neither.
     depths: Option<[(String, ComputePipeline); 2]>,
     records: Visit,
-    cells: ComputePipeline,
+    /// Passes over each level.
+    level: [OfLevel; 2],
+    /// Passes that divide cells of a level; nothing where none is divided.
+    divide: Option<[OfLevel; 2]>,
     scan: Scan,
-    count: ComputePipeline,
     store: ComputePipeline,
     reaches: Option<[(String, ComputePipeline); 3]>,
     triangles: Option<ComputePipeline>,
@@ -34,22 +44,29 @@ impl Build {
         let depths = || -> Result<_, AdsError> { Ok([named("build_1_near")?, named("build_2_slices")?]) };
         let reaches = || -> Result<_, AdsError> {
             Ok([
-                named("build_9_reach_slices")?,
-                named("build_10_reach_columns")?,
-                named("build_11_reach_rows")?,
+                named("build_10_reach_slices")?,
+                named("build_11_reach_columns")?,
+                named("build_12_reach_rows")?,
             ])
+        };
+        let (of_bricks, of_records) = (offset_of!(Header, brick_groups), offset_of!(Header, record_groups));
+        let of_level = |name, groups| -> Result<_, AdsError> {
+            Ok(OfLevel { label: pipelines.label(name), pipeline: pipelines.compute(name)?, groups })
+        };
+        let divide = || -> Result<_, AdsError> {
+            Ok([of_level("build_6_divide", of_bricks)?, of_level("build_7_refine", of_records)?])
         };
         Ok(Self {
             depths: (config.views == Views::Cube).then(depths).transpose()?,
             records: Visits { pipelines, builder: config.builder, groups: offset_of!(Header, groups) }
                 .visit("build_raster", "build_3_records", "")?,
-            cells: pipelines.compute("build_4_cells")?,
-            scan: Scan::new(pipelines, "build_5_scan")?,
-            count: pipelines.compute("build_6_count")?,
-            store: pipelines.compute("build_8_store")?,
+            level: [of_level("build_4_cells", of_bricks)?, of_level("build_5_count", of_records)?],
+            divide: config.divides().then(divide).transpose()?,
+            scan: Scan::new(pipelines, "build_8_scan")?,
+            store: pipelines.compute("build_9_store")?,
             reaches: config.skip.then(reaches).transpose()?,
-            triangles: config.corners.then(|| pipelines.compute("build_12_triangles")).transpose()?,
-            status: pipelines.compute("build_13_status")?,
+            triangles: config.corners.then(|| pipelines.compute("build_13_triangles")).transpose()?,
+            status: pipelines.compute("build_14_status")?,
         })
     }
 
@@ -70,8 +87,10 @@ impl Build {
             target.compute_pass(recorder, label, pipeline, groups, 0, readers);
         };
         let compute = Access::COMPUTE;
+        // Workgroups are counted by the passes before.
+        let counted = compute | Access::INDIRECT_READ;
 
-        let readers = compute | Access::FRAGMENT | Access::VERTEX_READ;
+        let readers = counted | Access::FRAGMENT | Access::VERTEX_READ;
         target.record_header(recorder, "bricks/build_0_header", &[Pool::Lists, Pool::Bricks], readers);
         if let Some([(near_label, near), (slices_label, slices)]) = &self.depths {
             pass(recorder, near_label, near, triangles, compute);
@@ -79,19 +98,24 @@ impl Build {
         }
         let views = ViewDraw { side: cells[0].max(cells[1]) + 2, views: config.views.count(), first: 0 };
         self.records.record(recorder, target, &[views]);
-        pass(recorder, "bricks/build_4_cells", &self.cells, bricks, compute);
-        self.scan.record(recorder, target, "bricks/build_5_scan", bricks, SCAN_BRICKS, compute);
-        pass(recorder, "bricks/build_6_count", &self.count, records, compute);
-        self.scan.record(recorder, target, "bricks/build_7_scan", lists, SCAN_LISTS, compute);
-        pass(recorder, "bricks/build_8_store", &self.store, records, compute);
+        let last = config.most_divisions();
+        for level in 0..=last {
+            let divide = self.divide.iter().flatten().filter(|_| level < last);
+            for OfLevel { label, pipeline, groups } in self.level.iter().chain(divide) {
+                let place = *groups as u64 + GROUP_BYTES * u64::from(level);
+                target.indirect_pass(recorder, label, pipeline, place, level, counted);
+            }
+        }
+        self.scan.record(recorder, target, "bricks/build_8_scan", lists, 0, compute);
+        pass(recorder, "bricks/build_9_store", &self.store, records, compute);
         for (axis, (label, reach)) in self.reaches.iter().flatten().enumerate() {
             // Along slices, then columns, then rows.
             let bricks_of_line = [along[2], along[0], along[1]][axis];
             pass(recorder, label, reach, bricks / bricks_of_line, compute);
         }
         if let Some(copy) = &self.triangles {
-            pass(recorder, "bricks/build_12_triangles", copy, triangles, compute);
+            pass(recorder, "bricks/build_13_triangles", copy, triangles, compute);
         }
-        target.status_pass(recorder, "bricks/build_13_status", &self.status);
+        target.status_pass(recorder, "bricks/build_14_status", &self.status);
     }
 }

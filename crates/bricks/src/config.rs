@@ -11,6 +11,8 @@ use crate::grid::{cells_along, columns_for};
 pub(crate) const BRICK_SIDE: u32 = 4;
 /// Maximum cells along a side of a view.
 pub(crate) const SIDE_LIMIT: u32 = numbers::BRICK_SIDE_LIMIT;
+/// How often a cell may be divided.
+const DEPTH_LIMIT: u32 = numbers::BRICK_DEPTH_MOST;
 /// Maximum slices.
 const SLICE_LIMIT: u32 = numbers::BRICK_SLICE_LIMIT;
 
@@ -20,8 +22,11 @@ pub struct Config {
     /// Which views there are.
     pub views: Views,
     /// Columns along a side of a face, or cells along the longest side of the geometry's bounds; 1 to 1024, rounded up
-    /// to a multiple of 4. Absent: as many as make a cell about as wide as a triangle.
+    /// to a multiple of 4. Absent: by the number of triangles and, along the axes, by the bounds.
     pub grid: Option<u32>,
+    /// [`Views::Axes`] only: how often a cell that lists many small triangles is divided into 4x4x4 smaller ones, at
+    /// most; 0 to 3, which is the default.
+    pub divisions: Option<u32>,
     /// [`Views::Cube`] only: depth slices, the same for all columns, 1 to 1024, rounded up to a multiple of 4; twice
     /// the columns along a side where absent.
     pub slices: Option<u32>,
@@ -49,6 +54,7 @@ impl Config {
         Self {
             views,
             grid: None,
+            divisions: None,
             slices: None,
             corners: true,
             skip: true,
@@ -75,13 +81,45 @@ impl Config {
         [columns, columns, slices.next_multiple_of(BRICK_SIDE)]
     }
 
+    /// How often a cell is divided at most.
+    pub(crate) fn most_divisions(&self) -> u32 {
+        self.divisions.unwrap_or(if self.views == Views::Axes { DEPTH_LIMIT } else { 0 })
+    }
+
+    /// Whether cells are divided at all.
+    pub(crate) fn divides(&self) -> bool {
+        self.most_divisions() > 0
+    }
+
+    /// Words of a brick: its own and two of the mask; where cells are divided two more for those, the first of their
+    /// bricks, and its position.
+    pub fn brick_words(&self) -> u32 {
+        if self.divides() { 8 } else { 3 }
+    }
+
+    /// How often cells may be divided where views have this number of them: as often as the options say, or less where positions
+    /// would not fit into their words.
+    pub(crate) fn depth_for(&self, cells: [u32; 3]) -> u32 {
+        let most = cells.into_iter().max().unwrap_or(0);
+        (0..=self.most_divisions())
+            .rev()
+            .find(|depth| most << (2 * depth) <= numbers::BRICK_FINEST_LIMIT)
+            .unwrap_or(0)
+    }
+
     /// Checks ranges.
     ///
     /// # Errors
     /// The first option out of range.
     pub fn validate(&self) -> Result<(), AdsError> {
         check_range("grid", self.grid.unwrap_or(1), 1..=SIDE_LIMIT, "1 to 1024 cells along a side")?;
+        check_range("divisions", self.most_divisions(), 0..=DEPTH_LIMIT, "0 to 3")?;
         check_range("slices", self.slices.unwrap_or(1), 1..=SLICE_LIMIT, "1 to 1024 depth slices")?;
+        if self.views == Views::Cube && self.divides() {
+            let (value, expected) =
+                (self.most_divisions().to_string(), "0 for the faces of a cube, or views `axes`");
+            return Err(AdsError::Option { option: "divisions", value, expected });
+        }
         if let (Views::Axes, Some(slices)) = (self.views, self.slices) {
             let expected = "views along axes have cells of one size: use `grid`, or views `cube`";
             return Err(AdsError::Option { option: "slices", value: slices.to_string(), expected });
@@ -99,6 +137,7 @@ impl Config {
             (ids::BRICK_VIEWS, views),
             (ids::BRICK_SKIP, u32::from(self.skip)),
             (ids::BRICK_CORNERS_KEPT, u32::from(self.corners)),
+            (ids::BRICK_DEPTH, self.most_divisions()),
         ]
     }
 
@@ -108,6 +147,7 @@ impl Config {
         vec![
             ("views", self.views.name().to_owned()),
             ("grid", cells.map(|n| n.to_string()).join("x")),
+            ("divisions", self.most_divisions().to_string()),
             ("corners", switch(self.corners)),
             ("skip", switch(self.skip)),
         ]

@@ -6,11 +6,8 @@ use rasray_shaders_glsl::constants::bricks as numbers;
 use crate::config::BRICK_SIDE;
 use crate::{Config, Header, Pool, Views};
 
-/// Words of a brick: its own and two of the mask.
-const BRICK_WORDS: u64 = 3;
-
-/// Words of a record: a triangle in a column.
-const RECORD_WORDS: u64 = 3;
+/// Words of a record: a triangle in cells of a brick.
+const RECORD_WORDS: u64 = 4;
 
 /// The demand of a build.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,9 +16,11 @@ pub struct Demand {
     pub entries: u64,
     /// Triangles around the centre of a cube's faces.
     pub near: u64,
-    /// Triangles in columns.
+    /// Triangles in columns of cells of a brick, and in the bricks of divided cells.
     pub records: u64,
-    /// Cells that list something.
+    /// Bricks of the views and of divided cells.
+    pub bricks: u64,
+    /// Cells that list something, or are divided.
     pub cells: u64,
     /// Triangles of the geometry.
     pub triangles: u64,
@@ -48,16 +47,16 @@ fn triangle_words(config: &Config) -> u64 {
 pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     config.validate()?;
     // At least one brick, so that a build can count its demand.
-    let (_, bricks) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
-    // The distances of bricks replace the sums.
-    let distances = if config.skip { bricks } else { 0 };
+    let (_, of_views) = bricks_of(config.views, demand.grid.map(|along| along.max(BRICK_SIDE)));
+    // The distances of the views' bricks replace the sums.
+    let distances = if config.skip { of_views } else { 0 };
     let pool = |pool, elements, words: u64| (pool, elements, 4 * words);
     let pools = [
         (Pool::Header, 1, size_of::<Header>() as u64),
-        pool(Pool::Bricks, bricks, BRICK_WORDS),
-        pool(Pool::Lists, demand.cells, 1),
+        pool(Pool::Bricks, demand.bricks.max(of_views), config.brick_words().into()),
+        pool(Pool::Lists, demand.cells, if config.divides() { 2 } else { 1 }),
         pool(Pool::Entries, demand.entries, 1),
-        pool(Pool::Sums, Scan::sums(bricks.max(demand.cells)).max(distances), 1),
+        pool(Pool::Sums, Scan::sums(demand.cells).max(distances), 1),
         pool(Pool::Near, demand.near, 1),
         pool(Pool::Records, demand.records, RECORD_WORDS),
         pool(Pool::Triangles, demand.triangles, triangle_words(config)),
@@ -65,27 +64,35 @@ pub fn plan(config: &Config, demand: &Demand) -> Result<Sizes, AdsError> {
     Sizes::of("bricks", pools)
 }
 
-/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, and two entries per
-/// cell.
-pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
-    config.validate()?;
+/// The first guess where nothing has been counted: eight columns per triangle, of two cells each, two entries per
+/// cell, and where cells are divided a brick for every eight triangles.
+pub(crate) fn first_demand(config: &Config, geometry: &Geometry) -> Demand {
     let triangles = u64::from(geometry.triangle_count());
     let entries = config.entries.unwrap_or(16 * triangles);
     let near = if config.views == Views::Axes { 0 } else { 64 };
     let (records, cells) = (entries / 2, entries / 2);
-    plan(config, &Demand { entries, near, records, cells, triangles, grid: config.cells(geometry) })
+    let grid = config.cells(geometry);
+    let divided = if config.divides() { triangles / 8 + 16 } else { 0 };
+    let bricks = bricks_of(config.views, grid).1 + divided;
+    Demand { entries, near, records, bricks, cells, triangles, grid }
+}
+
+/// What the first guess allocates.
+pub(crate) fn first_plan(config: &Config, geometry: &Geometry) -> Result<Sizes, AdsError> {
+    config.validate()?;
+    plan(config, &first_demand(config, geometry))
 }
 
 /// Bytes for counted bricks, cells and entries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FormulaBytes {
-    /// 12 per brick, and 4 per cell that lists something.
+    /// 12 per brick and 4 per cell that lists something; where cells are divided 32 and 8, divided cells included.
     pub cells: u64,
     /// 4 per entry.
     pub entries: u64,
-    /// 4 per brick where distances of empty ones are found; else 4 per 1024 numbers that are scanned.
+    /// 4 per brick of the views where distances of empty ones are found; 4 per 1024 lists if that is more.
     pub scan: u64,
-    /// Header, 4 per triangle of the near-region list, 12 per triangle in a column, and per triangle 36 for its
+    /// Header, 4 per triangle of the near-region list, 16 per record, and per triangle 36 for its
     /// corners or 24 while it is stored.
     pub rest: u64,
 }
@@ -100,14 +107,16 @@ impl FormulaBytes {
 /// The page's formula. It shares nothing with [`plan`], so that the two check each other.
 pub fn formula_bytes(config: &Config, demand: &Demand) -> FormulaBytes {
     let of_view = demand.grid.map(|along| u64::from(along).max(4)).iter().product::<u64>() / 64;
-    let bricks = if config.views == Views::Cube { 6 * of_view } else { of_view };
+    let of_views = if config.views == Views::Cube { 6 * of_view } else { of_view };
+    let (brick, list) = if config.divides() { (32, 8) } else { (12, 4) };
+    let sums = demand.cells.div_ceil(1024);
     FormulaBytes {
-        cells: 12 * bricks + 4 * demand.cells,
+        cells: brick * demand.bricks.max(of_views) + list * demand.cells,
         entries: 4 * demand.entries,
-        scan: if config.skip { 4 * bricks } else { bricks.max(demand.cells).div_ceil(1024) * 4 },
-        rest: 348
+        scan: 4 * if config.skip { of_views.max(sums) } else { sums },
+        rest: 496
             + 4 * demand.near
-            + 12 * demand.records
+            + 16 * demand.records
             + demand.triangles * if config.corners { 36 } else { 24 },
     }
 }
@@ -119,8 +128,15 @@ mod tests {
     #[test]
     fn plan_equals_formula() {
         // No brick has more than 64 cells.
-        let demand =
-            Demand { entries: 12_345, near: 7, records: 2_345, cells: 60, triangles: 99, grid: [0; 3] };
+        let demand = Demand {
+            entries: 12_345,
+            near: 7,
+            records: 2_345,
+            bricks: 1,
+            cells: 60,
+            triangles: 99,
+            grid: [0; 3],
+        };
         for views in Views::ALL {
             for (skip, corners) in [(true, true), (false, true), (true, false)] {
                 let config = Config { skip, corners, ..Config::new(views) };

@@ -22,7 +22,7 @@ pub use pool::Pool;
 pub use rasray_ads::{Addressing, Builder};
 pub use rasray_shaders_glsl::records::BrickHeader as Header;
 pub use structure::{Bricks, Passes};
-pub use validate::{Contents, Fault, well_formed};
+pub use validate::{Cell, Contents, Fault, well_formed};
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

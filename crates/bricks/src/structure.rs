@@ -8,9 +8,11 @@ use rasray_ads::{
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
+use rasray_shaders_glsl::constants::bricks::{BRICK_GROUP_SIZE, BRICK_GROUPS_MOST};
+
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
-use crate::layout::{Demand, bricks_of, first_plan, formula_bytes, plan};
+use crate::layout::{Demand, bricks_of, first_demand, first_plan, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, well_formed};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
@@ -29,11 +31,25 @@ fn cells(parts: &Parts<Config>) -> ([u32; 3], bool) {
     (if fits { wanted } else { [BRICK_SIDE; 3] }, fits)
 }
 
+/// Workgroups of an indirect dispatch per level: that number of the first, none of the others before the device counts.
+fn groups_of_levels(first: u32) -> [u32; 12] {
+    let mut groups = [0, 1, 1].repeat(4);
+    groups[0] = first;
+    groups.try_into().unwrap_or_default()
+}
+
 /// The header that the next build starts from.
 fn first_header(parts: &Parts<Config>, eye: [f32; 3]) -> Header {
     let Parts { pools, .. } = parts;
     let (cells, fits) = cells(parts);
+    let of_views = bricks_of(parts.config.views, cells).1 as u32;
     Header {
+        depth: parts.config.depth_for(cells),
+        brick_demand: of_views,
+        brick_capacity: parts.elements(Pool::Bricks) as u32,
+        brick_first: [0, of_views, 0, 0, 0],
+        brick_groups: groups_of_levels(of_views.div_ceil(BRICK_GROUP_SIZE).min(BRICK_GROUPS_MOST)),
+        record_groups: groups_of_levels(0),
         capacity: parts.elements(Pool::Entries) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,
         columns: cells[0],
@@ -62,6 +78,7 @@ impl rasray_ads::Demand for Demand {
             entries: with("entries", self.entries, other.entries),
             near: with("near", self.near, other.near),
             records: with("records", self.records, other.records),
+            bricks: with("bricks", self.bricks, other.bricks),
             cells: with("lists", self.cells, other.cells),
             ..self
         }
@@ -136,13 +153,28 @@ impl Design for Passes {
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
         // Only stored records mark cells. Unless all are stored, the bound is one cell per entry.
         let all = header.record_demand <= header.record_capacity;
-        Demand {
+        let counted = Demand {
             entries: header.demand.into(),
             near: header.near_demand.into(),
             records: header.record_demand.into(),
+            bricks: header.brick_demand.into(),
             cells: if all { header.cell_demand } else { header.demand }.into(),
             triangles: parts.geometry.triangle_count().into(),
             grid: parts.config.cells(&parts.geometry),
+        };
+        let fits =
+            all && header.cell_demand <= header.cell_capacity && header.brick_demand <= header.brick_capacity;
+        if fits || !parts.config.divides() {
+            return counted;
+        }
+        // Cells of a level are only counted where those of the level before fit: at least the first guess, so that few
+        // builds do.
+        let guess = first_demand(&parts.config, &parts.geometry);
+        Demand {
+            records: counted.records.max(guess.records),
+            bricks: counted.bricks.max(guess.bricks),
+            cells: counted.cells.max(guess.cells),
+            ..counted
         }
     }
 
@@ -151,6 +183,7 @@ impl Design for Passes {
             entries: parts.elements(Pool::Entries),
             near: parts.elements(Pool::Near),
             records: parts.elements(Pool::Records),
+            bricks: parts.elements(Pool::Bricks),
             cells: parts.elements(Pool::Lists),
             triangles: parts.elements(Pool::Triangles).max(parts.geometry.triangle_count().into()),
             grid: parts.config.cells(&parts.geometry),
@@ -167,9 +200,8 @@ impl Design for Passes {
             Pool::Near => Some(asked.near),
             Pool::Records => Some(asked.records),
             Pool::Lists => Some(asked.cells),
-            Pool::Bricks | Pool::Sums => {
-                Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool)))
-            }
+            Pool::Bricks => Some(asked.bricks),
+            Pool::Sums => Some(plan(&parts.config, asked).map_or(0, |sizes| sizes.elements_of(pool))),
             Pool::Triangles => Some(asked.triangles),
             _ => None,
         }

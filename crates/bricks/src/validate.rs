@@ -11,9 +11,10 @@ pub struct Contents {
     pub config: Config,
     /// The header.
     pub header: Header,
-    /// Bricks, three words each.
+    /// Bricks, [`Config::brick_words`] each.
     pub bricks: Vec<u32>,
-    /// Where the list of each cell that lists something ends.
+    /// Where the list of each cell that lists something, or is divided, ends; and once more as many words where cells
+    /// are divided.
     pub lists: Vec<u32>,
     /// Entries of all lists.
     pub entries: Vec<u32>,
@@ -57,15 +58,25 @@ pub enum Fault {
         /// The triangle.
         primitive: u32,
     },
-    /// The word of a brick does not count the cells before it, or calls a brick empty that lists something.
-    #[error("brick {brick}: its word {word:#x} does not match the {cells} listed cells before it")]
+    /// The numbers of a brick's lists are those of another's too or beyond the last, or it is called empty and is not.
+    #[error("brick {brick}: its word {word:#x} does not fit its {cells} cells that list something")]
     Word {
         /// Brick.
         brick: usize,
         /// Its word.
         word: u32,
-        /// Cells that list something in the bricks before it.
+        /// Cells that list something or are divided.
         cells: u32,
+    },
+    /// A divided cell has no brick, or that of another cell, or a list as well.
+    #[error("brick {brick}: its cell {cell} is divided into brick {child}, which is not that cell's")]
+    Division {
+        /// Brick.
+        brick: usize,
+        /// The divided cell, as the bit of the mask.
+        cell: u32,
+        /// Its brick.
+        child: usize,
     },
     /// A brick that lists something is skipped.
     #[error("brick {brick}: towards octant {octant} its distance skips a brick that lists something")]
@@ -102,46 +113,177 @@ impl Contents {
     }
 }
 
-/// Checks that words of bricks number the cells that list something, and that no empty brick's distance skips one
-/// that is not.
-fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
-    let header = &contents.header;
-    let [columns, rows, deep] =
-        [header.columns, header.rows, header.slices].map(|cells| i64::from(cells) / 4);
-    let views = i64::from(contents.config.views.count());
-    let bricks = (views * columns * rows * deep) as usize;
-    let cells_of = |brick: usize| {
-        contents.bricks[3 * brick + 1].count_ones() + contents.bricks[3 * brick + 2].count_ones()
-    };
-    let mut cells = 0;
-    for (brick, word) in contents.bricks.iter().copied().step_by(3).take(bricks).enumerate() {
-        let empty = contents.config.skip && cells_of(brick) == 0;
-        if empty != (word & BRICK_EMPTY != 0) || (!empty && word != cells) {
-            return Err(Fault::Word { brick, word, cells });
+/// A cell that lists something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cell {
+    /// How often cells of the views were divided.
+    pub level: u32,
+    /// Face of a cube; 0 along the axes.
+    pub view: u32,
+    /// Column, row and slice, among cells of that level.
+    pub place: [u32; 3],
+    /// Number of its list.
+    pub list: usize,
+}
+
+/// Where a brick is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    brick: usize,
+    level: u32,
+    view: u32,
+    /// Among bricks of the level.
+    at: [u32; 3],
+}
+
+impl Contents {
+    /// Words of a brick.
+    fn words(&self, brick: usize) -> &[u32] {
+        let words = self.config.brick_words() as usize;
+        &self.bricks[words * brick..words * (brick + 1)]
+    }
+
+    /// Bits of the cells of a brick that list something, and of those that are divided.
+    fn masks(&self, brick: usize) -> [u64; 2] {
+        let words = self.words(brick);
+        let mask = |at: usize| u64::from(words[at]) | u64::from(words[at + 1]) << 32;
+        [mask(1), if self.config.divides() { mask(3) } else { 0 }]
+    }
+
+    /// Columns, rows and slices of the views, in bricks.
+    fn bricks_along(&self) -> [u32; 3] {
+        [self.header.columns, self.header.rows, self.header.slices].map(|cells| cells / 4)
+    }
+
+    /// Bricks of the views.
+    fn of_views(&self) -> impl Iterator<Item = Place> + use<> {
+        let [columns, rows, deep] = self.bricks_along();
+        (0..self.config.views.count() * columns * rows * deep).map(move |brick| Place {
+            brick: brick as usize,
+            level: 0,
+            view: brick / (deep * columns * rows),
+            at: [brick / deep % columns, brick / (deep * columns) % rows, brick % deep],
+        })
+    }
+
+    /// All bricks, each before those of its divided cells.
+    ///
+    /// # Errors
+    /// The brick of a divided cell is another cell's.
+    fn all_bricks(&self) -> Result<Vec<Place>, Fault> {
+        let mut places: Vec<Place> = self.of_views().collect();
+        let (first, stored) =
+            (places.len(), self.header.brick_demand.min(self.header.brick_capacity) as usize);
+        let mut seen = vec![false; stored.saturating_sub(first)];
+        let mut next = 0;
+        while next < places.len() {
+            let parent = places[next];
+            let [_, divided] = self.masks(parent.brick);
+            for (child, cell) in bits_of(divided).enumerate() {
+                let child = self.words(parent.brick)[5] as usize + child;
+                let place = Place {
+                    brick: child,
+                    level: parent.level + 1,
+                    view: parent.view,
+                    at: cell_at(parent.at, cell),
+                };
+                let fault = Fault::Division { brick: parent.brick, cell, child };
+                let known = child.checked_sub(first).and_then(|child| seen.get_mut(child));
+                let Some(known) = known.filter(|known| !**known) else { return Err(fault) };
+                *known = true;
+                let words = self.words(child);
+                if [words[6] & 0xFFFF, words[6] >> 16, words[7]] != place.at {
+                    return Err(fault);
+                }
+                places.push(place);
+            }
+            next += 1;
         }
-        cells += cells_of(brick);
-        if !empty {
+        Ok(places)
+    }
+
+    /// All cells that list something.
+    ///
+    /// # Errors
+    /// The brick of a divided cell is another cell's.
+    pub fn cells(&self) -> Result<Vec<Cell>, Fault> {
+        let mut cells = Vec::new();
+        for Place { brick, level, view, at } in self.all_bricks()? {
+            let [listed, divided] = self.masks(brick);
+            let list = self.words(brick)[0] as usize;
+            cells.extend(
+                bits_of(listed | divided)
+                    .enumerate()
+                    .filter(|(_, cell)| listed >> cell & 1 != 0)
+                    .map(|(rank, cell)| Cell { level, view, place: cell_at(at, cell), list: list + rank }),
+            );
+        }
+        Ok(cells)
+    }
+}
+
+/// Numbers of the bits that are set.
+fn bits_of(mask: u64) -> impl Iterator<Item = u32> {
+    (0..u64::BITS).filter(move |bit| mask >> bit & 1 != 0)
+}
+
+/// The cell of a bit of the brick at a place.
+fn cell_at(brick: [u32; 3], bit: u32) -> [u32; 3] {
+    let within = [bit % 4, bit / 4 % 4, bit / 16];
+    std::array::from_fn(|axis| 4 * brick[axis] + within[axis])
+}
+
+/// Checks that words of bricks number the cells that list something, each once, and that divided cells have none.
+fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
+    let mut taken = vec![false; contents.list_count()];
+    for Place { brick, level, .. } in contents.all_bricks()? {
+        let [listed, divided] = contents.masks(brick);
+        let (word, cells) = (contents.words(brick)[0], (listed | divided).count_ones());
+        let fault = Fault::Word { brick, word, cells };
+        if level == 0 && contents.config.skip && (cells == 0) != (word & BRICK_EMPTY != 0) {
+            return Err(fault);
+        }
+        if cells == 0 {
             continue;
         }
-        let place = brick as i64;
-        let (z, x, y, view) = (
-            place % deep,
-            place / deep % columns,
-            place / (deep * columns) % rows,
-            place / (deep * columns * rows),
-        );
-        for octant in 0..8 {
-            let distance = i64::from(word >> (3 * octant) & 7);
-            let along = |up: bool, at: i64, end: i64| {
-                if up { at..=(at + distance).min(end - 1) } else { (at - distance).max(0)..=at }
+        for (rank, cell) in bits_of(listed | divided).enumerate() {
+            let list = word as usize + rank;
+            let taken = taken.get_mut(list).filter(|taken| !**taken).ok_or(fault.clone())?;
+            *taken = true;
+            if divided >> cell & 1 != 0 && !contents.list(list)?.is_empty() {
+                return Err(Fault::Division { brick, cell, child: contents.words(brick)[5] as usize });
+            }
+        }
+    }
+    match taken.iter().position(|taken| !taken) {
+        None => Ok(()),
+        Some(list) => Err(Fault::Dangling { list, end: contents.lists[list] }),
+    }
+}
+
+/// Checks that no empty brick's distance skips one that is not.
+fn distances_are_well_formed(contents: &Contents) -> Result<(), Fault> {
+    let [columns, rows, deep] = contents.bricks_along().map(i64::from);
+    let empty = |brick: usize| contents.masks(brick) == [0; 2];
+    for Place { brick, view, at, .. } in contents.of_views().filter(|place| empty(place.brick)) {
+        let words = contents.words(brick);
+        let [x, y, z] = at.map(i64::from);
+        for octant in 0..8_u32 {
+            let along = |up: u32, at: i64, distance: i64, end: i64| {
+                if octant & up != 0 { at..=(at + distance).min(end - 1) } else { (at - distance).max(0)..=at }
             };
-            let goes_over = along(octant & 4 != 0, y, rows).any(|y| {
-                along(octant & 2 != 0, x, columns).any(|x| {
-                    along(octant & 1 != 0, z, deep)
-                        .any(|z| cells_of((((view * rows + y) * columns + x) * deep + z) as usize) != 0)
+            let goes_over = |distance: i64, tall: i64| {
+                along(4, y, tall, rows).any(|y| {
+                    along(2, x, distance, columns).any(|x| {
+                        along(1, z, distance, deep).any(|z| {
+                            !empty((((i64::from(view) * rows + y) * columns + x) * deep + z) as usize)
+                        })
+                    })
                 })
-            });
-            if goes_over {
+            };
+            let cube = i64::from(words[0] >> (3 * octant) & 7);
+            let layer = words.get(6).map_or(0, |word| i64::from(word >> (4 * (octant & 3)) & 15) - 1);
+            if goes_over(cube, cube) || goes_over(layer.max(0), 0) {
                 return Err(Fault::Distance { brick, octant });
             }
         }
@@ -156,6 +298,9 @@ fn words_are_well_formed(contents: &Contents) -> Result<(), Fault> {
 /// The first fault found.
 pub fn well_formed(contents: &Contents, triangles: u32) -> Result<(), Fault> {
     words_are_well_formed(contents)?;
+    if contents.config.skip {
+        distances_are_well_formed(contents)?;
+    }
     let stored = contents.stored();
     let mut listed = 0;
     for list in 0..contents.list_count() {

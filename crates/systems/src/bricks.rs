@@ -30,6 +30,7 @@ const OPTIONS: &[Setter<Config>] = &[
         given.choice(&Views::ALL.map(|views| (views.name(), views))).map(|value| config.views = value)
     }),
     ("grid", |config, given| given.number().map(|value| config.grid = Some(value))),
+    ("divisions", |config, given| given.number().map(|value| config.divisions = Some(value))),
     ("slices", |config, given| given.number().map(|value| config.slices = Some(value))),
     ("corners", |config, given| given.switch().map(|value| config.corners = value)),
     ("skip", |config, given| given.switch().map(|value| config.skip = value)),

@@ -94,6 +94,15 @@ pub const OPTIONS: &[OptionRow] = &[
         &["1", "4", "64"],
         "Cells along each side of a block of cells, a power of two, 1 to 64",
     ),
+    row(
+        "divisions",
+        Size,
+        SameForTriangles,
+        Values::Whole(0, 3),
+        &["0", "1", "2"],
+        "Bricks along the axes: how often a cell that lists many small triangles is divided into 4x4x4 smaller ones, at \
+         most, 0 to 3",
+    ),
     row("levels", Size, Same, Values::Whole(1, 2), &["1", "2"], "Levels of blocks of cells, 1 or 2"),
     OptionRow {
         // A camera's view needs a camera, which the scenes of these tests lack.

@@ -8,9 +8,10 @@ use rasray_gpu::{Device, PassTiming, Timing};
 use crate::TracerError;
 
 /// Rebuilds after which a structure counts as unstable. One is enough where all pools are counted at once; a later
-/// pool's demand may only be known once an earlier pool sufficed, and the demand for pages differs slightly from build
-/// to build, for which [`Structure::check`] adds a margin.
-const REBUILDS: u32 = 4;
+/// pool's demand may only be known once an earlier pool sufficed, such as that of the cells of divided cells, which may
+/// be divided themselves, and the demand for pages differs slightly from build to build, for which [`Structure::check`]
+/// adds a margin.
+const REBUILDS: u32 = 8;
 
 /// What a build cost.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use rasray_ads::{BruteForce, Check, Hit, Ray, Structure};
-use rasray_bricks::{Bricks, Builder, Config, Contents, Demand, Views, plan, well_formed};
+use rasray_bricks::{Bricks, Builder, Config, Demand, Views, plan, well_formed};
 use rasray_gpu::Timing;
 use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
@@ -46,26 +46,6 @@ fn mixed(random: &mut Random) -> Vec<Triangle> {
     triangles
 }
 
-/// The triangles of each cell that lists some.
-fn listed(contents: &Contents) -> HashMap<[u32; 3], Vec<u32>> {
-    let [columns, rows, deep] =
-        [contents.header.columns, contents.header.rows, contents.header.slices].map(|n| n / 4);
-    let mut cells = HashMap::new();
-    for brick in 0..columns * rows * deep {
-        let place = [brick / deep % columns, brick / (deep * columns) % rows, brick % deep];
-        for z in 0..4 {
-            let mask = contents.bricks[(3 * brick + 1 + z / 2) as usize];
-            for (y, x) in (0..16).map(|cell| (cell / 4, cell % 4)) {
-                if mask >> (x + 4 * y + 16 * (z % 2)) & 1 != 0 {
-                    let list = contents.list(cells.len()).expect("lists are well formed").to_vec();
-                    cells.insert([4 * place[0] + x, 4 * place[1] + y, 4 * place[2] + z], list);
-                }
-            }
-        }
-    }
-    cells
-}
-
 /// Whether a triangle reaches into the box between two corners; in double precision, by cutting it at the six sides.
 fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> bool {
     let mut polygon = triangle.to_vec();
@@ -88,59 +68,100 @@ fn reaches_into(triangle: &[[f64; 3]; 3], lower: [f64; 3], upper: [f64; 3]) -> b
     !polygon.is_empty()
 }
 
-/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins.
+/// Every cell that a triangle reaches into lists it, and none that is farther from it than the margins; also those of divided
+/// cells.
 #[test]
 fn cells_list_what_reaches_into_them_and_nothing_else() {
     let bench = Bench::new();
     let mut random = Random::new(41);
-    let triangles = mixed(&mut random);
-    for (grid, builder) in [(24, Builder::Binning), (61, Builder::Binning), (24, Builder::Raster)] {
-        let structure = built(&bench, Config { builder, ..axes(Some(grid)) }, &triangles, [0.0; 3]);
+    let mut triangles = mixed(&mut random);
+    // Crowds of small ones, the second of smaller ones within the first.
+    for (count, spread, size) in [(2000, 1.0, 0.03), (2000, 0.05, 0.002)] {
+        triangles.extend((0..count).map(|_| -> Triangle {
+            let at = random.point(-spread, spread);
+            std::array::from_fn(|_| {
+                let away = random.point(-size, size);
+                std::array::from_fn(|axis| at[axis] + away[axis])
+            })
+        }));
+    }
+    for (grid, divisions, builder) in [
+        (24, 0, Builder::Binning),
+        (61, 1, Builder::Binning),
+        (24, 3, Builder::Binning),
+        (24, 0, Builder::Raster),
+        (24, 2, Builder::Raster),
+    ] {
+        let config = Config { builder, divisions: Some(divisions), ..axes(Some(grid)) };
+        let structure = built(&bench, config, &triangles, [0.0; 3]);
         let contents = structure.download(bench.device()).expect("the device works");
         well_formed(&contents, triangles.len() as u32).expect("bricks are well formed");
-        let cells = listed(&contents);
         let header = &contents.header;
-        let count = [header.columns, header.rows, header.slices];
-        let margin: [f64; 3] = std::array::from_fn(|axis| {
-            f64::from(header.rounding * header.cells_per_metre[axis]) + 2.0e-6 * f64::from(grid)
-        });
+        let cells = contents.cells().expect("bricks are well formed");
+        let mut of_levels = [0; 4];
         let (mut reached, mut entries) = (0, 0);
-        for (primitive, triangle) in triangles.iter().enumerate() {
-            let in_cells = triangle.map(|p| {
-                std::array::from_fn::<f64, 3, _>(|axis| {
-                    let from_centre = f64::from(p[axis]) - f64::from(header.centre[axis]);
-                    (from_centre - f64::from(header.cells_lower[axis]))
-                        * f64::from(header.cells_per_metre[axis])
-                })
+        let mut lists = HashMap::new();
+        let in_double: Vec<_> = triangles.iter().map(|triangle| triangle.map(|p| p.map(f64::from))).collect();
+        for cell in &cells {
+            of_levels[cell.level as usize] += 1;
+            let finer = f64::from(1 << (2 * cell.level));
+            let per_metre: [f64; 3] =
+                std::array::from_fn(|axis| f64::from(header.cells_per_metre[axis]) * finer);
+            let margin: [f64; 3] = std::array::from_fn(|axis| {
+                f64::from(header.rounding) * per_metre[axis] + 2.0e-6 * f64::from(grid) * finer
             });
-            let along = |axis: usize| {
-                let lower = in_cells.iter().map(|p| p[axis]).fold(f64::MAX, f64::min);
-                let upper = in_cells.iter().map(|p| p[axis]).fold(f64::MIN, f64::max);
-                (lower - 1.0).max(0.0) as u32..=((upper + 1.0) as u32).min(count[axis] - 1)
+            let sides = |share: f64| {
+                [0.0, 1.0].map(|side| {
+                    std::array::from_fn::<f64, 3, _>(|axis| {
+                        let beyond = share * margin[axis] * (2.0 * side - 1.0);
+                        let at = (f64::from(cell.place[axis]) + side + beyond) / per_metre[axis];
+                        at + f64::from(header.cells_lower[axis]) + f64::from(header.centre[axis])
+                    })
+                })
             };
-            for z in along(2) {
-                for y in along(1) {
-                    for x in along(0) {
-                        let cell = [x, y, z];
-                        let reaches = |share: f64| {
-                            reaches_into(
-                                &in_cells,
-                                std::array::from_fn(|axis| f64::from(cell[axis]) - share * margin[axis]),
-                                std::array::from_fn(|axis| f64::from(cell[axis] + 1) + share * margin[axis]),
-                            )
-                        };
-                        let lists = cells.get(&cell).is_some_and(|list| list.contains(&(primitive as u32)));
-                        entries += usize::from(lists);
-                        reached += usize::from(reaches(0.0));
-                        assert!(lists || !reaches(0.9), "{cell:?} does not list {triangle:?}");
-                        assert!(!lists || reaches(1.5), "{cell:?} lists {triangle:?}");
-                    }
+            let list = contents.list(cell.list).expect("lists are well formed");
+            lists.insert((cell.level, cell.place), list);
+            entries += list.len();
+            let [near, exact, far] = [0.9, 0.0, 1.5].map(sides);
+            for (primitive, triangle) in in_double.iter().enumerate() {
+                let outside = |axis: usize| {
+                    triangle.iter().all(|p| p[axis] < far[0][axis])
+                        || triangle.iter().all(|p| p[axis] > far[1][axis])
+                };
+                let lists = list.contains(&(primitive as u32));
+                if !lists && (0..3).any(outside) {
+                    continue;
                 }
+                let reaches = |[lower, upper]: [[f64; 3]; 2]| reaches_into(triangle, lower, upper);
+                assert!(!lists || reaches(far), "{cell:?} lists {triangle:?}");
+                assert!(lists || !reaches(near), "{cell:?} does not list {triangle:?}");
+                reached += usize::from(reaches(exact));
             }
         }
-        println!("{grid} cells: {entries} entries, {reached} of them exactly");
-        assert_eq!(entries, cells.values().map(Vec::len).sum::<usize>());
-        assert!(reached > 5000 && entries < reached + reached / 50, "{entries} entries for {reached}");
+        // Cells that list nothing hold nothing: places of triangles are in a cell that lists them.
+        for (primitive, triangle) in in_double.iter().enumerate() {
+            for _ in 0..20 {
+                let [u, v] = [(); 2].map(|()| f64::from(random.between(0.0, 1.0)));
+                let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+                let in_cells: [f64; 3] = std::array::from_fn(|axis| {
+                    let at = triangle[0][axis]
+                        + u * (triangle[1][axis] - triangle[0][axis])
+                        + v * (triangle[2][axis] - triangle[0][axis]);
+                    (at - f64::from(header.centre[axis]) - f64::from(header.cells_lower[axis]))
+                        * f64::from(header.cells_per_metre[axis])
+                });
+                let found = (0..=divisions).find_map(|level| {
+                    lists.get(&(level, in_cells.map(|at| (at * f64::from(1 << (2 * level))) as u32)))
+                });
+                assert!(
+                    found.is_some_and(|list| list.contains(&(primitive as u32))),
+                    "nothing lists {triangle:?} at {in_cells:?}"
+                );
+            }
+        }
+        println!("{grid} cells, levels {of_levels:?}: {entries} entries, {reached} of them exactly");
+        assert_eq!(of_levels.iter().filter(|&&cells| cells > 0).count(), divisions as usize + 1);
+        assert!(reached > 5000 && entries < reached + reached / 20, "{entries} entries for {reached}");
     }
 }
 
@@ -225,7 +246,14 @@ fn every_shape_of_a_scene_is_traced_as_by_brute_force() {
         let hit = expected.iter().filter(|hit| hit.is_hit()).count();
         println!("{what}: {hit} of {} rays hit", rays.len());
         assert!(hit > 100 || what.starts_with("a point") || what.starts_with("a line"), "{what}: {hit}");
-        for config in [axes(None), axes(Some(8)), axes(Some(100)), Config { skip: false, ..axes(Some(33)) }] {
+        let undivided = |config| Config { divisions: Some(0), ..config };
+        for config in [
+            axes(None),
+            axes(Some(8)),
+            undivided(axes(Some(100))),
+            Config { skip: false, ..axes(Some(33)) },
+            undivided(Config { skip: false, ..axes(Some(33)) }),
+        ] {
             for eye in [[0.0; 3], [0.0, 1.0e5, 0.0]] {
                 let structure = built(&bench, config, &triangles, eye);
                 let hits = bench.trace(&structure, &rays).hits;
@@ -262,7 +290,15 @@ fn missing_capacity_for_bricks_is_noticed() {
     assert!(expected.iter().all(Hit::is_hit));
 
     for grid in [[0; 3], [4; 3], [32, 32, 28]] {
-        let few = Demand { entries: 1 << 16, near: 0, records: 1 << 16, cells: 1 << 16, triangles: 12, grid };
+        let few = Demand {
+            entries: 1 << 16,
+            near: 0,
+            records: 1 << 16,
+            bricks: 0,
+            cells: 1 << 16,
+            triangles: 12,
+            grid,
+        };
         structure.resize(bench.device(), &plan(&axes(Some(32)), &few).expect("in range")).expect("it fits");
         let status = bench.build_once(&mut structure, [0.0; 3]);
         assert!(!status.complete, "{grid:?}: {status:?}");

@@ -38,8 +38,9 @@ const OF_BRICKS: [Damage; 3] = [
     (
         "the lists of every brick are those of the first",
         |c| {
+            let words = c.config.brick_words() as usize;
             c.bricks
-                .chunks_exact_mut(3)
+                .chunks_exact_mut(words)
                 .filter(|brick| brick[1] | brick[2] != 0)
                 .for_each(|brick| brick[0] = 0)
         },
@@ -79,6 +80,8 @@ fn damaged_bricks_are_survived_and_told() {
         for addressing in [Addressing::Descriptor, Addressing::Address] {
             check(Config { addressing, ..Config::new(Views::Cube) }, &OF_BRICKS);
         }
-        check(Config::new(Views::Axes), &OF_BRICKS);
+        for divisions in [0, 3] {
+            check(Config { divisions: Some(divisions), ..Config::new(Views::Axes) }, &OF_BRICKS);
+        }
     }
 }

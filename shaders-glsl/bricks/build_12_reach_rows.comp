@@ -37,6 +37,9 @@ void main() {
         uint reaches = BRICK_DISTANCES(brick_built)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
+            if (BRICK_DEPTH != 0u) {
+                BRICK_WORDS(brick_built)[brick_layer_at(brick)] = reaches;
+            }
             // Until the pass in the other direction, these are the reaches towards lower rows.
             BRICK_WORDS(brick_built)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
         }

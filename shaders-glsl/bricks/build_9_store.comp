@@ -17,16 +17,17 @@ void main() {
         return;
     }
     BrickRecord record = brick_record(brick_built, place);
-    uvec3 cells = brick_cells(brick_built);
     uint lists = BRICK_HEADER(brick_built).cell_capacity;
     uint capacity = BRICK_HEADER(brick_built).capacity;
-    BrickWords words;
-    for (uint slice = record.first; slice <= record.last; slice++) {
-        ivec3 cell = ivec3(record.x, record.y, slice);
-        if (slice == record.first || (slice & 3u) == 0u) {
-            words = brick_words(brick_built, record.face, cell, cells);
-        }
-        uint list = brick_list(words, cell);
+    if ((record.cells.x | record.cells.y) == 0u) {
+        return;
+    }
+    uvec2 mask = brick_mask(brick_built, record.brick) | brick_divided(brick_built, record.brick);
+    uint first = BRICK_WORDS(brick_built)[brick_at(record.brick)];
+    uint word;
+    uint bit;
+    while (brick_take_cell(record.cells, word, bit)) {
+        uint list = first + brick_rank(mask, word, bit);
         if (list < lists) {
             uint entry = atomicAdd(BRICK_LISTS(brick_built)[list], 1u);
             if (entry < capacity) {

@@ -1,0 +1,93 @@
+// What: stores each triangle of a divided cell in the smaller cells that it reaches into. One invocation per record of the level.
+// Reads: records, bricks, geometry, header. Writes: records (less the divided cells), records and masks of the next level,
+// header.record_demand, header.demand.
+// Source: not in the paper; the same function decides as for the cells of a view.
+#version 460
+#include "contract/extensions.glsl"
+#include "bricks/bin.glsl"
+#include "bricks/level.glsl"
+
+layout(local_size_x = BRICK_GROUP_SIZE) in;
+
+// The part of a triangle in the brick of a divided cell, one column of it after the other.
+struct Refined {
+    ivec3 corner;         // first cell of the brick
+    ivec2 lower;          // first and last column that the triangle may reach into, within the brick
+    ivec2 upper;
+    ivec2 column;         // the next
+    uvec2 cells;          // reached so far
+};
+
+Refined refined_begin(BoxClip clip, uvec3 brick) {
+    Refined part;
+    part.corner = ivec3(4u * brick);
+    part.lower = max(ivec2(floor(clip.lower.xy - clip.margin.xy)) - part.corner.xy, ivec2(0));
+    part.upper = min(ivec2(floor(clip.upper.xy + clip.margin.xy)) - part.corner.xy, ivec2(3));
+    part.column = part.lower;
+    part.cells = uvec2(0u);
+    return part;
+}
+
+// Adds the cells of the next column; false behind the last.
+bool refined_column(BoxClip clip, inout Refined part) {
+    if (any(greaterThan(part.column, part.upper))) {
+        return false;
+    }
+    vec2 depths;
+    if (box_clip_depths(clip, part.corner.xy + part.column, 1, depths)) {
+        ivec2 slices = ivec2(floor(depths)) - part.corner.z;
+        if (slices.x <= 3 && slices.y >= 0) {
+            part.cells |= brick_column_bits(uvec2(part.column), uint(max(slices.x, 0)), uint(min(slices.y, 3)));
+        }
+    }
+    bool next_row = part.column.x == part.upper.x;
+    part.column = next_row ? ivec2(part.lower.x, part.column.y + 1) : part.column + ivec2(1, 0);
+    return true;
+}
+
+void main() {
+    uint next = brick_level + 1u;
+    BoxCells axes = brick_axes(brick_built, next);
+    uvec3 all = brick_cells(brick_built) << (2u * next);
+    uint entries = 0u;
+    uvec2 range = brick_level_records();
+    for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
+        BrickRecord record = brick_record(brick_built, place);
+        uvec2 divided = brick_divided(brick_built, record.brick);
+        uvec2 cells = divided & record.cells;
+        if ((cells.x | cells.y) == 0u) {
+            continue;
+        }
+        brick_set_cells(brick_built, place, record.cells & ~divided);
+        BinTriangle triangle;
+        if (!bin_centred(BRICK_HEADER(brick_built).centre, record.primitive, triangle)) {
+            continue;
+        }
+        BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
+        uvec3 brick = brick_place_of(brick_built, record.brick, brick_level);
+        uint child = BRICK_WORDS(brick_built)[brick_child_at(record.brick)];
+        // One loop over the columns of all cells, so that invocations with few of each do not wait for those with many.
+        Refined part;
+        uint word;
+        uint bit;
+        bool begins = true;
+        while (true) {
+            if (begins) {
+                if (!brick_take_cell(cells, word, bit)) {
+                    break;
+                }
+                part = refined_begin(clip, 4u * brick + uvec3(brick_cell_of_bit(word, bit)));
+            }
+            begins = !refined_column(clip, part);
+            if (begins) {
+                // Less the entry of the divided cell.
+                entries += uint(bitCount(part.cells.x) + bitCount(part.cells.y)) - 1u;
+                if ((part.cells.x | part.cells.y) != 0u) {
+                    uint of_cell = child + brick_rank(divided, word, bit);
+                    brick_store_record(brick_built, next, BrickRecord(record.primitive, of_cell, box_clip_is_small(clip), part.cells));
+                }
+            }
+        }
+    }
+    brick_count_entries(brick_built, entries);
+}

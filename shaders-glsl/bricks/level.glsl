@@ -1,0 +1,27 @@
+// What: what passes have in common that build one level of bricks: their constants, and which bricks or records they visit.
+// Workgroups are counted on the device, so an invocation goes on with every BRICK_LEVEL_STRIDE-th.
+// Reads: header. Writes: nothing.
+#ifndef BRICKS_LEVEL_GLSL
+#define BRICKS_LEVEL_GLSL
+
+#include "bricks/accessors.glsl"
+
+layout(push_constant, scalar) uniform BrickLevelConstants {
+    BrickRef brick_built;
+    uint brick_level;
+};
+
+#define BRICK_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICK_GROUP_SIZE)
+
+// First brick or record of the level for this invocation, and what is behind the last of the level.
+uvec2 brick_level_bricks() {
+    return uvec2(BRICK_HEADER(brick_built).brick_first[brick_level] + gl_GlobalInvocationID.x,
+        min(BRICK_HEADER(brick_built).brick_first[brick_level + 1u], BRICK_HEADER(brick_built).brick_capacity));
+}
+
+uvec2 brick_level_records() {
+    return uvec2(BRICK_HEADER(brick_built).record_first[brick_level] + gl_GlobalInvocationID.x,
+        min(BRICK_HEADER(brick_built).record_first[brick_level + 1u], BRICK_HEADER(brick_built).record_capacity));
+}
+
+#endif
