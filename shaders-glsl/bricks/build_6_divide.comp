@@ -1,5 +1,5 @@
 // What: divides the cells of a level that list more than BRICK_CROWDED small triangles: each gets a brick of the next level.
-// Cells are not divided below BRICK_DIVIDED_MARGINS margins. One invocation per brick of the level.
+// Two of the three sides of a smaller cell are BRICK_DIVIDED_MARGINS margins long, at the least. One invocation per brick of the level.
 // Reads: lists, header. Writes: bricks, header.brick_demand, header.brick_groups, lists (zeros).
 // Source: not in the paper.
 #version 460
@@ -23,9 +23,11 @@ uvec2 crowded_cells(uvec2 mask, uint first) {
 }
 
 void main() {
-    vec3 per_metre = BRICK_HEADER(brick_built).cells_per_metre * float(4u << (2u * brick_level));
-    float margin = BRICK_HEADER(brick_built).rounding * max(per_metre.x, max(per_metre.y, per_metre.z));
-    if (brick_level >= BRICK_HEADER(brick_built).depth || margin * BRICK_DIVIDED_MARGINS > 1.0) {
+    // Margins of a smaller cell, in its widths.
+    vec3 margins = BRICK_HEADER(brick_built).rounding * BRICK_HEADER(brick_built).cells_per_metre * float(4u << (2u * brick_level));
+    bvec3 wide = lessThanEqual(margins * BRICK_DIVIDED_MARGINS, vec3(1.0));
+    bool worth_it = (wide.x && wide.y) || (wide.y && wide.z) || (wide.z && wide.x);
+    if (brick_level >= BRICK_HEADER(brick_built).depth || !worth_it) {
         return;
     }
     uvec2 range = brick_level_bricks();

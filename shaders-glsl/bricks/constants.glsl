@@ -18,8 +18,8 @@
 // are no longer than the cell along any axis.
 #define BRICK_DEPTH_MOST 3u
 #define BRICK_CROWDED 16u
-// Widths of a margin that a divided cell has at the least along an axis.
-#define BRICK_DIVIDED_MARGINS 8.0
+// Margins that smaller cells are wide, at the least, along two axes. Bounds that are flat have cells that are.
+#define BRICK_DIVIDED_MARGINS 2.0
 // Maximum columns along a side of a view of the smallest cells: positions of bricks have 16 bits.
 #define BRICK_FINEST_LIMIT 16384u
 // Workgroups of an indirect dispatch, whose invocations go on with what is left.
