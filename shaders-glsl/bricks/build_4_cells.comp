@@ -4,17 +4,16 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
-
 void main() {
     uint brick = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (brick < brick_total(brick_built)) {
-        BRICK_WORDS(brick_built)[brick_at(brick)] = uint(bitCount(BRICK_WORDS(brick_built)[brick_mask_at(brick, 0u)])
-            + bitCount(BRICK_WORDS(brick_built)[brick_mask_at(brick, 1u)]));
+    if (brick < brick_total(build.structure)) {
+        BRICK_WORDS(build.structure)[brick_at(brick)] =
+            uint(bitCount(BRICK_WORDS(build.structure)[brick_mask_at(brick, 0u)])
+            + bitCount(BRICK_WORDS(build.structure)[brick_mask_at(brick, 1u)]));
     }
 }

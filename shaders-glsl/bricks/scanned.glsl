@@ -7,8 +7,6 @@
 
 #include "bricks/accessors.glsl"
 
-#define ScanRef BrickRef
-
 uint scan_count(BrickRef s, uint step) {
     return step == 1u ? brick_total(s) : brick_listed_cells(s);
 }
