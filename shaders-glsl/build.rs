@@ -81,7 +81,9 @@ fn run() -> Result<(), String> {
     let texts = texts.collect::<Result<Vec<_>, _>>()?;
     let ids = constant_ids::code_of_constant_ids(&texts)?;
     write_changed(&out.join("constant_ids.rs"), ids.as_bytes())?;
-    write_changed(&out.join("records.rs"), records::code_of_records(&texts, &numbers)?.as_bytes())
+    let (of_tests, of_all): (Vec<_>, Vec<_>) = texts.iter().partition(|(file, _)| file.contains("/test_"));
+    write_changed(&out.join("records.rs"), records::code_of_records(&of_all, &numbers)?.as_bytes())?;
+    write_changed(&out.join("test_records.rs"), records::code_of_records(&of_tests, &numbers)?.as_bytes())
 }
 
 /// The modules whose features are on, in `out`: those of `prebuilt` where it is and has them, else compiled.

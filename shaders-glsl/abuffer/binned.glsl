@@ -17,7 +17,7 @@
 #define LARGE_CAPACITY(s) ABUFFER_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"
 
-#define bin_built abuffer_built
+#define bin_built build.structure
 
 uint bin_view_count() {
     return (ABUFFER_HAS_CUBE ? VIEW_FACES : 0u) + (ABUFFER_HAS_CAMERA ? 1u : 0u);
@@ -50,21 +50,21 @@ bool bin_load(uint primitive, out BinTriangle triangle) {
 bool bin_begin(BinTriangle triangle, uint place, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.view = bin_view(place);
-    bin.resolution = abuffer_resolution(abuffer_built, bin.view);
+    bin.resolution = abuffer_resolution(build.structure, bin.view);
     bin.a = triangle.a;
     bin.b = triangle.b;
     bin.c = triangle.c;
-    abuffer_view_corners(abuffer_built, bin.view, bin.a, bin.b, bin.c);
+    abuffer_view_corners(build.structure, bin.view, bin.a, bin.b, bin.c);
     float margin = 0.0;
     if (ABUFFER_HAS_CONSERVATIVE) {
-        margin = abuffer_conservative_margin(abuffer_built, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
+        margin = abuffer_conservative_margin(build.structure, bin.a, bin.b, bin.c) + 1.0 / float(bin.resolution);
     }
     if (!coverage_cells(bin.a, bin.b, bin.c, bin.resolution, margin, bin.lower, bin.upper)) {
         return false;
     }
     ivec2 lower;
     ivec2 upper;
-    abuffer_view_cells(abuffer_built, bin.view, lower, upper);
+    abuffer_view_cells(build.structure, bin.view, lower, upper);
     bin.lower = max(bin.lower, lower);
     bin.upper = min(bin.upper, upper);
     bin.large = bin_is_large(bin.lower, bin.upper);
@@ -79,7 +79,7 @@ void bin_visit(Bin bin, ivec2 place) {
     if (!abuffer_covers(bin.a, bin.b, bin.c, place, bin.resolution, coverage)) {
         return;
     }
-    uint cell = abuffer_cell(abuffer_built, bin.view, place);
+    uint cell = abuffer_cell(build.structure, bin.view, place);
 #if BIN_VISIT == BIN_VISIT_BOUNDS
     abuffer_visit_bounds(bin.primitive, cell, coverage);
 #elif BIN_VISIT == BIN_VISIT_COUNT

@@ -5,24 +5,22 @@
 #include "contract/extensions.glsl"
 #include "abuffer/exchange.glsl"
 #include "abuffer/lists.glsl"
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = SORT_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-};
-
 void main() {
     uint page = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * SORT_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint pages = ABUFFER_HEADER(abuffer_built).demand;
-    if (pages > ABUFFER_HEADER(abuffer_built).capacity || page >= pages) {
+    uint pages = ABUFFER_HEADER(build.structure).demand;
+    if (pages > ABUFFER_HEADER(build.structure).capacity || page >= pages) {
         return;
     }
     uint first = page * ABUFFER_PAGE + 1u;
     // At most 28 steps.
     for (uint i = 1u; i < ABUFFER_PAGE; i++) {
-        for (uint k = i; k > 0u && !abuffer_comes_first(abuffer_built, first + k - 1u, first + k); k--) {
-            abuffer_exchange(abuffer_built, first + k - 1u, first + k);
+        for (uint k = i; k > 0u && !abuffer_comes_first(build.structure, first + k - 1u, first + k); k--) {
+            abuffer_exchange(build.structure, first + k - 1u, first + k);
         }
     }
 }

@@ -4,20 +4,19 @@
 #include "contract/extensions.glsl"
 #include "ads/build_status.glsl"
 #include "abuffer/accessors.glsl"
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-};
-
 void main() {
-    bool fits = ABUFFER_HEADER(abuffer_built).demand <= ABUFFER_HEADER(abuffer_built).capacity
-        && ABUFFER_HEADER(abuffer_built).near_demand <= ABUFFER_HEADER(abuffer_built).near_capacity
-        && ABUFFER_HEADER(abuffer_built).long_demand <= ABUFFER_HEADER(abuffer_built).long_capacity
-        && ABUFFER_HEADER(abuffer_built).conservative_demand <= ABUFFER_HEADER(abuffer_built).conservative_capacity
-        && ABUFFER_HEADER(abuffer_built).large_demand <= ABUFFER_HEADER(abuffer_built).large_capacity
-        && geometry_triangle_count() <= ABUFFER_HEADER(abuffer_built).triangles;
+    bool fits = ABUFFER_HEADER(build.structure).demand <= ABUFFER_HEADER(build.structure).capacity
+        && ABUFFER_HEADER(build.structure).near_demand <= ABUFFER_HEADER(build.structure).near_capacity
+        && ABUFFER_HEADER(build.structure).long_demand <= ABUFFER_HEADER(build.structure).long_capacity
+        && ABUFFER_HEADER(build.structure).conservative_demand <= ABUFFER_HEADER(build.structure).conservative_capacity
+        && ABUFFER_HEADER(build.structure).large_demand <= ABUFFER_HEADER(build.structure).large_capacity
+        && geometry_triangle_count() <= ABUFFER_HEADER(build.structure).triangles;
     uint status = build_status(fits);
-    ABUFFER_HEADER(abuffer_built).status = status | (ABUFFER_HEADER(abuffer_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
+    ABUFFER_HEADER(build.structure).status = status | (ABUFFER_HEADER(build.structure).unsorted > 0u
+        ? STATUS_UNSORTED : 0u);
 }

@@ -6,12 +6,10 @@
 #include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "abuffer/accessors.glsl"
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = ABUFFER_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-};
 
 void main() {
     uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
@@ -20,9 +18,10 @@ void main() {
     }
     vec3 lower;
     vec3 upper;
-    bin_box(ABUFFER_HEADER(abuffer_built).eye, primitive, lower, upper);
-    float size = ABUFFER_HEADER(abuffer_built).near_size;
+    bin_box(ABUFFER_HEADER(build.structure).eye, primitive, lower, upper);
+    float size = ABUFFER_HEADER(build.structure).near_size;
     if (bin_box_is_near(lower, upper, size)) {
-        LIST_APPEND(ABUFFER_HEADER(abuffer_built).near_demand, ABUFFER_HEADER(abuffer_built).near_capacity, ABUFFER_NEAR(abuffer_built), 0u, primitive)
+        LIST_APPEND(ABUFFER_HEADER(build.structure).near_demand, ABUFFER_HEADER(build.structure).near_capacity,
+            ABUFFER_NEAR(build.structure), 0u, primitive)
     }
 }

@@ -4,16 +4,14 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "abuffer/accessors.glsl"
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = ABUFFER_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-};
-
 void main() {
     uint cell = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (cell < abuffer_cell_count(abuffer_built)) {
-        abuffer_store_scale(abuffer_built, cell);
+    if (cell < abuffer_cell_count(build.structure)) {
+        abuffer_store_scale(build.structure, cell);
     }
 }

@@ -6,22 +6,20 @@
 #include "ads/geometry.glsl"
 #include "ads/triangle.glsl"
 #include "abuffer/accessors.glsl"
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = ABUFFER_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-};
-
 void main() {
     uint word = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * ABUFFER_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint triangles = min(geometry_triangle_count(), ABUFFER_HEADER(abuffer_built).triangles);
+    uint triangles = min(geometry_triangle_count(), ABUFFER_HEADER(build.structure).triangles);
     if (32u * word >= triangles) {
         return;
     }
     uint marks = 0u;
     for (uint set = 0u; set < abuffer_mark_sets(); set++) {
-        marks |= ABUFFER_BOUNDS(abuffer_built)[abuffer_marks(abuffer_built) + set * abuffer_mark_words(abuffer_built) + word];
+        marks |= ABUFFER_BOUNDS(build.structure)[abuffer_marks(build.structure) + set * abuffer_mark_words(build.structure) + word];
     }
     uint lost = 0u;
     for (uint bit = 0u; bit < min(32u, triangles - 32u * word); bit++) {
@@ -34,6 +32,6 @@ void main() {
         }
     }
     if (lost != 0u) {
-        atomicAdd(ABUFFER_HEADER(abuffer_built).lost, lost);
+        atomicAdd(ABUFFER_HEADER(build.structure).lost, lost);
     }
 }

@@ -12,16 +12,17 @@ layout(location = 0) flat out uvec2 primitive_and_view;
 void main() {
     uint primitive = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
-    uint view = abuffer_first_view + uint(gl_InstanceIndex);
-    uint resolution = abuffer_resolution(abuffer_built, view);
+    // The step is the first of the views that are drawn.
+    uint view = build.step + uint(gl_InstanceIndex);
+    uint resolution = abuffer_resolution(build.structure, view);
     primitive_and_view = uvec2(primitive, view);
     vec3 a;
     vec3 b;
     vec3 c;
-    abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
+    abuffer_view_vertices(build.structure, primitive, view, a, b, c);
 #ifdef CONSERVATIVE
     // Half a cell to its sides, and 1/32 for the hardware's grid.
-    float margin = abuffer_conservative_margin(abuffer_built, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
+    float margin = abuffer_conservative_margin(build.structure, a, b, c) + (1.0 + 1.0 / 16.0) / float(resolution);
     gl_Position = coverage_proposal_within(a, b, c, corner, resolution, margin);
 #else
     if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {

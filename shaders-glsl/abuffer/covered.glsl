@@ -7,11 +7,8 @@
 #include "ads/coverage.glsl"
 #include "ads/overlap.glsl"
 #include "abuffer/vertices.glsl"
-
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-    uint abuffer_first_view;
-};
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 // Whether a triangle reaches into a cell, and its depths there. a, b, c in the view.
 bool abuffer_overlaps(AbufferRef s, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out vec2 depths) {
@@ -30,7 +27,7 @@ bool abuffer_covers(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution, out Ce
     if (covered && ABUFFER_CONSERVATIVE) {
         // Of the triangle itself, rounding included, not of its plane.
         vec2 depths;
-        bool known = abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths);
+        bool known = abuffer_overlaps(build.structure, a, b, c, place, resolution, depths);
         coverage.extent = known ? max(depths.y - coverage.z, coverage.z - depths.x) : uintBitsToFloat(0x7F800000u);
     }
     return covered;

@@ -13,16 +13,16 @@ ivec2 abuffer_place(vec4 frag_coord) {
 
 // What a fragment invocation finds in its cell; false where the triangle does not cover it.
 bool abuffer_fragment(uint primitive, uint view, vec4 frag_coord, out uint cell, out CellCoverage coverage) {
-    uint resolution = abuffer_resolution(abuffer_built, view);
+    uint resolution = abuffer_resolution(build.structure, view);
     ivec2 place = abuffer_place(frag_coord);
-    cell = abuffer_cell(abuffer_built, view, place);
-    if (cell >= abuffer_cell_count(abuffer_built)) {
+    cell = abuffer_cell(build.structure, view, place);
+    if (cell >= abuffer_cell_count(build.structure)) {
         return false;
     }
     vec3 a;
     vec3 b;
     vec3 c;
-    abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
+    abuffer_view_vertices(build.structure, primitive, view, a, b, c);
     if (ABUFFER_COVERAGE != ABUFFER_COVERAGE_HARDWARE) {
         return abuffer_covers(a, b, c, place, resolution, coverage);
     }

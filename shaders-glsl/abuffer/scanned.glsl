@@ -5,8 +5,6 @@
 
 #include "abuffer/lists.glsl"
 
-#define ScanRef AbufferRef
-
 uint scan_count(AbufferRef s, uint step) {
     return abuffer_list_count(s);
 }

@@ -7,15 +7,12 @@
 
 #include "abuffer/exchange.glsl"
 #include "abuffer/lists.glsl"
-
-layout(push_constant, scalar) uniform AbufferBuildConstants {
-    AbufferRef abuffer_built;
-    uint build_round;
-};
+#include "abuffer/names.glsl"
+#include "ads/build_constants.glsl"
 
 #define SortRef AbufferRef
-#define sort_built abuffer_built
-#define sort_round build_round
+#define sort_built build.structure
+#define sort_round build.step
 #define SORT_HEADER(s) ABUFFER_HEADER(s)
 // Behind the sums of the scan.
 #define SORT_WORD(s, place) ABUFFER_SCRATCH(s)[abuffer_scan_words(s) + (place)]

@@ -23,7 +23,7 @@ bool abuffer_in_layer(uint cell, CellCoverage coverage) {
         return true;
     }
     float z_min;
-    if (!abuffer_z_min(abuffer_built, cell, z_min)) {
+    if (!abuffer_z_min(build.structure, cell, z_min)) {
         return true;
     }
     precise float farthest = z_min * (1.0 + ABUFFER_LAYER_SHARE);
@@ -37,14 +37,14 @@ void abuffer_store_payload(uint primitive, CellCoverage coverage, uint link) {
     words = abuffer_pack_attributes(primitive, coverage.barycentrics);
 #else
     if (ABUFFER_PAYLOAD == ABUFFER_PAYLOAD_PLANE) {
-        words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(abuffer_built).eye);
+        words = abuffer_pack_plane(primitive, coverage.barycentrics, ABUFFER_HEADER(build.structure).eye);
     }
 #endif
     for (uint word = 0u; word < ABUFFER_PAYLOAD_WORDS; word++) {
-        abuffer_set_data(abuffer_built, link, word, words[word]);
+        abuffer_set_data(build.structure, link, word, words[word]);
     }
     if (ABUFFER_IDS != 0u) {
-        abuffer_set_data(abuffer_built, link, ABUFFER_PAYLOAD_WORDS, primitive);
+        abuffer_set_data(build.structure, link, ABUFFER_PAYLOAD_WORDS, primitive);
     }
 }
 
@@ -53,16 +53,16 @@ void abuffer_visit_bounds(uint primitive, uint cell, CellCoverage coverage) {
         return;
     }
     if (ABUFFER_SINGLE_LAYER != 0u) {
-        abuffer_widen_near(abuffer_built, cell, coverage.z);
+        abuffer_widen_near(build.structure, cell, coverage.z);
     } else {
-        abuffer_widen_bounds(abuffer_built, cell, coverage.z);
-        abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+        abuffer_widen_bounds(build.structure, cell, coverage.z);
+        abuffer_widen_extent(build.structure, cell, coverage.extent);
     }
 }
 
 void abuffer_visit_count(uint primitive, uint cell, CellCoverage coverage) {
     if (abuffer_in_layer(cell, coverage) && abuffer_keeps(primitive, coverage)) {
-        abuffer_count_one(abuffer_built, abuffer_list(cell, 0u));
+        abuffer_count_one(build.structure, abuffer_list(cell, 0u));
     }
 }
 
@@ -71,7 +71,7 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
         // Not marked: a triangle that is behind others everywhere is lost.
         return;
     }
-    abuffer_mark(abuffer_built, primitive, 0u);
+    abuffer_mark(build.structure, primitive, 0u);
     if (!abuffer_keeps(primitive, coverage)) {
         return;
     }
@@ -79,32 +79,32 @@ void abuffer_visit_store(uint primitive, uint cell, CellCoverage coverage) {
     uint bucket = 0u;
     if (ABUFFER_SINGLE_LAYER != 0u) {
         float z_min;
-        if (!abuffer_z_min(abuffer_built, cell, z_min)) {
+        if (!abuffer_z_min(build.structure, cell, z_min)) {
             // The bounds pass found nothing here, so passes disagree.
-            atomicAdd(ABUFFER_HEADER(abuffer_built).corrupted, 1u);
+            atomicAdd(ABUFFER_HEADER(build.structure).corrupted, 1u);
             return;
         }
         z = max(z, z_min);
-        abuffer_widen_far(abuffer_built, cell, z);
-        abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+        abuffer_widen_far(build.structure, cell, z);
+        abuffer_widen_extent(build.structure, cell, coverage.extent);
     } else if (ABUFFER_BUCKETED) {
-        AbufferBounds bounds = abuffer_bounds(abuffer_built, cell);
+        AbufferBounds bounds = abuffer_bounds(build.structure, cell);
         // The bounds pass may have seen a depth that differs in the last bit.
         z = clamp(z, bounds.z_min, bounds.z_max);
         bucket = bucket_of(z, bounds.z_min, bounds.scale, ABUFFER_BUCKETS);
     } else {
-        abuffer_widen_extent(abuffer_built, cell, coverage.extent);
+        abuffer_widen_extent(build.structure, cell, coverage.extent);
         if (ABUFFER_HAS_ENDS) {
-            abuffer_widen_bounds(abuffer_built, cell, z);
+            abuffer_widen_bounds(build.structure, cell, z);
         }
     }
     uint list = abuffer_list(cell, bucket);
-    uint link = abuffer_allocate(abuffer_built, list);
+    uint link = abuffer_allocate(build.structure, list);
     if (link == 0u) {
         return;
     }
     abuffer_store_payload(primitive, coverage, link);
-    abuffer_push(abuffer_built, list, link, z);
+    abuffer_push(build.structure, list, link, z);
 }
 
 #endif

@@ -17,14 +17,14 @@ bool abuffer_is_edge_on(vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
 
 // Whether the conservative list keeps a triangle that reaches into a cell outside of its centre.
 bool abuffer_conservative_keeps(uint primitive, vec3 a, vec3 b, vec3 c, ivec2 place, uint resolution) {
-    return ABUFFER_CONSERVATIVE || !abuffer_is_marked(abuffer_built, primitive)
+    return ABUFFER_CONSERVATIVE || !abuffer_is_marked(build.structure, primitive)
         || abuffer_is_edge_on(a, b, c, place, resolution);
 }
 
 void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
-    uint resolution = abuffer_resolution(abuffer_built, view);
-    uint cell = abuffer_cell(abuffer_built, view, place);
-    if (cell >= abuffer_cell_count(abuffer_built)) {
+    uint resolution = abuffer_resolution(build.structure, view);
+    uint cell = abuffer_cell(build.structure, view, place);
+    if (cell >= abuffer_cell_count(build.structure)) {
         return;
     }
     vec3 a;
@@ -34,15 +34,15 @@ void abuffer_visit_conservative(uint primitive, uint view, ivec2 place) {
     if (!triangle_has_area(a, b, c)) {
         return;
     }
-    abuffer_view_vertices(abuffer_built, primitive, view, a, b, c);
+    abuffer_view_vertices(build.structure, primitive, view, a, b, c);
     vec2 depths;
     CellCoverage coverage;
-    if (abuffer_overlaps(abuffer_built, a, b, c, place, resolution, depths)
+    if (abuffer_overlaps(build.structure, a, b, c, place, resolution, depths)
         && !coverage_at_center(a, b, c, place, resolution, coverage)
         && abuffer_conservative_keeps(primitive, a, b, c, place, resolution)) {
         // In a set of its own where other invocations read the first set.
-        abuffer_mark(abuffer_built, primitive, abuffer_mark_sets() - 1u);
-        conservative_add(abuffer_built, cell, primitive, depths);
+        abuffer_mark(build.structure, primitive, abuffer_mark_sets() - 1u);
+        conservative_add(build.structure, cell, primitive, depths);
     }
 }
 

@@ -6,13 +6,10 @@
 #include "ads/geometry.glsl"
 #include "structure/names.glsl"
 #include "structure/from_bounds.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform HeaderConstants {
-    StructureRef built;
-};
-
 void main() {
-    STRUCTURE_NAME(from_bounds)(built, geometry_header.lower, geometry_header.upper);
+    STRUCTURE_NAME(from_bounds)(build.structure, geometry_header.lower, geometry_header.upper);
 }

@@ -6,25 +6,22 @@
 #include "ads/constants.glsl"
 #include "structure/names.glsl"
 #include "structure/pyramid.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = PYRAMID_THREADS) in;
 
-layout(push_constant, scalar) uniform PyramidConstants {
-    StructureRef pyramid_built;
-    uint pyramid_step;    // the level, and from bit 8 on the first of the views
-};
-
 void main() {
     uint index = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PYRAMID_THREADS + gl_GlobalInvocationID.x;
-    uint first_view = pyramid_step >> 8;
-    PyramidLevel level = STRUCTURE_NAME(pyramid_first)(pyramid_built, first_view);
+    // The step is the level, and from bit 8 on the first of the views.
+    uint first_view = build.step >> 8;
+    PyramidLevel level = STRUCTURE_NAME(pyramid_first)(build.structure, first_view);
     PyramidLevel below = level;
-    while (level.level < (pyramid_step & 255u)) {
+    while (level.level < (build.step & 255u)) {
         below = level;
         level = pyramid_above(level);
     }
     bool of_cells = level.level == 1u;
-    uint side_below = of_cells ? STRUCTURE_NAME(pyramid_cells)(pyramid_built, first_view) : below.side;
+    uint side_below = of_cells ? STRUCTURE_NAME(pyramid_cells)(build.structure, first_view) : below.side;
     uint blocks = level.side * level.side;
     if (index >= level.views * blocks) {
         return;
@@ -39,9 +36,9 @@ void main() {
             if (any(lessThan(one, ivec2(0))) || any(greaterThanEqual(one, ivec2(side_below)))) {
                 continue;
             }
-            words = max(words, of_cells ? STRUCTURE_NAME(pyramid_cell)(pyramid_built, first_view + view, one - 1)
-                : STRUCTURE_NAME(pyramid_read)(pyramid_built, pyramid_word(below, view, uvec2(one))));
+            words = max(words, of_cells ? STRUCTURE_NAME(pyramid_cell)(build.structure, first_view + view, one - 1)
+                : STRUCTURE_NAME(pyramid_read)(build.structure, pyramid_word(below, view, uvec2(one))));
         }
     }
-    STRUCTURE_NAME(pyramid_write)(pyramid_built, pyramid_word(level, view, block), words);
+    STRUCTURE_NAME(pyramid_write)(build.structure, pyramid_word(level, view, block), words);
 }

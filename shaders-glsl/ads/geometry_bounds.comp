@@ -1,5 +1,5 @@
 // What: computes the bounds of all triangles: one invocation per triangle, one atomic operation per workgroup and side.
-// Reads: positions and indices of GEOMETRY_SET. Writes: keys of its header, which were filled before: all bits for the lower
+// Reads: positions and indices of GEOMETRY_SET, or with BOUNDS_OF_GATHERED what indices are gathered from. Writes: keys of its header, which were filled before: all bits for the lower
 // ones, none for the upper ones.
 #version 460
 #include "contract/extensions.glsl"
@@ -7,7 +7,13 @@
 layout(local_size_x = 64) in;
 
 #define GEOMETRY_WRITTEN
+#ifdef BOUNDS_OF_GATHERED
+#include "ads/gathered.glsl"
+#define BOUNDS_TRIANGLE(primitive) gathered_triangle(primitive)
+#else
 #include "ads/geometry.glsl"
+#define BOUNDS_TRIANGLE(primitive) geometry_triangle(primitive)
+#endif
 
 shared uint shared_keys[6];
 
@@ -37,11 +43,10 @@ void main() {
     barrier();
     uint primitive = thread + gl_WorkGroupSize.x * (gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y);
     if (primitive < geometry_triangle_count()) {
-        vec3 a, b, c;
-        geometry_vertices(primitive, a, b, c);
-        include_corner(a);
-        include_corner(b);
-        include_corner(c);
+        uvec3 vertices = BOUNDS_TRIANGLE(primitive);
+        include_corner(geometry_position(vertices.x));
+        include_corner(geometry_position(vertices.y));
+        include_corner(geometry_position(vertices.z));
     }
     barrier();
     if (thread < 3u) {

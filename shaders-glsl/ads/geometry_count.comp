@@ -11,10 +11,11 @@ layout(local_size_x = 1) in;
 #define GEOMETRY_WRITTEN
 #include "ads/geometry.glsl"
 
+// Where the count lies, and its maximum. 8 bytes.
 layout(push_constant, scalar) uniform GeometryCountConstants {
     uint count_word;     // of the count, in what is bound
-    uint most_triangles;
-};
+    uint most_triangles; // the maximum
+} pushed;
 layout(set = 1, binding = 0, scalar) readonly buffer GeometryCountBuffer {
     uint geometry_counts[];
 };
@@ -23,9 +24,9 @@ layout(set = 1, binding = 1, scalar) writeonly buffer GeometryDrawArgumentBuffer
 };
 
 void main() {
-    uint triangles = min(geometry_counts[count_word], most_triangles);
+    uint triangles = min(geometry_counts[pushed.count_word], pushed.most_triangles);
     geometry_header.triangle_count = triangles;
-    geometry_header.outside = geometry_counts[count_word] - triangles;
+    geometry_header.outside = geometry_counts[pushed.count_word] - triangles;
     for (uint views = 1u; views <= GEOMETRY_DRAW_VIEWS; views++) {
         geometry_draw_arguments[views - 1u] = uvec4(3u * triangles, views, 0u, 0u);
     }

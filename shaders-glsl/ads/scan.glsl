@@ -1,11 +1,11 @@
 // What: the running sum across a workgroup of SCAN_THREADS threads. Passes that scan include structure/scanned.glsl, in
-// which a structure says which of its numbers they run over. It defines ScanRef and
-//   uint scan_count(ScanRef s, uint step)                    how many numbers
-//   uint scan_number(ScanRef s, uint step, uint i)           one of them
-//   void scan_set_number(ScanRef s, uint step, uint i, uint number)
-//   uint scan_sum(ScanRef s, uint step, uint block)          one of ceil(scan_count / SCAN_BLOCK) sums
-//   void scan_set_sum(ScanRef s, uint step, uint block, uint sum)
-//   void scan_set_total(ScanRef s, uint step, uint total)    the sum of all, 2^32 - 1 where it exceeds 32 bits
+// which a structure says which of its numbers they run over. It defines
+//   uint scan_count(StructureRef s, uint step)                    how many numbers
+//   uint scan_number(StructureRef s, uint step, uint i)           one of them
+//   void scan_set_number(StructureRef s, uint step, uint i, uint number)
+//   uint scan_sum(StructureRef s, uint step, uint block)          one of ceil(scan_count / SCAN_BLOCK) sums
+//   void scan_set_sum(StructureRef s, uint step, uint block, uint sum)
+//   void scan_set_total(StructureRef s, uint step, uint total)    the sum of all, 2^32 - 1 where it exceeds 32 bits
 // A structure with several scans tells them apart by the step.
 // Reads, writes: shared memory.
 // Source: Hillis and Steele 1986.

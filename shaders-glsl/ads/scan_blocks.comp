@@ -4,19 +4,16 @@
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"
 #include "structure/scanned.glsl"
+#include "structure/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = SCAN_THREADS) in;
-
-layout(push_constant, scalar) uniform ScanConstants {
-    ScanRef scanned;
-    uint scan_step;
-};
 
 const uint SHARE = SCAN_BLOCK / SCAN_THREADS;
 
 void main() {
     uint block = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-    uint count = scan_count(scanned, scan_step);
+    uint count = scan_count(build.structure, build.step);
     // Structures whose count is known only on the device dispatch for the whole capacity.
     if (block * SCAN_BLOCK >= count) {
         return;
@@ -25,17 +22,17 @@ void main() {
     uint numbers[SHARE];
     uint sum = 0u;
     for (uint i = 0u; i < SHARE; i++) {
-        numbers[i] = first + i < count ? scan_number(scanned, scan_step, first + i) : 0u;
+        numbers[i] = first + i < count ? scan_number(build.structure, build.step, first + i) : 0u;
         sum += numbers[i];
     }
     uint before = scan_inclusive(sum) - sum;
     for (uint i = 0u; i < SHARE; i++) {
         if (first + i < count) {
-            scan_set_number(scanned, scan_step, first + i, before);
+            scan_set_number(build.structure, build.step, first + i, before);
         }
         before += numbers[i];
     }
     if (gl_LocalInvocationID.x == 0u) {
-        scan_set_sum(scanned, scan_step, block, scan_total());
+        scan_set_sum(build.structure, build.step, block, scan_total());
     }
 }

@@ -4,30 +4,27 @@
 #include "contract/extensions.glsl"
 #include "ads/scan.glsl"
 #include "structure/scanned.glsl"
+#include "structure/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = SCAN_THREADS) in;
 
-layout(push_constant, scalar) uniform ScanConstants {
-    ScanRef scanned;
-    uint scan_step;
-};
-
 void main() {
-    uint blocks = (scan_count(scanned, scan_step) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
+    uint blocks = (scan_count(build.structure, build.step) + SCAN_BLOCK - 1u) / SCAN_BLOCK;
     uint carry = 0u;
     bool exceeded = false;
     for (uint first = 0u; first < blocks; first += SCAN_THREADS) {
         uint block = first + gl_LocalInvocationID.x;
-        uint sum = block < blocks ? scan_sum(scanned, scan_step, block) : 0u;
+        uint sum = block < blocks ? scan_sum(build.structure, build.step, block) : 0u;
         uint before = scan_inclusive(sum) - sum;
         if (block < blocks) {
-            scan_set_sum(scanned, scan_step, block, carry + before);
+            scan_set_sum(build.structure, build.step, block, carry + before);
         }
         uint total = scan_total();
         exceeded = exceeded || carry + total < carry;
         carry += total;
     }
     if (gl_LocalInvocationID.x == 0u) {
-        scan_set_total(scanned, scan_step, exceeded ? 0xFFFFFFFFu : carry);
+        scan_set_total(build.structure, build.step, exceeded ? 0xFFFFFFFFu : carry);
     }
 }

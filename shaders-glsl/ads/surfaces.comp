@@ -6,17 +6,13 @@
 #include "ads/queue.glsl"
 #include "contract/trace_state.glsl"
 #include "contract/select.glsl"
+#include "ads/trace_constants.glsl"
 
 layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform SurfaceConstants {
-    StructureRef surface_structure;
-    uint surface_domain;
-};
-
 void main() {
     uint slot;
-    if (!queue_slot(surface_domain, gl_GlobalInvocationID.x, slot)) {
+    if (!queue_slot(trace.domain, gl_GlobalInvocationID.x, slot)) {
         return;
     }
     Hit hit = queue_hit(slot);
@@ -25,5 +21,5 @@ void main() {
         queue_surfaces[slot].primitive = PRIMITIVE_NONE;
         return;
     }
-    queue_set_surface(slot, surface_at(surface_structure, queue_ray(slot), hit));
+    queue_set_surface(slot, surface_at(trace.structure, queue_ray(slot), hit));
 }

@@ -6,24 +6,26 @@
 
 layout(local_size_x = 64) in;
 
-struct Case {
-    float z_min;
-    float z_max;
-    float z;
-    uint buckets;
+// A depth within a range of depths. 16 bytes.
+struct BucketCase {
+    float z_min;          // the least depth
+    float z_max;          // the greatest depth
+    float z;              // the depth
+    uint buckets;         // buckets of the range
 };
 
-layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { Case cases[]; };
+layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { BucketCase cases[]; };
 layout(set = 0, binding = 1, scalar) buffer BucketBuffer { uint buckets[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint case_count;
-};
+// What the kernel works on. 4 bytes.
+layout(push_constant, scalar) uniform BucketTestConstants {
+    uint case_count;      // cases
+} pushed;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index < case_count) {
-        Case c = cases[index];
+    if (index < pushed.case_count) {
+        BucketCase c = cases[index];
         buckets[index] = bucket_of(c.z, c.z_min, bucket_scale(c.z_min, c.z_max, c.buckets), c.buckets);
     }
 }

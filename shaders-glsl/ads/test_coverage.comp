@@ -6,37 +6,37 @@
 
 layout(local_size_x = 64) in;
 
-// Vertices in metres relative to the eye. 48 bytes.
-struct Case {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    uint face;
-    int x;
-    int y;
+// A triangle, and a cell of a face. 48 bytes.
+struct CoverageCase {
+    vec3 triangle[3];     // corners, metres relative to the eye
+    uint face;            // 0 to 5
+    int x;                // column, from -1 to the resolution
+    int y;                // row, from -1 to the resolution
 };
 
-struct Result {
-    uint covered;
-    float z;
+// Whether the centre of the cell is covered. 8 bytes.
+struct CoverageResult {
+    uint covered;         // 0 or 1
+    float z;              // depth; 0 where it is not covered
 };
 
-layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { Case cases[]; };
-layout(set = 0, binding = 1, scalar) buffer ResultBuffer { Result results[]; };
+layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { CoverageCase cases[]; };
+layout(set = 0, binding = 1, scalar) buffer ResultBuffer { CoverageResult results[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint case_count;
-    uint resolution;
-};
+// What the kernel works on. 8 bytes.
+layout(push_constant, scalar) uniform CoverageTestConstants {
+    uint case_count;      // cases
+    uint resolution;      // cells along the side of a face
+} pushed;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) {
+    if (index >= pushed.case_count) {
         return;
     }
-    Case c = cases[index];
+    CoverageCase c = cases[index];
     CellCoverage coverage;
-    bool covered = coverage_at_center(face_from_world(c.a, c.face), face_from_world(c.b, c.face),
-        face_from_world(c.c, c.face), ivec2(c.x, c.y), resolution, coverage);
-    results[index] = Result(covered ? 1u : 0u, covered ? coverage.z : 0.0);
+    bool covered = coverage_at_center(face_from_world(c.triangle[0], c.face), face_from_world(c.triangle[1], c.face),
+        face_from_world(c.triangle[2], c.face), ivec2(c.x, c.y), pushed.resolution, coverage);
+    results[index] = CoverageResult(covered ? 1u : 0u, covered ? coverage.z : 0.0);
 }

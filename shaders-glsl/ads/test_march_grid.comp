@@ -11,27 +11,28 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint ray_count;
-    uint size;
+// What the kernel works on. 12 bytes.
+layout(push_constant, scalar) uniform GridMarchTestConstants {
+    uint ray_count;       // rays
+    uint size;            // cells along a side
     uint limit;           // visits per ray
-};
+} pushed;
 
 void add(uint ray, ivec3 cell) {
     uint place = counts[ray]++;
-    if (place < limit) {
-        visits[ray * limit + place] = cell;
+    if (place < pushed.limit) {
+        visits[ray * pushed.limit + place] = cell;
     }
 }
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= ray_count) {
+    if (index >= pushed.ray_count) {
         return;
     }
     Ray ray = rays[index];
     GridMarch m;
-    if (!grid_begin(ray.origin, ray.direction, ivec3(size), ray.t_min, ray.t_max, m)) {
+    if (!grid_begin(ray.origin, ray.direction, ivec3(pushed.size), ray.t_min, ray.t_max, m)) {
         return;
     }
     bool more = true;

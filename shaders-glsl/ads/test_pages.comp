@@ -10,34 +10,35 @@ layout(set = 0, binding = 1, scalar) buffer SlotBuffer { uint slots[]; };
 // The number of pages taken, the words of the lists, and pages of a word and PAGE_SIZE entries: thread number + 1.
 layout(set = 0, binding = 2, scalar) buffer PageBuffer { uint words[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint thread_count;
-    uint list_count;
-    uint page_size;
-    uint page_capacity;
-};
+// What the kernel works on. 16 bytes.
+layout(push_constant, scalar) uniform PageTestConstants {
+    uint thread_count;    // threads, of an entry each
+    uint list_count;      // lists
+    uint page_size;       // entries per page
+    uint page_capacity;   // pages
+} pushed;
 
 uint page_word(uint page) {
-    return 1u + list_count + page * (1u + page_size);
+    return 1u + pushed.list_count + page * (1u + pushed.page_size);
 }
 
 #define PageRef uint
-#define PAGE_SIZE page_size
+#define PAGE_SIZE pushed.page_size
 #define PAGE_LIST(s, list) words[1u + (list)]
 #define PAGE_NEXT(s, page) words[page_word(page)]
 #define PAGE_DEMAND(s) words[0]
-#define PAGE_CAPACITY(s) page_capacity
+#define PAGE_CAPACITY(s) pushed.page_capacity
 #include "ads/pages.glsl"
 
 void main() {
     uint thread = gl_GlobalInvocationID.x;
-    if (thread >= thread_count) {
+    if (thread >= pushed.thread_count) {
         return;
     }
     uint slot = page_take_slot(0u, list_of_thread[thread]);
     slots[thread] = slot;
-    uint page = slot / page_size;
-    if (page < page_capacity) {
-        words[page_word(page) + 1u + slot % page_size] = thread + 1u;
+    uint page = slot / pushed.page_size;
+    if (page < pushed.page_capacity) {
+        words[page_word(page) + 1u + slot % pushed.page_size] = thread + 1u;
     }
 }

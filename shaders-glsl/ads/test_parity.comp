@@ -26,18 +26,19 @@ layout(local_size_x = 64) in;
 layout(set = 3, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 3, binding = 1, scalar) buffer HitBuffer { Hit hits[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uvec2 first;
-    uvec2 second;
-    uint count;
-};
+// Two structures, and what is traced through both. 20 bytes.
+layout(push_constant, scalar) uniform ParityTestConstants {
+    uvec2 first;          // device address of a header, low word first; zero with descriptors
+    uvec2 second;         // device address of a header, low word first; zero with descriptors
+    uint count;           // rays
+} pushed;
 
 // Far more pauses than a ray of a test takes. A ray that is still paused after them stores no answer.
 const uint MOST_PAUSES = 64u;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= count) {
+    if (index >= pushed.count) {
         return;
     }
     Ray ray = rays[index];
@@ -45,7 +46,7 @@ void main() {
     TraceState state = trace_state_begin(ray);
     uint result = TRACE_PAUSED;
     for (uint pauses = 0u; pauses < MOST_PAUSES && result == TRACE_PAUSED; pauses++) {
-        result = trace_first(first, ray, state, hit);
+        result = trace_first(pushed.first, ray, state, hit);
     }
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[2u * index] = hit;
@@ -53,7 +54,7 @@ void main() {
     state = trace_state_begin(ray);
     result = TRACE_PAUSED;
     for (uint pauses = 0u; pauses < MOST_PAUSES && result == TRACE_PAUSED; pauses++) {
-        result = trace_second(second, ray, state, hit);
+        result = trace_second(pushed.second, ray, state, hit);
     }
     if (result == TRACE_HIT || result == TRACE_MISS) {
         hits[2u * index + 1u] = hit;

@@ -6,40 +6,41 @@
 
 layout(local_size_x = 64) in;
 
-// 48 bytes.
-struct Case {
-    vec3 lower;
-    vec3 upper;
-    vec3 eye;
-    uint cells[3];
+// What is placed. 48 bytes.
+struct PlacementCase {
+    vec3 bounds[2];       // lower and upper corner, metres
+    vec3 eye;             // metres
+    uint cells[3];        // cells of the box along each axis
 };
 
-// 72 bytes.
-struct Result {
-    vec3 centre;          // centre_within
-    vec4 cube;            // cube_placement
-    vec3 box_centre;      // box_placement
-    float box_rounding;
-    vec3 box_lower;
-    vec3 box_per_metre;
-    float box_reach;
+// Where it is placed. 72 bytes.
+struct PlacementResult {
+    vec3 centre;          // `centre_within`
+    vec3 cube_lower;      // `cube_placement`
+    float cube_side;      // `cube_placement`
+    vec3 box_centre;      // `box_placement`
+    float box_rounding;   // `box_placement`
+    vec3 box_lower;       // `box_placement`
+    vec3 box_per_metre;   // `box_placement`
+    float box_reach;      // `box_placement`
 };
 
-layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { Case cases[]; };
-layout(set = 0, binding = 1, scalar) buffer ResultBuffer { Result results[]; };
+layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { PlacementCase cases[]; };
+layout(set = 0, binding = 1, scalar) buffer ResultBuffer { PlacementResult results[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint case_count;
-    uint unused;
-};
+// What the kernel works on. 4 bytes.
+layout(push_constant, scalar) uniform PlacementTestConstants {
+    uint case_count;      // cases
+} pushed;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) {
+    if (index >= pushed.case_count) {
         return;
     }
-    Case c = cases[index];
-    BoxPlacement box = box_placement(c.lower, c.upper, uvec3(c.cells[0], c.cells[1], c.cells[2]), c.eye);
-    results[index] = Result(centre_within(c.eye, c.lower, c.upper), cube_placement(c.lower, c.upper), box.centre, box.rounding,
-        box.lower, box.per_metre, box.reach);
+    PlacementCase c = cases[index];
+    BoxPlacement box = box_placement(c.bounds[0], c.bounds[1], uvec3(c.cells[0], c.cells[1], c.cells[2]), c.eye);
+    vec4 cube = cube_placement(c.bounds[0], c.bounds[1]);
+    vec3 centre = centre_within(c.eye, c.bounds[0], c.bounds[1]);
+    results[index] = PlacementResult(centre, cube.xyz, cube.w, box.centre, box.rounding, box.lower, box.per_metre, box.reach);
 }

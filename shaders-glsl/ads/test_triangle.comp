@@ -6,37 +6,38 @@
 
 layout(local_size_x = 64) in;
 
-// 60 bytes.
-struct Case {
-    vec3 a;
-    vec3 b;
-    vec3 c;
-    vec3 origin;
-    vec3 direction;
+// A triangle and a ray. 60 bytes.
+struct TriangleCase {
+    vec3 triangle[3];     // corners, metres
+    vec3 origin;          // metres
+    vec3 direction;       // of any length
 };
 
-struct Result {
-    uint hit;
-    float t;
-    float t_error;
+// Where the ray hits the triangle. 12 bytes.
+struct TriangleResult {
+    uint hit;             // 0 or 1
+    float t;              // defined where it does
+    float t_error;        // bound of the error of t
 };
 
-layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { Case cases[]; };
-layout(set = 0, binding = 1, scalar) buffer ResultBuffer { Result results[]; };
+layout(set = 0, binding = 0, scalar) readonly buffer CaseBuffer { TriangleCase cases[]; };
+layout(set = 0, binding = 1, scalar) buffer ResultBuffer { TriangleResult results[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint case_count;
-};
+// What the kernel works on. 4 bytes.
+layout(push_constant, scalar) uniform TriangleTestConstants {
+    uint case_count;      // cases
+} pushed;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= case_count) {
+    if (index >= pushed.case_count) {
         return;
     }
-    Case c = cases[index];
-    Result result;
+    TriangleCase c = cases[index];
+    TriangleResult result;
     vec2 barycentrics;
-    bool hit = triangle_intersect(c.origin, c.direction, c.a, c.b, c.c, result.t, barycentrics, result.t_error);
+    bool hit = triangle_intersect(c.origin, c.direction, c.triangle[0], c.triangle[1], c.triangle[2], result.t,
+        barycentrics, result.t_error);
     result.hit = hit ? 1u : 0u;
     results[index] = result;
 }

@@ -18,6 +18,6 @@ void main() {
     if (queue_header.round > 0u) {
         state = queue_states[slot];
     }
-    uint result = trace_closest(trace_structure, ray, state, hit);
+    uint result = trace_closest(trace.structure, ray, state, hit);
     trace_file(slot, result, state, hit);
 }

@@ -18,7 +18,7 @@ void main() {
     if (queue_header.round > 0u) {
         state = queue_states[slot];
     }
-    uint result = trace_occluded(trace_structure, ray, state);
+    uint result = trace_occluded(trace.structure, ray, state);
     Hit hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);
     if (result == TRACE_HIT) {
         hit = state.best;

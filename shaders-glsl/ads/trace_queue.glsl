@@ -10,12 +10,7 @@
 #include "contract/trace_log.glsl"
 #include "contract/trace_state.glsl"
 #include "contract/select.glsl"
-
-layout(push_constant, scalar) uniform TraceConstants {
-    StructureRef trace_structure;
-    uint trace_domain;
-    uint trace_budget;
-};
+#include "ads/trace_constants.glsl"
 
 // Stores the work of a ray so far, where the queue has a buffer for it.
 void queue_file_work(uint slot, TraceState state) {
@@ -27,9 +22,9 @@ void queue_file_work(uint slot, TraceState state) {
 
 // The slot of this invocation; false where there is none.
 bool trace_slot(uint invocation, out uint slot) {
-    work_budget = trace_budget;
+    work_budget = trace.work_budget;
     if (queue_header.round == 0u) {
-        if (!queue_slot(trace_domain, invocation, slot)) {
+        if (!queue_slot(trace.domain, invocation, slot)) {
             return false;
         }
     } else if (invocation < queue_header.listed) {

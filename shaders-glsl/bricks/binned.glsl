@@ -8,10 +8,8 @@
 #define BRICKS_BINNED_GLSL
 
 #include "bricks/bin.glsl"
-
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 // The large-triangle queue is stored where the corners of triangles will be.
 #ifdef ADDRESSING_ADDRESS
@@ -26,7 +24,7 @@ layout(set = STRUCTURE_SET, binding = 7, scalar) buffer BrickLargeBuffer { uint 
 #define LARGE_CAPACITY(s) (BRICK_LARGE_LIMIT * BRICK_HEADER(s).triangle_capacity)
 #include "ads/bin_large.glsl"
 
-#define bin_built brick_built
+#define bin_built build.structure
 #define BIN_ENQUEUES BIN_VISIT_STORE
 #define BIN_TELLS_BLOCKS
 #define BIN_ENDS
@@ -41,8 +39,8 @@ uint bin_view_count() {
 }
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
-    brick_built_space = brick_space(brick_built);
-    return bin_centred(BRICK_HEADER(brick_built).centre, primitive, triangle);
+    brick_built_space = brick_space(build.structure);
+    return bin_centred(BRICK_HEADER(build.structure).centre, primitive, triangle);
 }
 
 bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
@@ -55,11 +53,11 @@ bool bin_reaches(Bin bin, ivec2 lower) {
 }
 
 void bin_visit(Bin bin, ivec2 column) {
-    brick_bin_entries += brick_bin_column(brick_built, bin, column);
+    brick_bin_entries += brick_bin_column(build.structure, bin, column);
 }
 
 void bin_end() {
-    brick_count_entries(brick_built, brick_bin_entries);
+    brick_count_entries(build.structure, brick_bin_entries);
 }
 
 #endif

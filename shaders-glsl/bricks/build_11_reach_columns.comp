@@ -6,16 +6,14 @@
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"
 #include "bricks/distance.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
-
 void main() {
     uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uvec3 bricks = brick_cells(brick_built) >> 2;
+    uvec3 bricks = brick_cells(build.structure) >> 2;
     uint deep = bricks.z;
     if (line >= brick_view_count() * bricks.y * deep) {
         return;
@@ -25,19 +23,19 @@ void main() {
     uvec2 runs = uvec2(BRICK_RUNS_BEGIN);
     for (uint x = 0u; x < bricks.x; x++) {
         uint brick = first + x * deep;
-        uint word = BRICK_WORDS(brick_built)[brick_at(brick)];
+        uint word = BRICK_WORDS(build.structure)[brick_at(brick)];
         bool empty = brick_is_empty(word);
         runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
         runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
-        BRICK_DISTANCES(brick_built)[brick] = brick_reach_of(runs.x) | brick_reach_of(runs.y) << 4;
+        BRICK_DISTANCES(build.structure)[brick] = brick_reach_of(runs.x) | brick_reach_of(runs.y) << 4;
     }
     runs = uvec2(BRICK_RUNS_BEGIN);
     for (uint x = bricks.x; x-- > 0u;) {
         uint brick = first + x * deep;
-        uint word = BRICK_WORDS(brick_built)[brick_at(brick)];
+        uint word = BRICK_WORDS(build.structure)[brick_at(brick)];
         bool empty = brick_is_empty(word);
         runs.x = brick_runs_with(runs.x, empty ? word & 15u : 0u);
         runs.y = brick_runs_with(runs.y, empty ? word >> 4 & 15u : 0u);
-        BRICK_DISTANCES(brick_built)[brick] |= brick_reach_of(runs.x) << 8 | brick_reach_of(runs.y) << 12;
+        BRICK_DISTANCES(build.structure)[brick] |= brick_reach_of(runs.x) << 8 | brick_reach_of(runs.y) << 12;
     }
 }

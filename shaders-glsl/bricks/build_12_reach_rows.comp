@@ -5,12 +5,10 @@
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"
 #include "bricks/distance.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
 
 // The runs of four octants, and the reaches of a brick towards them.
 void lengthen(inout uint runs[4], uint reaches) {
@@ -25,7 +23,7 @@ uint reaches_of(uint runs[4]) {
 
 void main() {
     uint line = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uvec3 bricks = brick_cells(brick_built) >> 2;
+    uvec3 bricks = brick_cells(build.structure) >> 2;
     uint stride = bricks.x * bricks.z;
     if (line >= brick_view_count() * stride) {
         return;
@@ -34,24 +32,24 @@ void main() {
     uint runs[4] = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
     for (uint y = 0u; y < bricks.y; y++) {
         uint brick = first + y * stride;
-        uint reaches = BRICK_DISTANCES(brick_built)[brick];
+        uint reaches = BRICK_DISTANCES(build.structure)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
             if (BRICK_DEPTH != 0u) {
                 BRICK_WORDS(brick_built)[brick_layer_at(brick)] = reaches;
             }
             // Until the pass in the other direction, these are the reaches towards lower rows.
-            BRICK_WORDS(brick_built)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
+            BRICK_WORDS(build.structure)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);
         }
     }
     runs = uint[4](BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN, BRICK_RUNS_BEGIN);
     for (uint y = bricks.y; y-- > 0u;) {
         uint brick = first + y * stride;
-        uint reaches = BRICK_DISTANCES(brick_built)[brick];
+        uint reaches = BRICK_DISTANCES(build.structure)[brick];
         lengthen(runs, reaches);
         if (reaches != 0u) {
-            uint lower = BRICK_WORDS(brick_built)[brick_at(brick)] & 0xFFFFu;
-            BRICK_WORDS(brick_built)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
+            uint lower = BRICK_WORDS(build.structure)[brick_at(brick)] & 0xFFFFu;
+            BRICK_WORDS(build.structure)[brick_at(brick)] = brick_empty_word(lower | reaches_of(runs) << 16);
         }
     }
 }

@@ -4,23 +4,21 @@
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"
 #include "ads/geometry.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
-
 void main() {
     uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (primitive >= min(geometry_triangle_count(), BRICK_HEADER(brick_built).triangle_capacity)) {
+    if (primitive >= min(geometry_triangle_count(), BRICK_HEADER(build.structure).triangle_capacity)) {
         return;
     }
     vec3 a;
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    BRICK_CORNERS(brick_built)[3u * primitive] = a;
-    BRICK_CORNERS(brick_built)[3u * primitive + 1u] = b;
-    BRICK_CORNERS(brick_built)[3u * primitive + 2u] = c;
+    BRICK_CORNERS(build.structure)[3u * primitive] = a;
+    BRICK_CORNERS(build.structure)[3u * primitive + 1u] = b;
+    BRICK_CORNERS(build.structure)[3u * primitive + 2u] = c;
 }

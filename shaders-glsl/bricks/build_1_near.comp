@@ -7,12 +7,10 @@
 #include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "bricks/accessors.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
 
 void main() {
     uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * BRICK_GROUP_SIZE + gl_GlobalInvocationID.x;
@@ -21,13 +19,14 @@ void main() {
     }
     vec3 lower;
     vec3 upper;
-    bin_box(BRICK_HEADER(brick_built).centre, primitive, lower, upper);
+    bin_box(BRICK_HEADER(build.structure).centre, primitive, lower, upper);
     vec3 away = max(max(lower, -upper), vec3(0.0));
     float nearest = max(away.x, max(away.y, away.z));
-    int before = (floatBitsToInt(BRICK_HEADER(brick_built).reach) - floatBitsToInt(nearest)) >> 23;
-    atomicAdd(BRICK_HEADER(brick_built).octaves[clamp(before, 0, int(BRICK_OCTAVES) - 1)], 1u);
-    float size = BRICK_HEADER(brick_built).near_size + BRICK_HEADER(brick_built).rounding;
+    int before = (floatBitsToInt(BRICK_HEADER(build.structure).reach) - floatBitsToInt(nearest)) >> 23;
+    atomicAdd(BRICK_HEADER(build.structure).octaves[clamp(before, 0, int(BRICK_OCTAVES) - 1)], 1u);
+    float size = BRICK_HEADER(build.structure).near_size + BRICK_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
-        LIST_APPEND(BRICK_HEADER(brick_built).near_demand, BRICK_HEADER(brick_built).near_capacity, BRICK_NEAR_LIST(brick_built), 0u, primitive)
+        LIST_APPEND(BRICK_HEADER(build.structure).near_demand, BRICK_HEADER(build.structure).near_capacity,
+            BRICK_NEAR_LIST(build.structure), 0u, primitive)
     }
 }

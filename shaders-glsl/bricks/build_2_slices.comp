@@ -4,12 +4,10 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/accessors.glsl"
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = BRICK_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
 
 void main() {
     if (gl_GlobalInvocationID.x != 0u) {
@@ -17,16 +15,17 @@ void main() {
     }
     uint triangles = 0u;
     for (uint octave = 0u; octave < BRICK_OCTAVES; octave++) {
-        triangles += BRICK_HEADER(brick_built).octaves[octave];
+        triangles += BRICK_HEADER(build.structure).octaves[octave];
     }
     // As few octaves as hold all but one triangle in BRICK_OCTAVE_SHARE; nearer depths are in the first slice.
     uint octaves = BRICK_OCTAVES;
-    uint nearer = BRICK_HEADER(brick_built).octaves[BRICK_OCTAVES - 1u];
+    uint nearer = BRICK_HEADER(build.structure).octaves[BRICK_OCTAVES - 1u];
     while (octaves > 1u && nearer <= triangles / BRICK_OCTAVE_SHARE) {
         octaves--;
-        nearer += BRICK_HEADER(brick_built).octaves[octaves - 1u];
+        nearer += BRICK_HEADER(build.structure).octaves[octaves - 1u];
     }
-    BrickSlices slices = brick_slices_over(BRICK_HEADER(brick_built).reach, octaves, BRICK_HEADER(brick_built).slices);
-    BRICK_HEADER(brick_built).slice_first = slices.first;
-    BRICK_HEADER(brick_built).slice_shift = slices.shift;
+    BrickSlices slices = brick_slices_over(BRICK_HEADER(build.structure).reach, octaves,
+        BRICK_HEADER(build.structure).slices);
+    BRICK_HEADER(build.structure).slice_first = slices.first;
+    BRICK_HEADER(build.structure).slice_shift = slices.shift;
 }

@@ -4,10 +4,8 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "bricks/bin.glsl"
-
-layout(push_constant, scalar) uniform BrickBuildConstants {
-    BrickRef brick_built;
-};
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(location = 0) flat in uvec2 primitive_and_view;
 
@@ -15,10 +13,10 @@ void main() {
     ivec2 column = ivec2(gl_FragCoord.xy) - 1;
     BinTriangle triangle;
     BrickBin bin;
-    if (!bin_centred(BRICK_HEADER(brick_built).centre, primitive_and_view.x, triangle)
-        || !brick_bin_begin(brick_space(brick_built), triangle, primitive_and_view.y, bin)
+    if (!bin_centred(BRICK_HEADER(build.structure).centre, primitive_and_view.x, triangle)
+        || !brick_bin_begin(brick_space(build.structure), triangle, primitive_and_view.y, bin)
         || any(lessThan(column, bin.lower)) || any(greaterThan(column, bin.upper))) {
         return;
     }
-    brick_count_entries(brick_built, brick_bin_column(brick_built, bin, column));
+    brick_count_entries(build.structure, brick_bin_column(build.structure, bin, column));
 }

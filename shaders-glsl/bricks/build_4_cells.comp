@@ -9,17 +9,17 @@
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
 void main() {
-    uint last = brick_stored(brick_built);
+    uint last = brick_stored(build.structure);
     if (gl_GlobalInvocationID.x == 0u) {
-        BRICK_HEADER(brick_built).brick_first[brick_level + 1u] = last;
-        BRICK_HEADER(brick_built).record_first[brick_level + 1u] = brick_stored_records(brick_built);
+        BRICK_HEADER(build.structure).brick_first[build.step + 1u] = last;
+        BRICK_HEADER(build.structure).record_first[build.step + 1u] = brick_stored_records(build.structure);
     }
-    uint first = BRICK_HEADER(brick_built).brick_first[brick_level] + gl_GlobalInvocationID.x;
+    uint first = BRICK_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x;
     for (uint brick = first; brick < last; brick += BRICK_LEVEL_STRIDE) {
-        uvec2 cells = brick_mask(brick_built, brick);
+        uvec2 cells = brick_mask(build.structure, brick);
         uint count = uint(bitCount(cells.x) + bitCount(cells.y));
         if (count > 0u) {
-            BRICK_WORDS(brick_built)[brick_at(brick)] = atomicAdd(BRICK_HEADER(brick_built).cell_demand, count);
+            BRICK_WORDS(build.structure)[brick_at(brick)] = atomicAdd(BRICK_HEADER(build.structure).cell_demand, count);
         }
     }
 }

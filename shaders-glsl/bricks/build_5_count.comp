@@ -9,21 +9,21 @@
 layout(local_size_x = BRICK_GROUP_SIZE) in;
 
 void main() {
-    uint lists = BRICK_HEADER(brick_built).cell_capacity;
+    uint lists = BRICK_HEADER(build.structure).cell_capacity;
     uvec2 range = brick_level_records();
     for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
-        BrickRecord record = brick_record(brick_built, place);
-        uvec2 mask = brick_mask(brick_built, record.brick);
-        uint first = BRICK_WORDS(brick_built)[brick_at(record.brick)];
+        BrickRecord record = brick_record(build.structure, place);
+        uvec2 mask = brick_mask(build.structure, record.brick);
+        uint first = BRICK_WORDS(build.structure)[brick_at(record.brick)];
         uint word;
         uint bit;
         while (brick_take_cell(record.cells, word, bit)) {
             uint list = first + brick_rank(mask, word, bit);
             if (list < lists) {
-                atomicAdd(BRICK_LISTS(brick_built)[list], 1u);
+                atomicAdd(BRICK_LISTS(build.structure)[list], 1u);
             }
-            if (brick_level < BRICK_DEPTH && record.small && list < lists) {
-                atomicAdd(BRICK_SMALL_COUNT(brick_built, list), 1u);
+            if (build.step < BRICK_DEPTH && record.small && list < lists) {
+                atomicAdd(BRICK_SMALL_COUNT(build.structure, list), 1u);
             }
         }
     }

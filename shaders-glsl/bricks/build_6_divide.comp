@@ -10,12 +10,12 @@ layout(local_size_x = BRICK_GROUP_SIZE) in;
 
 // Cells of a brick that are crowded, as a mask.
 uvec2 crowded_cells(uvec2 mask, uint first) {
-    uint lists = BRICK_HEADER(brick_built).cell_capacity;
+    uint lists = BRICK_HEADER(build.structure).cell_capacity;
     uvec2 crowded = uvec2(0u);
     uint word;
     uint bit;
     for (uint list = first; list < lists && brick_take_cell(mask, word, bit); list++) {
-        if (BRICK_SMALL_COUNT(brick_built, list) > BRICK_CROWDED) {
+        if (BRICK_SMALL_COUNT(build.structure, list) > BRICK_CROWDED) {
             crowded[word] |= 1u << bit;
         }
     }
@@ -24,42 +24,42 @@ uvec2 crowded_cells(uvec2 mask, uint first) {
 
 void main() {
     // Margins of a smaller cell, in its widths.
-    vec3 margins = BRICK_HEADER(brick_built).rounding * BRICK_HEADER(brick_built).cells_per_metre * float(4u << (2u * brick_level));
+    vec3 margins = BRICK_HEADER(build.structure).rounding * BRICK_HEADER(build.structure).cells_per_metre * float(4u << (2u * build.step));
     bvec3 wide = lessThanEqual(margins * BRICK_DIVIDED_MARGINS, vec3(1.0));
     bool worth_it = (wide.x && wide.y) || (wide.y && wide.z) || (wide.z && wide.x);
-    if (brick_level >= BRICK_HEADER(brick_built).depth || !worth_it) {
+    if (build.step >= BRICK_HEADER(build.structure).depth || !worth_it) {
         return;
     }
     uvec2 range = brick_level_bricks();
     for (uint brick = range.x; brick < range.y; brick += BRICK_LEVEL_STRIDE) {
-        uvec2 mask = brick_mask(brick_built, brick);
-        uint list = BRICK_WORDS(brick_built)[brick_at(brick)];
+        uvec2 mask = brick_mask(build.structure, brick);
+        uint list = BRICK_WORDS(build.structure)[brick_at(brick)];
         uvec2 crowded = crowded_cells(mask, list);
         uint count = uint(bitCount(crowded.x) + bitCount(crowded.y));
         if (count == 0u) {
             continue;
         }
-        uint child = atomicAdd(BRICK_HEADER(brick_built).brick_demand, count);
-        if (child + count > BRICK_HEADER(brick_built).brick_capacity) {
+        uint child = atomicAdd(BRICK_HEADER(build.structure).brick_demand, count);
+        if (child + count > BRICK_HEADER(build.structure).brick_capacity) {
             continue;
         }
-        uvec3 place = brick_place_of(brick_built, brick, brick_level);
+        uvec3 place = brick_place_of(build.structure, brick, build.step);
         for (uint word = 0u; word < 2u; word++) {
-            BRICK_WORDS(brick_built)[brick_mask_at(brick, word)] = mask[word] & ~crowded[word];
-            BRICK_WORDS(brick_built)[brick_divided_at(brick, word)] = crowded[word];
+            BRICK_WORDS(build.structure)[brick_mask_at(brick, word)] = mask[word] & ~crowded[word];
+            BRICK_WORDS(build.structure)[brick_divided_at(brick, word)] = crowded[word];
         }
         uvec2 left = crowded;
         uint word;
         uint bit;
         for (uint at = brick_place_at(child); brick_take_cell(left, word, bit); at += BRICK_STRIDE) {
-            BRICK_LISTS(brick_built)[list + brick_rank(mask, word, bit)] = 0u;
+            BRICK_LISTS(build.structure)[list + brick_rank(mask, word, bit)] = 0u;
             uvec3 cell = 4u * place + uvec3(brick_cell_of_bit(word, bit));
-            BRICK_WORDS(brick_built)[at] = cell.x | cell.y << 16;
-            BRICK_WORDS(brick_built)[at + 1u] = cell.z;
+            BRICK_WORDS(build.structure)[at] = cell.x | cell.y << 16;
+            BRICK_WORDS(build.structure)[at + 1u] = cell.z;
         }
-        BRICK_WORDS(brick_built)[brick_child_at(brick)] = child;
-        uint of_level = child + count - BRICK_HEADER(brick_built).brick_first[brick_level + 1u];
+        BRICK_WORDS(build.structure)[brick_child_at(brick)] = child;
+        uint of_level = child + count - BRICK_HEADER(build.structure).brick_first[build.step + 1u];
         uint groups = (of_level + BRICK_GROUP_SIZE - 1u) / BRICK_GROUP_SIZE;
-        atomicMax(BRICK_HEADER(brick_built).brick_groups[3u * (brick_level + 1u)], min(groups, BRICK_GROUPS_MOST));
+        atomicMax(BRICK_HEADER(build.structure).brick_groups[3u * (build.step + 1u)], min(groups, BRICK_GROUPS_MOST));
     }
 }

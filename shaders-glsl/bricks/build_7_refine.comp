@@ -46,26 +46,26 @@ bool refined_column(BoxClip clip, inout Refined part) {
 }
 
 void main() {
-    uint next = brick_level + 1u;
-    BoxCells axes = brick_axes(brick_built, next);
-    uvec3 all = brick_cells(brick_built) << (2u * next);
+    uint next = build.step + 1u;
+    BoxCells axes = brick_axes(build.structure, next);
+    uvec3 all = brick_cells(build.structure) << (2u * next);
     uint entries = 0u;
     uvec2 range = brick_level_records();
     for (uint place = range.x; place < range.y; place += BRICK_LEVEL_STRIDE) {
-        BrickRecord record = brick_record(brick_built, place);
-        uvec2 divided = brick_divided(brick_built, record.brick);
+        BrickRecord record = brick_record(build.structure, place);
+        uvec2 divided = brick_divided(build.structure, record.brick);
         uvec2 cells = divided & record.cells;
         if ((cells.x | cells.y) == 0u) {
             continue;
         }
-        brick_set_cells(brick_built, place, record.cells & ~divided);
+        brick_set_cells(build.structure, place, record.cells & ~divided);
         BinTriangle triangle;
-        if (!bin_centred(BRICK_HEADER(brick_built).centre, record.primitive, triangle)) {
+        if (!bin_centred(BRICK_HEADER(build.structure).centre, record.primitive, triangle)) {
             continue;
         }
         BoxClip clip = box_clip_begin(axes, all, triangle.a, triangle.b, triangle.c);
-        uvec3 brick = brick_place_of(brick_built, record.brick, brick_level);
-        uint child = BRICK_WORDS(brick_built)[brick_child_at(record.brick)];
+        uvec3 brick = brick_place_of(build.structure, record.brick, build.step);
+        uint child = BRICK_WORDS(build.structure)[brick_child_at(record.brick)];
         // One loop over the columns of all cells, so that invocations with few of each do not wait for those with many.
         Refined part;
         uint word;
@@ -84,10 +84,10 @@ void main() {
                 entries += uint(bitCount(part.cells.x) + bitCount(part.cells.y)) - 1u;
                 if ((part.cells.x | part.cells.y) != 0u) {
                     uint of_cell = child + brick_rank(divided, word, bit);
-                    brick_store_record(brick_built, next, BrickRecord(record.primitive, of_cell, box_clip_is_small(clip), part.cells));
+                    brick_store_record(build.structure, next, BrickRecord(record.primitive, of_cell, box_clip_is_small(clip), part.cells));
                 }
             }
         }
     }
-    brick_count_entries(brick_built, entries);
+    brick_count_entries(build.structure, entries);
 }

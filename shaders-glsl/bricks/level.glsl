@@ -5,23 +5,20 @@
 #define BRICKS_LEVEL_GLSL
 
 #include "bricks/accessors.glsl"
-
-layout(push_constant, scalar) uniform BrickLevelConstants {
-    BrickRef brick_built;
-    uint brick_level;
-};
+#include "bricks/names.glsl"
+#include "ads/build_constants.glsl"
 
 #define BRICK_LEVEL_STRIDE (gl_NumWorkGroups.x * BRICK_GROUP_SIZE)
 
 // First brick or record of the level for this invocation, and what is behind the last of the level.
 uvec2 brick_level_bricks() {
-    return uvec2(BRICK_HEADER(brick_built).brick_first[brick_level] + gl_GlobalInvocationID.x,
-        min(BRICK_HEADER(brick_built).brick_first[brick_level + 1u], BRICK_HEADER(brick_built).brick_capacity));
+    return uvec2(BRICK_HEADER(build.structure).brick_first[build.step] + gl_GlobalInvocationID.x,
+        min(BRICK_HEADER(build.structure).brick_first[build.step + 1u], BRICK_HEADER(build.structure).brick_capacity));
 }
 
 uvec2 brick_level_records() {
-    return uvec2(BRICK_HEADER(brick_built).record_first[brick_level] + gl_GlobalInvocationID.x,
-        min(BRICK_HEADER(brick_built).record_first[brick_level + 1u], BRICK_HEADER(brick_built).record_capacity));
+    return uvec2(BRICK_HEADER(build.structure).record_first[build.step] + gl_GlobalInvocationID.x,
+        min(BRICK_HEADER(build.structure).record_first[build.step + 1u], BRICK_HEADER(build.structure).record_capacity));
 }
 
 #endif

@@ -6,8 +6,6 @@
 
 #include "bricks/accessors.glsl"
 
-#define ScanRef BrickRef
-
 uint scan_count(BrickRef s, uint step) {
     return brick_listed_cells(s);
 }

@@ -1,6 +1,6 @@
-//! Structs of GLSL as structs of Rust.
+//! Structs and push constants of GLSL as structs of Rust.
 //!
-//! A record is a struct of an included file (`.glsl`) whose comment says its size ("336 bytes."): the host and shaders
+//! A record is a block of push constants, or a struct whose comment says its size ("336 bytes."): the host and shaders
 //! both have it. Everything is read from the text of the GLSL, and no compiled module is: modules are what tests hold
 //! the result against. Offsets follow scalar block layout, in which a member has the alignment of its scalars; those are
 //! words of 4 bytes.
@@ -16,7 +16,13 @@ pub(crate) const ZEROS_MISLEAD: [&str; 4] = ["Ray", "Hit", "TraceState", "BvhNod
 /// Bytes of a scalar.
 const WORD: usize = 4;
 
-/// A struct as GLSL declares it.
+/// How a block of push constants begins.
+const PUSH_CONSTANTS: &str = "layout(push_constant, scalar) uniform ";
+
+/// What a shader gets to a structure by: the device address of its header, whatever the structure.
+const STRUCTURE_REF: &str = "StructureRef";
+
+/// A struct or a block of push constants as GLSL declares it.
 #[derive(Debug)]
 struct Declared {
     name: String,
@@ -46,13 +52,14 @@ struct Type {
     has_eq: bool,
 }
 
-/// Code of all records of files, given as name and text. `numbers` are what lengths of arrays may name.
+/// Code of all records of files, given as name and text. `numbers` are what lengths of arrays may name. A record may
+/// hold others of the same files.
 pub(crate) fn code_of_records(
-    files: &[(String, String)],
+    files: &[&(String, String)],
     numbers: &BTreeMap<String, u32>,
 ) -> Result<String, String> {
     let mut declared = BTreeMap::new();
-    for (file, text) in files.iter().filter(|(file, _)| file.ends_with(".glsl")) {
+    for (file, text) in files {
         for record in records_of(file, text)? {
             if let Some(other) = declared.insert(record.name.clone(), record) {
                 return Err(format!("{file}: a record of {} has the name {}, too", other.file, other.name));
@@ -72,7 +79,7 @@ pub(crate) fn code_of_records(
     Ok(code)
 }
 
-/// The structs of a file whose comments say how many bytes they have.
+/// The blocks of push constants of a file, and the structs whose comments say how many bytes they have.
 fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
     let mut found = Vec::new();
     let mut comment: Vec<String> = Vec::new();
@@ -83,15 +90,23 @@ fn records_of(file: &str, text: &str) -> Result<Vec<Declared>, String> {
             continue;
         }
         let comment = std::mem::take(&mut comment);
-        let Some(name) = line.strip_prefix("struct ").and_then(|rest| rest.strip_suffix('{')) else {
+        let pushed = line.strip_prefix(PUSH_CONSTANTS);
+        if pushed.is_none() && line.starts_with("layout(") && line.contains("push_constant") {
+            return Err(format!("{file}: `{line}` is no `{PUSH_CONSTANTS}Name {{`"));
+        }
+        let opened = pushed.or_else(|| line.strip_prefix("struct "));
+        let Some(name) = opened.and_then(|rest| rest.strip_suffix('{')).map(str::trim) else { continue };
+        let fault = |what: &str| format!("{file}: {name}: {what}");
+        let Some(bytes) = bytes_in(&comment) else {
+            if pushed.is_some() {
+                return Err(fault("no comment says how many bytes these push constants have"));
+            }
             continue;
         };
-        let (name, Some(bytes)) = (name.trim(), bytes_in(&comment)) else { continue };
-        let fault = |what: &str| format!("{file}: {name}: {what}");
         let (mut members, mut above) = (Vec::new(), Vec::new());
         loop {
             let line = lines.next().ok_or_else(|| fault("it does not end"))?;
-            if line == "};" {
+            if line.strip_prefix('}').is_some_and(|name| name.ends_with(';')) {
                 break;
             }
             let (declaration, words) = line.split_once("//").unwrap_or((line, ""));
@@ -171,6 +186,7 @@ fn plain(kind: &str) -> Option<Type> {
         Some(Type { rust: format!("[{}; {count}]", of.rust), bytes: count * of.bytes, ..of })
     };
     match kind {
+        STRUCTURE_REF => array(scalar("u32"), "2"),
         "float" => Some(scalar("f32")),
         "uint" => Some(scalar("u32")),
         "int" => Some(scalar("i32")),
@@ -234,7 +250,7 @@ mod tests {
 
     fn code(text: &str) -> Result<String, String> {
         let numbers = BTreeMap::from([("COUNT".to_owned(), 5)]);
-        code_of_records(&[("folder/file.glsl".to_owned(), text.to_owned())], &numbers)
+        code_of_records(&[&("folder/file.glsl".to_owned(), text.to_owned())], &numbers)
     }
 
     #[test]
@@ -250,6 +266,11 @@ mod tests {
                 // metres;
                 int second;       // may be negative
             };
+            // What a pass works on. 12 bytes.
+            layout(push_constant, scalar) uniform PassConstants {
+                StructureRef structure;   // the address
+                uint step;                // the number
+            } pass;
             // 160 bytes.
             struct All {
                 Pair pairs[2];    // both
@@ -267,6 +288,9 @@ mod tests {
              #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]\npub struct Pair {\n",
             "    /// `STATUS_*`.\n    pub first: u32,\n    /// Metres; may be negative.\n    pub second: i32,\n}",
             "assert!(size_of::<Pair>() == 8);\n",
+            "/// What a pass works on. 12 bytes.\n",
+            "pub struct PassConstants {\n    /// The address.\n    pub structure: [u32; 2],\n",
+            "assert!(std::mem::offset_of!(PassConstants, step) == 8);\n",
             "Default, PartialEq, Pod, Zeroable)]\npub struct All {\n",
             "pub pairs: [Pair; 2],",
             "pub a: f32,",
@@ -278,7 +302,7 @@ mod tests {
             "assert!(std::mem::offset_of!(All, b) == 20);\n",
             "assert!(std::mem::offset_of!(All, c) == 32);\n",
             "assert!(std::mem::offset_of!(All, f) == 136);\n",
-            "pub const ALL: &[RecordLayout] = &[All::LAYOUT,Pair::LAYOUT,];",
+            "pub const ALL: &[RecordLayout] = &[All::LAYOUT,Pair::LAYOUT,PassConstants::LAYOUT,];",
         ] {
             assert!(code.contains(expected), "{expected}\n{code}");
         }
@@ -297,6 +321,12 @@ mod tests {
             (of(4, "#ifdef A\nuint a; // a"), "is not one member"),
             (of(4, "uint a; // a").repeat(2), "has the name Odd, too"),
             ("// 4 bytes.\nstruct Odd {\nuint a; // a".to_owned(), "it does not end"),
+            (format!("{PUSH_CONSTANTS}Odd {{\nuint a; // a\n}} odd;"), "no comment says how many bytes"),
+            (format!("// 8 bytes.\n{PUSH_CONSTANTS}Odd {{\nuint a; // a\n}} odd;"), "Odd has 4 bytes"),
+            (
+                "layout(push_constant) uniform Odd {\nuint a;\n};".to_owned(),
+                "is no `layout(push_constant, scalar)",
+            ),
         ] {
             let fault = code(&text).expect_err(&text);
             assert!(fault.starts_with("folder/file.glsl: ") && fault.contains(expected), "{fault}");

@@ -15,7 +15,7 @@ void main() {
     vec3 upper;
     bvh_triangle_box(primitive, lower, upper);
     for (uint axis = 0u; axis < 3u; axis++) {
-        bvh_set_scratch(bvh_built, 6u * primitive + axis, floatBitsToUint(lower[axis]));
-        bvh_set_scratch(bvh_built, 6u * primitive + 3u + axis, floatBitsToUint(upper[axis]));
+        bvh_set_scratch(build.structure, 6u * primitive + axis, floatBitsToUint(lower[axis]));
+        bvh_set_scratch(build.structure, 6u * primitive + 3u + axis, floatBitsToUint(upper[axis]));
     }
 }

@@ -20,8 +20,8 @@ void main() {
     uint primitive = bvh_invocation();
     uint triangles = geometry_triangle_count();
     if (primitive == 0u) {
-        BVH_HEADER(bvh_built).triangle_count = triangles;
-        BVH_HEADER(bvh_built).root = triangles > 1u ? 0u : (triangles == 1u ? BVH_LEAF : BVH_NONE);
+        BVH_HEADER(build.structure).triangle_count = triangles;
+        BVH_HEADER(build.structure).root = triangles > 1u ? 0u : (triangles == 1u ? BVH_LEAF : BVH_NONE);
     }
     if (primitive >= triangles) {
         return;
@@ -29,11 +29,11 @@ void main() {
     vec3 lower;
     vec3 upper;
     bvh_triangle_box(primitive, lower, upper);
-    vec3 middle = 0.5 * lower + 0.5 * upper - BVH_HEADER(bvh_built).lower;
-    vec3 cells = clamp(middle * BVH_HEADER(bvh_built).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
+    vec3 middle = 0.5 * lower + 0.5 * upper - BVH_HEADER(build.structure).lower;
+    vec3 cells = clamp(middle * BVH_HEADER(build.structure).cells_per_metre, vec3(0.0), vec3(BVH_CODE_CELLS - 1.0));
     uvec3 cell = uvec3(cells);
     uint code = spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u);
     // The first buffer of keys begins at word 0, whatever the number of triangles.
-    bvh_set_scratch(bvh_built, 2u * primitive, code);
-    bvh_set_scratch(bvh_built, 2u * primitive + 1u, primitive);
+    bvh_set_scratch(build.structure, 2u * primitive, code);
+    bvh_set_scratch(build.structure, 2u * primitive + 1u, primitive);
 }

@@ -10,16 +10,16 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 
 void main() {
     uint chunk = bvh_invocation();
-    uint chunks = bvh_chunks(bvh_built);
+    uint chunks = bvh_chunks(build.structure);
     if (chunk >= chunks) {
         return;
     }
     for (uint value = 0u; value < BVH_DIGIT_VALUES; value++) {
-        bvh_set_scratch(bvh_built, bvh_counts(bvh_built) + value * chunks + chunk, 0u);
+        bvh_set_scratch(build.structure, bvh_counts(build.structure) + value * chunks + chunk, 0u);
     }
-    uint end = min((chunk + 1u) * BVH_SORT_CHUNK, BVH_HEADER(bvh_built).triangle_count);
+    uint end = min((chunk + 1u) * BVH_SORT_CHUNK, BVH_HEADER(build.structure).triangle_count);
     for (uint place = chunk * BVH_SORT_CHUNK; place < end; place++) {
-        uint word = bvh_counts(bvh_built) + bvh_digit_at(bvh_step & 1u, place) * chunks + chunk;
-        bvh_set_scratch(bvh_built, word, bvh_scratch(bvh_built, word) + 1u);
+        uint word = bvh_counts(build.structure) + bvh_digit_at(build.step & 1u, place) * chunks + chunk;
+        bvh_set_scratch(build.structure, word, bvh_scratch(build.structure, word) + 1u);
     }
 }

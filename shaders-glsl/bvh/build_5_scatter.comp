@@ -9,19 +9,19 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 
 void main() {
     uint chunk = bvh_invocation();
-    uint chunks = bvh_chunks(bvh_built);
+    uint chunks = bvh_chunks(build.structure);
     if (chunk >= chunks) {
         return;
     }
-    uint from = bvh_step & 1u;
-    uint end = min((chunk + 1u) * BVH_SORT_CHUNK, BVH_HEADER(bvh_built).triangle_count);
+    uint from = build.step & 1u;
+    uint end = min((chunk + 1u) * BVH_SORT_CHUNK, BVH_HEADER(build.structure).triangle_count);
     for (uint place = chunk * BVH_SORT_CHUNK; place < end; place++) {
-        uint start = bvh_counts(bvh_built) + bvh_digit_at(from, place) * chunks + chunk;
-        uint target = bvh_scratch(bvh_built, start);
-        bvh_set_scratch(bvh_built, start, target + 1u);
-        uint source = bvh_keys(bvh_built, from) + 2u * place;
-        uint destination = bvh_keys(bvh_built, 1u - from) + 2u * target;
-        bvh_set_scratch(bvh_built, destination, bvh_scratch(bvh_built, source));
-        bvh_set_scratch(bvh_built, destination + 1u, bvh_scratch(bvh_built, source + 1u));
+        uint start = bvh_counts(build.structure) + bvh_digit_at(from, place) * chunks + chunk;
+        uint target = bvh_scratch(build.structure, start);
+        bvh_set_scratch(build.structure, start, target + 1u);
+        uint source = bvh_keys(build.structure, from) + 2u * place;
+        uint destination = bvh_keys(build.structure, 1u - from) + 2u * target;
+        bvh_set_scratch(build.structure, destination, bvh_scratch(build.structure, source));
+        bvh_set_scratch(build.structure, destination + 1u, bvh_scratch(build.structure, source + 1u));
     }
 }

@@ -8,12 +8,12 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 
 void main() {
     uint place = bvh_invocation();
-    if (place >= BVH_HEADER(bvh_built).triangle_count) {
+    if (place >= BVH_HEADER(build.structure).triangle_count) {
         return;
     }
-    uint word = BVH_HEADER(bvh_built).order_offset + place * BVH_HEADER(bvh_built).order_stride;
+    uint word = BVH_HEADER(build.structure).order_offset + place * BVH_HEADER(build.structure).order_stride;
     BvhRecord record;
-    record.primitive = bvh_scratch(bvh_built, word);
+    record.primitive = bvh_scratch(build.structure, word);
     geometry_vertices(record.primitive, record.a, record.b, record.c);
-    bvh_set_record(bvh_built, place, record);
+    bvh_set_record(build.structure, place, record);
 }

@@ -9,8 +9,8 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 void main() {
     uint place = bvh_invocation();
     uint below_offset = 0u;
-    uint below_count = BVH_HEADER(bvh_built).triangle_count;
-    for (uint level = 0u; level < bvh_step; level++) {
+    uint below_count = BVH_HEADER(build.structure).triangle_count;
+    for (uint level = 0u; level < build.step; level++) {
         below_offset = union_offset(level, below_offset, below_count);
         below_count = union_count(below_count);
     }
@@ -21,11 +21,11 @@ void main() {
     vec3 upper = -lower;
     uint end = min(BVH_UNION * (place + 1u), below_count);
     for (uint below = BVH_UNION * place; below < end; below++) {
-        union_include(bvh_step, below_offset, below, lower, upper);
+        union_include(build.step, below_offset, below, lower, upper);
     }
-    uint word = union_offset(bvh_step, below_offset, below_count) + 6u * place;
+    uint word = union_offset(build.step, below_offset, below_count) + 6u * place;
     for (uint axis = 0u; axis < 3u; axis++) {
-        bvh_set_scratch(bvh_built, word + axis, floatBitsToUint(lower[axis]));
-        bvh_set_scratch(bvh_built, word + 3u + axis, floatBitsToUint(upper[axis]));
+        bvh_set_scratch(build.structure, word + axis, floatBitsToUint(lower[axis]));
+        bvh_set_scratch(build.structure, word + 3u + axis, floatBitsToUint(upper[axis]));
     }
 }

@@ -9,7 +9,7 @@ layout(local_size_x = BVH_GROUP_SIZE) in;
 
 // Length of the common prefix of the keys at two places; -1 where the second does not exist.
 int common_prefix(int place, int other) {
-    if (other < 0 || other >= int(BVH_HEADER(bvh_built).triangle_count)) {
+    if (other < 0 || other >= int(BVH_HEADER(build.structure).triangle_count)) {
         return -1;
     }
     uint difference = bvh_code(uint(place)) ^ bvh_code(uint(other));
@@ -21,13 +21,13 @@ uint adopt(int child, bool leaf, uint link) {
     if (leaf) {
         return BVH_LEAF | uint(child);
     }
-    bvh_set_parent(bvh_built, uint(child), link);
+    bvh_set_parent(build.structure, uint(child), link);
     return uint(child);
 }
 
 void main() {
     int node = int(bvh_invocation());
-    if (node >= int(BVH_HEADER(bvh_built).triangle_count) - 1) {
+    if (node >= int(BVH_HEADER(build.structure).triangle_count) - 1) {
         return;
     }
     // The node's range of places goes from its own to the side with the longer common prefix.
@@ -58,9 +58,9 @@ void main() {
     uint link = 2u * uint(node);
     uint child_0 = adopt(last_of_first, min(node, other_end) == last_of_first, link);
     uint child_1 = adopt(last_of_first + 1, max(node, other_end) == last_of_first + 1, link + 1u);
-    bvh_set_children(bvh_built, uint(node), child_0, child_1);
+    bvh_set_children(build.structure, uint(node), child_0, child_1);
     if (node == 0) {
-        bvh_set_parent(bvh_built, 0u, BVH_NONE);
+        bvh_set_parent(build.structure, 0u, BVH_NONE);
     }
     uint begin = uint(min(node, other_end));
     uint middle = uint(last_of_first) + 1u;
@@ -68,7 +68,7 @@ void main() {
     vec3 lower;
     vec3 upper;
     union_of_run(begin, middle, lower, upper);
-    bvh_set_box(bvh_built, link, lower, upper);
+    bvh_set_box(build.structure, link, lower, upper);
     union_of_run(middle, end, lower, upper);
-    bvh_set_box(bvh_built, link + 1u, lower, upper);
+    bvh_set_box(build.structure, link + 1u, lower, upper);
 }

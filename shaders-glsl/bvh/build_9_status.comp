@@ -8,8 +8,9 @@
 layout(local_size_x = 1) in;
 
 void main() {
-    uint triangles = BVH_HEADER(bvh_built).triangle_count;
-    bool fits = triangles <= BVH_HEADER(bvh_built).record_capacity && triangles <= BVH_HEADER(bvh_built).node_capacity + 1u
+    uint triangles = BVH_HEADER(build.structure).triangle_count;
+    bool fits = triangles <= BVH_HEADER(build.structure).record_capacity
+        && triangles <= BVH_HEADER(build.structure).node_capacity + 1u
         && triangles == geometry_triangle_count();
-    BVH_HEADER(bvh_built).status = build_status(fits);
+    BVH_HEADER(build.structure).status = build_status(fits);
 }

@@ -5,8 +5,6 @@
 
 #include "bvh/scratch.glsl"
 
-#define ScanRef BvhRef
-
 uint scan_count(BvhRef s, uint step) {
     return BVH_DIGIT_VALUES * bvh_chunks(s);
 }

@@ -12,21 +12,21 @@ uint union_count(uint below) {
 
 // First word of level `level + 1`, given that of `level` and its number of boxes. Level 0 has no words.
 uint union_offset(uint level, uint offset, uint count) {
-    return level == 0u ? bvh_unions(bvh_built) : offset + 6u * count;
+    return level == 0u ? bvh_unions(build.structure) : offset + 6u * count;
 }
 
 // Widens a box by one of a level.
 void union_include(uint level, uint offset, uint place, inout vec3 lower, inout vec3 upper) {
     if (level == 0u) {
-        BvhRecord record = bvh_record(bvh_built, place);
+        BvhRecord record = bvh_record(build.structure, place);
         lower = min(lower, min(record.a, min(record.b, record.c)));
         upper = max(upper, max(record.a, max(record.b, record.c)));
         return;
     }
     uint word = offset + 6u * place;
     for (uint axis = 0u; axis < 3u; axis++) {
-        lower[axis] = min(lower[axis], uintBitsToFloat(bvh_scratch(bvh_built, word + axis)));
-        upper[axis] = max(upper[axis], uintBitsToFloat(bvh_scratch(bvh_built, word + 3u + axis)));
+        lower[axis] = min(lower[axis], uintBitsToFloat(bvh_scratch(build.structure, word + axis)));
+        upper[axis] = max(upper[axis], uintBitsToFloat(bvh_scratch(build.structure, word + 3u + axis)));
     }
 }
 
@@ -35,7 +35,7 @@ void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
     lower = vec3(uintBitsToFloat(0x7F800000u));
     upper = -lower;
     uint offset = 0u;
-    uint count = BVH_HEADER(bvh_built).triangle_count;
+    uint count = BVH_HEADER(build.structure).triangle_count;
     for (uint level = 0u; level < BVH_UNION_LEVELS && begin < end; level++) {
         for (; begin % BVH_UNION != 0u && begin < end; begin++) {
             union_include(level, offset, begin, lower, upper);

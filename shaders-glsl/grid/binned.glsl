@@ -9,10 +9,8 @@
 #include "ads/bin_triangle.glsl"
 #include "ads/box_clip.glsl"
 #include "grid/accessors.glsl"
-
-layout(push_constant, scalar) uniform GridBuildConstants {
-    GridRef grid_built;
-};
+#include "grid/names.glsl"
+#include "ads/build_constants.glsl"
 
 #define LargeRef GridRef
 #define LARGE_WORD(s, place) GRID_SCRATCH(s)[grid_scan_words(s) + place]
@@ -20,7 +18,7 @@ layout(push_constant, scalar) uniform GridBuildConstants {
 #define LARGE_CAPACITY(s) GRID_HEADER(s).triangle_capacity
 #include "ads/bin_large.glsl"
 
-#define bin_built grid_built
+#define bin_built build.structure
 
 // A column of cells along z is visited once.
 uint bin_view_count() {
@@ -38,13 +36,13 @@ struct Bin {
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
-    return bin_centred(GRID_HEADER(grid_built).centre, primitive, triangle);
+    return bin_centred(GRID_HEADER(build.structure).centre, primitive, triangle);
 }
 
 bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     bin.primitive = triangle.primitive;
-    bin.cells = grid_cells(grid_built);
-    bin.clip = box_clip_begin(grid_box_cells(grid_built), bin.cells, triangle.a, triangle.b, triangle.c);
+    bin.cells = grid_cells(build.structure);
+    bin.clip = box_clip_begin(grid_box_cells(build.structure), bin.cells, triangle.a, triangle.b, triangle.c);
     ivec3 last = ivec3(bin.cells) - 1;
     ivec3 lower = clamp(ivec3(floor(bin.clip.lower - bin.clip.margin)), ivec3(0), last);
     ivec3 upper = clamp(ivec3(floor(bin.clip.upper + bin.clip.margin)), ivec3(0), last);
@@ -64,10 +62,11 @@ void bin_visit(Bin bin, ivec2 column) {
     uint first = grid_list(ivec3(column, 0), bin.cells);
     for (int slice = slices.x; slice <= slices.y; slice++) {
 #if BIN_VISIT == BIN_VISIT_STORE
-        LIST_APPEND(GRID_LISTS(grid_built)[first + uint(slice)], GRID_HEADER(grid_built).capacity, GRID_ENTRIES(grid_built), 0u,
+        LIST_APPEND(GRID_LISTS(build.structure)[first + uint(slice)], GRID_HEADER(build.structure).capacity,
+            GRID_ENTRIES(build.structure), 0u,
             bin.primitive)
 #else
-        atomicAdd(GRID_LISTS(grid_built)[first + uint(slice)], 1u);
+        atomicAdd(GRID_LISTS(build.structure)[first + uint(slice)], 1u);
 #endif
     }
 }

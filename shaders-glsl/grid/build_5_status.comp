@@ -4,15 +4,13 @@
 #include "contract/extensions.glsl"
 #include "grid/header.glsl"
 #include "ads/build_status.glsl"
+#include "grid/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform GridBuildConstants {
-    GridRef grid_built;
-};
-
 void main() {
-    bool fits = GRID_HEADER(grid_built).demand <= GRID_HEADER(grid_built).capacity
-        && geometry_triangle_count() <= GRID_HEADER(grid_built).triangle_capacity;
-    GRID_HEADER(grid_built).status = build_status(fits);
+    bool fits = GRID_HEADER(build.structure).demand <= GRID_HEADER(build.structure).capacity
+        && geometry_triangle_count() <= GRID_HEADER(build.structure).triangle_capacity;
+    GRID_HEADER(build.structure).status = build_status(fits);
 }

@@ -5,8 +5,6 @@
 
 #include "grid/accessors.glsl"
 
-#define ScanRef GridRef
-
 uint scan_count(GridRef s, uint step) {
     return grid_cell_count(s);
 }

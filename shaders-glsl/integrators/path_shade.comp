@@ -18,14 +18,14 @@ void main() {
     }
     Ray ray = queue_ray(slot);
     PathState state = path_states[slot];
-    if (wave_round == 0u) {
-        state = path_begin(wave_pixel(slot), wave_sample);
+    if (wave.round == 0u) {
+        state = path_begin(wave_pixel(slot), wave.sample_index);
     }
     Surface surface = surface_miss(ray);
     if (queue_surfaces[slot].valid != 0u) {
         surface = queue_surface(slot);
     }
-    PathStep asked = path_step(state, ray, surface, wave_bounces);
+    PathStep asked = path_step(state, ray, surface, wave.bounces);
     path_states[slot] = state;
     pending_radiance[slot] = asked.pending;
     shadow_ask(slot, asked.shadow_ray);

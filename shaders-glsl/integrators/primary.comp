@@ -22,6 +22,6 @@ void main() {
         return;
     }
     uint pixel = wave_pixel(slot);
-    vec2 position = PIXEL_CENTRES ? pixel_centre(pixel) : camera_pixel_position(pixel, wave_sample);
+    vec2 position = PIXEL_CENTRES ? pixel_centre(pixel) : camera_pixel_position(pixel, wave.sample_index);
     queue_set_ray(slot, camera_ray(position));
 }

@@ -41,24 +41,24 @@ layout(set = INTEGRATOR_SET, binding = 5, scalar) buffer ShadowHeaderBuffer { Qu
 layout(set = INTEGRATOR_SET, binding = 6, scalar) buffer ShadowListBuffer { uint shadow_list[]; };
 layout(set = INTEGRATOR_SET, binding = 7, scalar) buffer AovBuffer { AovPixel aov_pixels[]; };
 
-// Which slots a dispatch works on.
+// Which slots a kernel works on, and what it is told. 28 bytes.
 layout(push_constant, scalar) uniform WaveConstants {
-    uint wave_first_pixel;
-    uint wave_pixel_count;
-    uint wave_sample;
-    uint wave_round;      // closest-hit rounds before this one
-    uint wave_bounces;    // maximum number of scatterings of a path
-    float wave_range;     // metres, of ambient occlusion
-    uint wave_domain;     // of the queue that is bound: wave_pixel_count, or DOMAIN_SELECTED
-};
+    uint first_pixel;     // of the wave
+    uint pixel_count;     // of the wave
+    uint sample_index;    // number of the sample
+    uint round;           // closest-hit rounds before this one
+    uint bounces;         // maximum number of scatterings of a path
+    float range;          // metres, of ambient occlusion
+    uint domain;          // of the queue that is bound: pixel_count, or DOMAIN_SELECTED
+} wave;
 
 // The slot of this invocation; false where there is none.
 bool wave_slot(out uint slot) {
-    return queue_slot(wave_domain, gl_GlobalInvocationID.x, slot);
+    return queue_slot(wave.domain, gl_GlobalInvocationID.x, slot);
 }
 
 uint wave_pixel(uint slot) {
-    return wave_first_pixel + slot;
+    return wave.first_pixel + slot;
 }
 
 bool is_finite(vec3 v) {

@@ -16,10 +16,10 @@ layout(location = 2) flat in uint covering;
 bool fragment_slot(out uint slot) {
     uint width = scene_frame().width;
     uvec2 place = uvec2(gl_FragCoord.xy);
-    uint pixel = (visibility_first_pixel / width + place.y) * width + place.x;
+    uint pixel = (visibility.first_pixel / width + place.y) * width + place.x;
     // Those before the first pixel wrap around.
-    slot = pixel - visibility_first_pixel;
-    return slot < visibility_pixel_count;
+    slot = pixel - visibility.first_pixel;
+    return slot < visibility.pixel_count;
 }
 
 void main() {
@@ -31,7 +31,7 @@ void main() {
     if (!fragment_slot(slot)) {
         return;
     }
-    bool nearest = visibility_round == VISIBILITY_NEAREST;
+    bool nearest = visibility.round == VISIBILITY_NEAREST;
     if (nearest && covering != 0u && slot == 0u) {
         atomicAdd(visibility_counts.covering, 1u);
     }

@@ -23,11 +23,12 @@ layout(set = INTEGRATOR_SET, binding = 0, scalar) buffer VisibilityCountsBuffer 
 // no primitive. Positive floats order like their bits.
 layout(set = QUEUE_SET, binding = 2, scalar) coherent buffer QueueHitWordBuffer { uint queue_hit_words[]; };
 
+// Which pixels are drawn, and what is kept of them. 12 bytes.
 layout(push_constant, scalar) uniform VisibilityConstants {
-    uint visibility_first_pixel;  // of the wave
-    uint visibility_pixel_count;
-    uint visibility_round;        // VISIBILITY_*
-};
+    uint first_pixel;     // of the wave
+    uint pixel_count;     // of the wave
+    uint round;           // VISIBILITY_*
+} visibility;
 
 // Words of the hit of a slot.
 uint visibility_t_word(uint slot) {

@@ -27,8 +27,8 @@ struct Area {
 
 // The area of the wave.
 Area wave_area(Frame frame) {
-    uint first = visibility_first_pixel / frame.width;
-    uint last = (visibility_first_pixel + visibility_pixel_count - 1u) / frame.width;
+    uint first = visibility.first_pixel / frame.width;
+    uint last = (visibility.first_pixel + visibility.pixel_count - 1u) / frame.width;
     vec2 size = vec2(frame.width, last - first + 1u);
     return Area(size, float(first) + 0.5 * size.y, 0.5 * max(size.x, size.y));
 }

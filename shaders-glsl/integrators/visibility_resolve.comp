@@ -14,7 +14,7 @@ layout(local_size_x = QUEUE_GROUP_SIZE) in;
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
-    if (slot >= visibility_pixel_count) {
+    if (slot >= visibility.pixel_count) {
         return;
     }
     Ray ray = queue_ray(slot);

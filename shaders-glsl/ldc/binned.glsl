@@ -19,7 +19,7 @@
 #define LARGE_CAPACITY(s) LDC_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"
 
-#define bin_built ldc_built
+#define bin_built build.structure
 
 uint bin_view_count() {
     return 1u;

@@ -4,19 +4,17 @@
 #include "contract/extensions.glsl"
 #include "ads/build_status.glsl"
 #include "ldc/accessors.glsl"
+#include "ldc/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform LdcBuildConstants {
-    LdcRef ldc_built;
-};
-
 void main() {
-    bool fits = ldc_fragments_fit(ldc_built)
-        && LDC_HEADER(ldc_built).conservative_demand <= LDC_HEADER(ldc_built).conservative_capacity
-        && LDC_HEADER(ldc_built).long_demand <= LDC_HEADER(ldc_built).long_capacity
-        && LDC_HEADER(ldc_built).layer_demand <= LDC_HEADER(ldc_built).layer_capacity
-        && LDC_HEADER(ldc_built).large_demand <= LDC_HEADER(ldc_built).large_capacity;
+    bool fits = ldc_fragments_fit(build.structure)
+        && LDC_HEADER(build.structure).conservative_demand <= LDC_HEADER(build.structure).conservative_capacity
+        && LDC_HEADER(build.structure).long_demand <= LDC_HEADER(build.structure).long_capacity
+        && LDC_HEADER(build.structure).layer_demand <= LDC_HEADER(build.structure).layer_capacity
+        && LDC_HEADER(build.structure).large_demand <= LDC_HEADER(build.structure).large_capacity;
     uint status = build_status(fits);
-    LDC_HEADER(ldc_built).status = status | (LDC_HEADER(ldc_built).unsorted > 0u ? STATUS_UNSORTED : 0u);
+    LDC_HEADER(build.structure).status = status | (LDC_HEADER(build.structure).unsorted > 0u ? STATUS_UNSORTED : 0u);
 }

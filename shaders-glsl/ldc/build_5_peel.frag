@@ -16,29 +16,30 @@ void main() {
     vec2 barycentrics;
     uint primitive = primitive_and_axis.x;
     AxisView view = ldc_built_view(primitive_and_axis.y);
-    if (!ldc_fragments_fit(ldc_built) || !ldc_fragment(view, primitive, cell, z, barycentrics)
+    if (!ldc_fragments_fit(build.structure) || !ldc_fragment(view, primitive, cell, z, barycentrics)
         || !alpha_accepts(primitive, barycentrics)) {
         return;
     }
-    uint layer = build_step / 2u;
-    uint list = ldc_cell(ldc_built, view.axis, cell);
-    uint place = LDC_LISTS(ldc_built)[list] + layer;
-    uint end = list + 1u < ldc_cell_count(ldc_built) ? LDC_LISTS(ldc_built)[list + 1u] : LDC_HEADER(ldc_built).demand;
+    uint layer = build.step / 2u;
+    uint list = ldc_cell(build.structure, view.axis, cell);
+    uint place = LDC_LISTS(build.structure)[list] + layer;
+    uint end = list + 1u < ldc_cell_count(build.structure)
+        ? LDC_LISTS(build.structure)[list + 1u] : LDC_HEADER(build.structure).demand;
     if (place >= end) {
         return;
     }
-    uint bits = ldc_depth_bits(ldc_built, z);
+    uint bits = ldc_depth_bits(build.structure, z);
     if (layer > 0u) {
-        uint before = ldc_bits_at(ldc_built, place - 1u);
-        if (bits < before || (bits == before && primitive <= ldc_primitive(ldc_built, place - 1u))) {
+        uint before = ldc_bits_at(build.structure, place - 1u);
+        if (bits < before || (bits == before && primitive <= ldc_primitive(build.structure, place - 1u))) {
             return;
         }
     }
-    if (build_step % 2u == 0u) {
-        ldc_lower_depth(ldc_built, place, bits);
-    } else if (bits == ldc_bits_at(ldc_built, place)) {
-        ldc_lower_primitive(ldc_built, place, primitive);
-        float stored = ldc_depth_of_bits(ldc_built, bits);
-        ldc_widen_blocks(ldc_built, view.axis, cell, stored, stored);
+    if (build.step % 2u == 0u) {
+        ldc_lower_depth(build.structure, place, bits);
+    } else if (bits == ldc_bits_at(build.structure, place)) {
+        ldc_lower_primitive(build.structure, place, primitive);
+        float stored = ldc_depth_of_bits(build.structure, bits);
+        ldc_widen_blocks(build.structure, view.axis, cell, stored, stored);
     }
 }

@@ -11,30 +11,30 @@
 layout(local_size_x = LDC_GROUP_SIZE) in;
 
 uint list_end(uint list) {
-    return LDC_LISTS(ldc_built)[list];
+    return LDC_LISTS(build.structure)[list];
 }
 
 #include "ads/list_of_place.glsl"
 
 void main() {
     uint place = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * LDC_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint places = ldc_places(ldc_built);
-    if (!ldc_fragments_fit(ldc_built) || place >= places) {
+    uint places = ldc_places(build.structure);
+    if (!ldc_fragments_fit(build.structure) || place >= places) {
         return;
     }
-    uint list = list_of_place(ldc_cell_count(ldc_built), place);
-    uvec2 range = ldc_list(ldc_built, list, places);
-    uint primitive = ldc_primitive(ldc_built, place);
+    uint list = list_of_place(ldc_cell_count(build.structure), place);
+    uvec2 range = ldc_list(build.structure, list, places);
+    uint primitive = ldc_primitive(build.structure, place);
     // Layers that are not peeled yet have no triangle.
     if (place < range.x || place >= range.y || primitive == PRIMITIVE_NONE) {
         return;
     }
-    uint resolution = LDC_HEADER(ldc_built).resolution;
+    uint resolution = LDC_HEADER(build.structure).resolution;
     uint in_view = list % (resolution * resolution);
     ivec2 cell = ivec2(in_view % resolution, in_view / resolution);
     float z;
     vec2 barycentrics;
     if (ldc_fragment(ldc_built_view(list / (resolution * resolution)), primitive, cell, z, barycentrics)) {
-        ldc_set_attributes(ldc_built, place, stored_pack(stored_source(primitive, barycentrics)));
+        ldc_set_attributes(build.structure, place, stored_pack(stored_source(primitive, barycentrics)));
     }
 }

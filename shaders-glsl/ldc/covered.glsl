@@ -7,14 +7,12 @@
 #include "ads/axis_views.glsl"
 #include "ads/geometry.glsl"
 #include "ldc/header.glsl"
-
-layout(push_constant, scalar) uniform LdcBuildConstants {
-    LdcRef ldc_built;
-    uint build_step;
-};
+#include "ldc/names.glsl"
+#include "ads/build_constants.glsl"
 
 AxisView ldc_built_view(uint axis) {
-    return AxisView(LDC_HEADER(ldc_built).origin, LDC_HEADER(ldc_built).cell, LDC_HEADER(ldc_built).resolution, axis);
+    return AxisView(LDC_HEADER(build.structure).origin, LDC_HEADER(build.structure).cell,
+        LDC_HEADER(build.structure).resolution, axis);
 }
 
 // The corners of a triangle in the frame of a view.

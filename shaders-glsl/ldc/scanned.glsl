@@ -5,8 +5,6 @@
 
 #include "ldc/accessors.glsl"
 
-#define ScanRef LdcRef
-
 uint scan_count(LdcRef s, uint step) {
     return ldc_cell_count(s);
 }

@@ -6,15 +6,12 @@
 #define LDC_SORTED_GLSL
 
 #include "ldc/accessors.glsl"
-
-layout(push_constant, scalar) uniform LdcBuildConstants {
-    LdcRef ldc_built;
-    uint build_round;
-};
+#include "ldc/names.glsl"
+#include "ads/build_constants.glsl"
 
 #define SortRef LdcRef
-#define sort_built ldc_built
-#define sort_round build_round
+#define sort_built build.structure
+#define sort_round build.step
 #define SORT_HEADER(s) LDC_HEADER(s)
 // Behind the sums of the scan.
 #define SORT_WORD(s, place) LDC_SCRATCH(s)[ldc_scan_words(s) + (place)]

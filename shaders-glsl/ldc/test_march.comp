@@ -13,16 +13,17 @@ layout(set = 0, binding = 0, scalar) readonly buffer RayBuffer { Ray rays[]; };
 layout(set = 0, binding = 1, scalar) buffer VisitBuffer { ivec3 visits[]; };
 layout(set = 0, binding = 2, scalar) buffer CountBuffer { uint counts[]; };
 
-layout(push_constant, scalar) uniform Constants {
-    uint ray_count;
-    int first;            // squares of the area, the same along both sides
-    int last;
+// What the kernel works on. 16 bytes.
+layout(push_constant, scalar) uniform SquareMarchTestConstants {
+    uint ray_count;       // rays
+    int first;            // first square of the area, the same along both sides
+    int last;             // last square of the area, the same along both sides
     uint limit;           // visits per traversal
-};
+} pushed;
 
 void traverse(uint index, Ray ray, bool stopped) {
     LdcFlatRay flat_ray = ldc_flat_ray(ray.origin.xy, ray.direction.xy);
-    LdcArea area = ldc_area(flat_ray, 1.0, ivec2(first), ivec2(last));
+    LdcArea area = ldc_area(flat_ray, 1.0, ivec2(pushed.first), ivec2(pushed.last));
     vec2 t = vec2(ray.t_min, ray.t_max);
     LdcMarch march;
     bool more = ldc_march_begin(flat_ray, area, t, march);
@@ -33,8 +34,8 @@ void traverse(uint index, Ray ray, bool stopped) {
             ldc_march_resume(flat_ray, cell_of_bits(kept), march);
         }
         uint place = counts[index]++;
-        if (place < limit) {
-            visits[index * limit + place] = ivec3(ldc_march_square(flat_ray, march), march.rows);
+        if (place < pushed.limit) {
+            visits[index * pushed.limit + place] = ivec3(ldc_march_square(flat_ray, march), march.rows);
         }
         more = ldc_march_next(flat_ray, march);
     }
@@ -42,7 +43,7 @@ void traverse(uint index, Ray ray, bool stopped) {
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index < ray_count) {
+    if (index < pushed.ray_count) {
         traverse(2u * index, rays[index], false);
         traverse(2u * index + 1u, rays[index], true);
     }

@@ -14,9 +14,9 @@ void ldc_visit_count(uint primitive, uint axis, ivec2 cell) {
     float z;
     vec2 barycentrics;
     if (ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) && alpha_accepts(primitive, barycentrics)) {
-        uint layer = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, axis, cell)], 1u);
-        if (LDC_BUILD == LDC_BUILD_PEEL && build_step == 0u) {
-            ldc_count_layer(ldc_built, layer);
+        uint layer = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);
+        if (LDC_BUILD == LDC_BUILD_PEEL && build.step == 0u) {
+            ldc_count_layer(build.structure, layer);
         }
     }
 }
@@ -27,15 +27,15 @@ void ldc_visit_store(uint primitive, uint axis, ivec2 cell) {
     if (!ldc_fragment(ldc_built_view(axis), primitive, cell, z, barycentrics) || !alpha_accepts(primitive, barycentrics)) {
         return;
     }
-    uint place = atomicAdd(LDC_LISTS(ldc_built)[ldc_cell(ldc_built, axis, cell)], 1u);
-    if (place >= LDC_HEADER(ldc_built).capacity) {
+    uint place = atomicAdd(LDC_LISTS(build.structure)[ldc_cell(build.structure, axis, cell)], 1u);
+    if (place >= LDC_HEADER(build.structure).capacity) {
         return;
     }
-    uint bits = ldc_depth_bits(ldc_built, z);
-    ldc_add_depth(ldc_built, place, bits);
-    ldc_set_primitive(ldc_built, place, primitive);
-    float stored = ldc_depth_of_bits(ldc_built, bits);
-    ldc_widen_blocks(ldc_built, axis, cell, stored, stored);
+    uint bits = ldc_depth_bits(build.structure, z);
+    ldc_add_depth(build.structure, place, bits);
+    ldc_set_primitive(build.structure, place, primitive);
+    float stored = ldc_depth_of_bits(build.structure, bits);
+    ldc_widen_blocks(build.structure, axis, cell, stored, stored);
 }
 
 #endif

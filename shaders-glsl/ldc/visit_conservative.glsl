@@ -15,21 +15,21 @@
 // is not the ceiling.
 bool ldc_is_stood_for(
     AxisView view, uint cell, uint primitive, vec2 point, float z_point, float z_center, float close) {
-    uvec2 list = ldc_list(ldc_built, cell, ldc_places(ldc_built));
+    uvec2 list = ldc_list(build.structure, cell, ldc_places(build.structure));
     if (list.y - list.x > CONSERVATIVE_LIMIT) {
         return false;
     }
     // The depth of each plane changes by at most one cell between point and centre.
-    float window = 2.0 * view.cell + close + ldc_depth_rounding(ldc_built);
+    float window = 2.0 * view.cell + close + ldc_depth_rounding(build.structure);
     uint draw = geometry_draw(primitive);
     for (uint place = list.x; place < list.y; place++) {
-        if (abs(ldc_depth(ldc_built, place) - z_center) > window) {
+        if (abs(ldc_depth(build.structure, place) - z_center) > window) {
             continue;
         }
         vec3 a;
         vec3 b;
         vec3 c;
-        uint other = ldc_primitive(ldc_built, place);
+        uint other = ldc_primitive(build.structure, place);
         ldc_view_vertices(view, other, a, b, c);
         if (abs(axis_plane_depth(a, b, c, point) - z_point) <= close && geometry_draw(other) == draw) {
             return true;
@@ -39,7 +39,7 @@ bool ldc_is_stood_for(
 }
 
 void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
-    if (!ldc_fragments_fit(ldc_built)) {
+    if (!ldc_fragments_fit(build.structure)) {
         // Which fragments represent a triangle is not known until all fragments fit.
         return;
     }
@@ -62,7 +62,7 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     float z_farthest = max(a.z, max(b.z, c.z));
     float z_point = clamp(axis_plane_depth(a, b, c, point), z_nearest, z_farthest);
     float z_center = axis_plane_depth(a, b, c, center);
-    uint cell = ldc_cell(ldc_built, view.axis, place);
+    uint cell = ldc_cell(build.structure, view.axis, place);
     // A triangle far smaller than a cell is not represented by a surface that is near it only in units of the cell.
     vec3 sides = max(a, max(b, c)) - min(a, min(b, c));
     float size = min(view.cell, max(sides.x, max(sides.y, sides.z)));
@@ -74,8 +74,8 @@ void ldc_visit_conservative(uint primitive, uint axis, ivec2 place) {
     float z_low = clamp(z_center - extent, z_nearest, z_farthest);
     float z_high = clamp(z_center + extent, z_nearest, z_farthest);
     vec2 depths = max(vec2(z_low, z_high), vec2(0.0));
-    ldc_widen_blocks(ldc_built, view.axis, place, depths.x, depths.y);
-    conservative_add(ldc_built, cell, primitive, depths);
+    ldc_widen_blocks(build.structure, view.axis, place, depths.x, depths.y);
+    conservative_add(build.structure, cell, primitive, depths);
 }
 
 #endif

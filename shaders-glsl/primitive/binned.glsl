@@ -9,10 +9,8 @@
 #include "primitive/overlap.glsl"
 #include "primitive/corner_depths.glsl"
 #include "primitive/visit.glsl"
-
-layout(push_constant, scalar) uniform PrimitiveBuildConstants {
-    PrimitiveRef primitive_built;
-};
+#include "primitive/names.glsl"
+#include "ads/build_constants.glsl"
 
 #ifdef ADDRESSING_ADDRESS
 #define LARGE_WORD(s, place) PrimitiveWordAddress(PRIMITIVE_HEADER(s).large_address).words[place]
@@ -26,7 +24,7 @@ layout(set = STRUCTURE_SET, binding = 6, scalar) buffer PrimitiveLargeBuffer { u
 #define LARGE_CAPACITY(s) PRIMITIVE_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"
 
-#define bin_built primitive_built
+#define bin_built build.structure
 // The bounds of cells are always needed, so the large-triangle queue needs no pass of its own.
 #define BIN_ENQUEUES BIN_VISIT_BOUNDS
 #define BIN_TELLS_BLOCKS
@@ -51,14 +49,14 @@ struct Bin {
 };
 
 bool bin_load(uint primitive, out BinTriangle triangle) {
-    return bin_centred(PRIMITIVE_HEADER(primitive_built).centre, primitive, triangle);
+    return bin_centred(PRIMITIVE_HEADER(build.structure).centre, primitive, triangle);
 }
 
 // False where the triangle reaches into no column of the face.
 bool bin_begin(BinTriangle triangle, uint face, out Bin bin) {
     bin.primitive = triangle.primitive;
     bin.face = face;
-    bin.grid = primitive_grid(primitive_built);
+    bin.grid = primitive_grid(build.structure);
     bin.a = face_from_world(triangle.a, face);
     bin.b = face_from_world(triangle.b, face);
     bin.c = face_from_world(triangle.c, face);
@@ -96,11 +94,11 @@ void bin_visit(Bin bin, ivec2 column) {
     }
     uint cell = cell_index(bin.face, column, bin.grid.tiles);
 #if BIN_VISIT == BIN_VISIT_BOUNDS
-    primitive_widen_bounds(primitive_built, cell, depths);
+    primitive_widen_bounds(build.structure, cell, depths);
 #elif BIN_VISIT == BIN_VISIT_COUNT
-    primitive_visit_count(primitive_built, cell, depths);
+    primitive_visit_count(build.structure, cell, depths);
 #elif BIN_VISIT == BIN_VISIT_STORE
-    primitive_visit_store(primitive_built, bin.primitive, cell, depths);
+    primitive_visit_store(build.structure, bin.primitive, cell, depths);
 #endif
 }
 

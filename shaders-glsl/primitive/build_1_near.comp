@@ -6,12 +6,10 @@
 #include "ads/append.glsl"
 #include "ads/bin_triangle.glsl"
 #include "primitive/accessors.glsl"
+#include "primitive/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform PrimitiveBuildConstants {
-    PrimitiveRef primitive_built;
-};
 
 void main() {
     uint primitive = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
@@ -20,9 +18,10 @@ void main() {
     }
     vec3 lower;
     vec3 upper;
-    bin_box(PRIMITIVE_HEADER(primitive_built).centre, primitive, lower, upper);
-    float size = PRIMITIVE_HEADER(primitive_built).near_size + PRIMITIVE_HEADER(primitive_built).rounding;
+    bin_box(PRIMITIVE_HEADER(build.structure).centre, primitive, lower, upper);
+    float size = PRIMITIVE_HEADER(build.structure).near_size + PRIMITIVE_HEADER(build.structure).rounding;
     if (bin_box_is_near(lower, upper, size)) {
-        LIST_APPEND(PRIMITIVE_HEADER(primitive_built).near_demand, PRIMITIVE_HEADER(primitive_built).near_capacity, PRIMITIVE_NEAR_LIST(primitive_built), 0u, primitive)
+        LIST_APPEND(PRIMITIVE_HEADER(build.structure).near_demand, PRIMITIVE_HEADER(build.structure).near_capacity,
+            PRIMITIVE_NEAR_LIST(build.structure), 0u, primitive)
     }
 }

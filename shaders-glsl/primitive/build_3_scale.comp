@@ -4,16 +4,14 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "primitive/accessors.glsl"
+#include "primitive/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = PRIMITIVE_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform PrimitiveBuildConstants {
-    PrimitiveRef primitive_built;
-};
-
 void main() {
     uint cell = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * PRIMITIVE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (cell < primitive_cell_count(primitive_built)) {
-        primitive_store_scale(primitive_built, cell);
+    if (cell < primitive_cell_count(build.structure)) {
+        primitive_store_scale(build.structure, cell);
     }
 }

@@ -12,6 +12,6 @@ void main() {
     uint cell;
     vec2 depths;
     if (primitive_fragment(primitive_and_face.x, primitive_and_face.y, gl_FragCoord, cell, depths)) {
-        primitive_visit_count(primitive_built, cell, depths);
+        primitive_visit_count(build.structure, cell, depths);
     }
 }

@@ -4,16 +4,15 @@
 #include "contract/extensions.glsl"
 #include "primitive/header.glsl"
 #include "ads/build_status.glsl"
+#include "primitive/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform PrimitiveBuildConstants {
-    PrimitiveRef primitive_built;
-};
-
 void main() {
-    bool lists_fit = PRIMITIVE_HEADER(primitive_built).demand <= PRIMITIVE_HEADER(primitive_built).capacity
-        && PRIMITIVE_HEADER(primitive_built).near_demand <= PRIMITIVE_HEADER(primitive_built).near_capacity;
-    bool large_fits = PRIMITIVE_HEADER(primitive_built).large_demand <= PRIMITIVE_HEADER(primitive_built).large_capacity;
-    PRIMITIVE_HEADER(primitive_built).status = build_status(lists_fit && large_fits);
+    bool lists_fit = PRIMITIVE_HEADER(build.structure).demand <= PRIMITIVE_HEADER(build.structure).capacity
+        && PRIMITIVE_HEADER(build.structure).near_demand <= PRIMITIVE_HEADER(build.structure).near_capacity;
+    bool large_fits = PRIMITIVE_HEADER(build.structure).large_demand <=
+        PRIMITIVE_HEADER(build.structure).large_capacity;
+    PRIMITIVE_HEADER(build.structure).status = build_status(lists_fit && large_fits);
 }

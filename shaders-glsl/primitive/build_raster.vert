@@ -13,13 +13,13 @@ void main() {
     uint primitive = uint(gl_VertexIndex) / 3u;
     uint corner = uint(gl_VertexIndex) % 3u;
     uint face = uint(gl_InstanceIndex);
-    PrimitiveGrid grid = primitive_grid(primitive_built);
+    PrimitiveGrid grid = primitive_grid(build.structure);
     uint tiles = grid.tiles;
     primitive_and_face = uvec2(primitive, face);
     vec3 a;
     vec3 b;
     vec3 c;
-    primitive_face_vertices(primitive_built, primitive, face, a, b, c);
+    primitive_face_vertices(build.structure, primitive, face, a, b, c);
     if (!primitive_is_listed(primitive)) {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     } else if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_CONSERVATIVE) {

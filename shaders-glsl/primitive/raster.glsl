@@ -5,20 +5,18 @@
 #define PRIMITIVE_RASTER_GLSL
 
 #include "primitive/corner_depths.glsl"
-
-layout(push_constant, scalar) uniform PrimitiveBuildConstants {
-    PrimitiveRef primitive_built;
-};
+#include "primitive/names.glsl"
+#include "ads/build_constants.glsl"
 
 // The cell of a fragment and the triangle's depths there; false where the triangle is not listed.
 bool primitive_fragment(uint primitive, uint face, vec4 frag_coord, out uint cell, out vec2 depths) {
-    PrimitiveGrid grid = primitive_grid(primitive_built);
+    PrimitiveGrid grid = primitive_grid(build.structure);
     ivec2 place = ivec2(frag_coord.xy) - 1;
     cell = cell_index(face, place, grid.tiles);
     vec3 a;
     vec3 b;
     vec3 c;
-    primitive_face_vertices(primitive_built, primitive, face, a, b, c);
+    primitive_face_vertices(build.structure, primitive, face, a, b, c);
     if (PRIMITIVE_COVERAGE == PRIMITIVE_COVERAGE_HARDWARE) {
         // Coverage by the rasterizer: a triangle that covers no centre is in no list.
         if (!primitive_overlap(grid, a, b, c, place, depths)) {

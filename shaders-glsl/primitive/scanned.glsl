@@ -5,8 +5,6 @@
 
 #include "primitive/accessors.glsl"
 
-#define ScanRef PrimitiveRef
-
 uint scan_count(PrimitiveRef s, uint step) {
     return primitive_list_count(s);
 }

@@ -15,13 +15,14 @@ layout(set = 1, binding = 0, scalar) readonly buffer PosePowerBuffer { PoseLight
 layout(set = 1, binding = 1, scalar) buffer PoseFrameBuffer { Frame pose_frame; };
 layout(set = 1, binding = 2, scalar) buffer PoseLightBuffer { Light pose_lights[]; };
 
+// What shines, and with which power. 20 bytes.
 layout(push_constant, scalar) uniform PoseLightConstants {
     uint light_count;       // point, directional and spot lights
     uint emissive;          // 1 where emissive triangles have power
     float emissive_power;   // W
     uint environment;       // 1 where the environment emits
     float irradiance;       // W/m^2, of the environment
-};
+} pushed;
 
 #define POSE_PI 3.14159265
 // Least probability of a kind that is there.
@@ -37,11 +38,11 @@ void main() {
     vec3 size = geometry_header.upper - geometry_header.lower;
     float disk = min(0.25 * POSE_PI * dot(size, size), POSE_MOST);
     float punctual = 0.0;
-    if (light_count > 0u) {
-        PoseLightPower all = pose_powers[light_count - 1u];
+    if (pushed.light_count > 0u) {
+        PoseLightPower all = pose_powers[pushed.light_count - 1u];
         punctual = pose_power(all.near + pose_power(all.far * disk));
     }
-    for (uint light = gl_LocalInvocationIndex; light < light_count; light += gl_WorkGroupSize.x) {
+    for (uint light = gl_LocalInvocationIndex; light < pushed.light_count; light += gl_WorkGroupSize.x) {
         PoseLightPower here = pose_powers[light];
         float power = pose_power(here.near + pose_power(here.far * disk));
         pose_lights[light].cumulative = power < punctual ? power / punctual : 1.0;
@@ -49,8 +50,8 @@ void main() {
     if (gl_LocalInvocationIndex > 0u) {
         return;
     }
-    bvec3 present = bvec3(light_count > 0u, emissive != 0u, environment != 0u);
-    vec3 power = vec3(punctual, emissive_power, pose_power(irradiance * disk)) * vec3(present);
+    bvec3 present = bvec3(pushed.light_count > 0u, pushed.emissive != 0u, pushed.environment != 0u);
+    vec3 power = vec3(punctual, pushed.emissive_power, pose_power(pushed.irradiance * disk)) * vec3(present);
     // Scaled, so that their sum is finite.
     power /= max(max(max(power.x, power.y), power.z), 1.0e-37);
     float total = power.x + power.y + power.z;

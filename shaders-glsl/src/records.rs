@@ -1,4 +1,4 @@
-//! The records that buffers of shaders hold, generated from the GLSL that declares them, with its comments and as it
+//! The records that buffers of shaders hold, and their push constants, generated from the GLSL that declares them, with its comments and as it
 //! lays them out: scalar block layout.
 //!
 //! `Default` is zeros, as in a buffer that was filled with them; a record of which zeros are no sensible value has none.
@@ -8,6 +8,16 @@ use bytemuck::{Pod, Zeroable};
 use crate::constants::{bvh::BVH_NONE, contract::PRIMITIVE_NONE};
 
 include!(concat!(env!("OUT_DIR"), "/records.rs"));
+
+/// Records of the kernels that only tests use.
+#[cfg(feature = "test-kernels")]
+pub mod test_kernels {
+    use bytemuck::{Pod, Zeroable};
+
+    use super::RecordLayout;
+
+    include!(concat!(env!("OUT_DIR"), "/test_records.rs"));
+}
 
 /// What Rust says of a record, as data. A test holds it against every compiled module that has the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

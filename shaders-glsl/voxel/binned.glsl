@@ -17,7 +17,7 @@
 #define LARGE_CAPACITY(s) VOXEL_HEADER(s).large_capacity
 #include "ads/bin_large.glsl"
 
-#define bin_built voxel_built
+#define bin_built build.structure
 
 // Voxels are marked in the view that a triangle faces most, which is the first where it is kept in no other.
 uint bin_view_count() {
@@ -43,7 +43,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
     uint faced = axis_of_triangle(triangle.a, triangle.b, triangle.c);
     bin.primitive = triangle.primitive;
     bin.axis = VOXEL_AXES == VOXEL_AXES_TRIANGLE ? faced : view;
-    AxisView seen = voxel_view(voxel_built, bin.axis);
+    AxisView seen = voxel_view(build.structure, bin.axis);
     vec3 pa = axis_from_world(seen, triangle.a);
     vec3 pb = axis_from_world(seen, triangle.b);
     vec3 pc = axis_from_world(seen, triangle.c);
@@ -55,7 +55,7 @@ bool bin_begin(BinTriangle triangle, uint view, out Bin bin) {
         && triangle_has_area(triangle.a, triangle.b, triangle.c);
     ivec2 lower;
     ivec2 upper;
-    AxisView columns = voxel_column_view(voxel_built, bin.axis);
+    AxisView columns = voxel_column_view(build.structure, bin.axis);
     marked = marked && axis_cells(columns, pa, pb, pc, 0.5 + VOXEL_SLACK + 1.0 / 32.0, lower, upper);
     bin.large = bin.large || (marked && bin_is_large(lower, upper));
 #if BIN_VISIT == BIN_VISIT_VOXELS

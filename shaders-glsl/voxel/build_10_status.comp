@@ -4,21 +4,19 @@
 #include "contract/extensions.glsl"
 #include "ads/build_status.glsl"
 #include "voxel/header.glsl"
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = 1) in;
 
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
-
 void main() {
-    bool fits = VOXEL_HEADER(voxel_built).demand <= VOXEL_HEADER(voxel_built).capacity
-        && VOXEL_HEADER(voxel_built).long_demand <= VOXEL_HEADER(voxel_built).long_capacity
-        && VOXEL_HEADER(voxel_built).large_demand <= VOXEL_HEADER(voxel_built).large_capacity;
-    bool unsorted = VOXEL_HEADER(voxel_built).unsorted > 0u;
-    VOXEL_HEADER(voxel_built).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
+    bool fits = VOXEL_HEADER(build.structure).demand <= VOXEL_HEADER(build.structure).capacity
+        && VOXEL_HEADER(build.structure).long_demand <= VOXEL_HEADER(build.structure).long_capacity
+        && VOXEL_HEADER(build.structure).large_demand <= VOXEL_HEADER(build.structure).large_capacity;
+    bool unsorted = VOXEL_HEADER(build.structure).unsorted > 0u;
+    VOXEL_HEADER(build.structure).status = (build_status(fits)) | (unsorted ? STATUS_UNSORTED : 0u);
     // With pages the fragments have been counted, otherwise they are the demand.
     if (VOXEL_STORAGE != VOXEL_STORAGE_PAGED) {
-        VOXEL_HEADER(voxel_built).fragments = VOXEL_HEADER(voxel_built).demand;
+        VOXEL_HEADER(build.structure).fragments = VOXEL_HEADER(build.structure).demand;
     }
 }

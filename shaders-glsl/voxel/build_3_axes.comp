@@ -4,26 +4,24 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/accessors.glsl"
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = VOXEL_GROUP_SIZE) in;
-
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
 
 // One thread per word of eight voxels.
 void main() {
     uint word = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
-    uint count = voxel_count(voxel_built);
+    uint count = voxel_count(build.structure);
     if (8u * word >= count) {
         return;
     }
-    uint bits = VOXEL_VOXELS(voxel_built)[word];
+    uint bits = VOXEL_VOXELS(build.structure)[word];
     uint with_axes = bits;
     for (uint k = 0u; k < 8u; k++) {
         if ((bits >> (VOXEL_BITS * k) & VOXEL_OCCUPIED) != 0u) {
-            with_axes |= 1u << (VOXEL_BITS * k + voxel_normal_axis(voxel_built, 8u * word + k));
+            with_axes |= 1u << (VOXEL_BITS * k + voxel_normal_axis(build.structure, 8u * word + k));
         }
     }
-    VOXEL_VOXELS(voxel_built)[word] = with_axes;
+    VOXEL_VOXELS(build.structure)[word] = with_axes;
 }

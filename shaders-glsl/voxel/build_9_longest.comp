@@ -5,26 +5,25 @@
 #version 460
 #include "contract/extensions.glsl"
 #include "voxel/lists.glsl"
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(local_size_x = VOXEL_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
-
 void main() {
     uint list = gl_GlobalInvocationID.y * gl_NumWorkGroups.x * VOXEL_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (list >= voxel_list_count(voxel_built) || VOXEL_HEADER(voxel_built).demand > VOXEL_HEADER(voxel_built).capacity) {
+    if (list >= voxel_list_count(build.structure)
+        || VOXEL_HEADER(build.structure).demand > VOXEL_HEADER(build.structure).capacity) {
         return;
     }
     uint length = 0u;
-    VoxelCursor cursor = voxel_list_begin(voxel_built, list);
+    VoxelCursor cursor = voxel_list_begin(build.structure, list);
     while (cursor.link != 0u && length < VOXEL_LONGEST_LIMIT) {
-        voxel_list_next(voxel_built, cursor);
+        voxel_list_next(build.structure, cursor);
         length++;
     }
     // Most lists are shorter than one that was found before.
-    if (length > VOXEL_HEADER(voxel_built).longest) {
-        atomicMax(VOXEL_HEADER(voxel_built).longest, length < VOXEL_LONGEST_LIMIT ? length : 0xFFFFFFFFu);
+    if (length > VOXEL_HEADER(build.structure).longest) {
+        atomicMax(VOXEL_HEADER(build.structure).longest, length < VOXEL_LONGEST_LIMIT ? length : 0xFFFFFFFFu);
     }
 }

@@ -7,10 +7,8 @@
 #include "ads/geometry.glsl"
 #define VOXEL_READ_ONLY
 #include "voxel/header.glsl"
-
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_axis;
 
@@ -28,8 +26,8 @@ void main() {
         gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
         return;
     }
-    AxisView view = AxisView(VOXEL_HEADER(voxel_built).lower, VOXEL_HEADER(voxel_built).voxel,
-        VOXEL_HEADER(voxel_built).grid, axis);
+    AxisView view = AxisView(VOXEL_HEADER(build.structure).lower, VOXEL_HEADER(build.structure).voxel,
+        VOXEL_HEADER(build.structure).grid, axis);
     // The centre of every column that it reaches into, with 1/32 of a column for the hardware's grid.
     gl_Position = axis_proposal(view, axis_from_world(view, a), axis_from_world(view, b), axis_from_world(view, c), corner,
         0.5 + VOXEL_SLACK + 1.0 / 32.0);

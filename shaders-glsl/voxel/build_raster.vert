@@ -8,10 +8,8 @@
 #include "ads/geometry.glsl"
 #define VOXEL_READ_ONLY
 #include "voxel/header.glsl"
-
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 layout(location = 0) flat out uvec2 primitive_and_axis;
 
@@ -24,8 +22,8 @@ void main() {
     geometry_vertices(primitive, a, b, c);
     uint axis = VOXEL_AXES == VOXEL_AXES_TRIANGLE ? axis_of_triangle(a, b, c) : uint(gl_InstanceIndex);
     primitive_and_axis = uvec2(primitive, axis);
-    AxisView view = AxisView(VOXEL_HEADER(voxel_built).lower, VOXEL_HEADER(voxel_built).cell,
-        VOXEL_HEADER(voxel_built).resolution, axis);
+    AxisView view = AxisView(VOXEL_HEADER(build.structure).lower, VOXEL_HEADER(build.structure).cell,
+        VOXEL_HEADER(build.structure).resolution, axis);
     a = axis_from_world(view, a);
     b = axis_from_world(view, b);
     c = axis_from_world(view, c);

@@ -8,10 +8,8 @@
 
 #include "ads/geometry.glsl"
 #include "voxel/lists.glsl"
-
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-};
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 // The corners of a triangle in the frame of a view.
 void voxel_view_vertices(AxisView view, uint primitive, out vec3 a, out vec3 b, out vec3 c) {
@@ -44,7 +42,7 @@ ivec2 voxel_cell_at_fragment(vec4 frag_coord) {
 
 // False where the triangle has no fragment in the cell.
 bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found) {
-    AxisView view = voxel_view(voxel_built, axis);
+    AxisView view = voxel_view(build.structure, axis);
     vec3 a;
     vec3 b;
     vec3 c;
@@ -79,10 +77,10 @@ bool voxel_fragment(uint primitive, uint axis, ivec2 cell, out VoxelFound found)
     found.list = axis_cell_index(axis, cell, view.resolution);
     // In voxels. Precise, like all that decides whether a fragment is kept: a pass that counts and one that stores must
     // decide alike.
-    float voxels_per_metre = VOXEL_HEADER(voxel_built).voxels_per_metre;
+    float voxels_per_metre = VOXEL_HEADER(build.structure).voxels_per_metre;
     precise vec3 place = vec3(axis_center(view, cell).xy, found.z) * voxels_per_metre;
-    ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(voxel_built).grid) - 1);
-    found.voxel = voxel_index(voxel_built, axis_to_world(voxel, axis));
+    ivec3 voxel = clamp(ivec3(floor(place)), ivec3(0), ivec3(VOXEL_HEADER(build.structure).grid) - 1);
+    found.voxel = voxel_index(build.structure, axis_to_world(voxel, axis));
     return true;
 }
 
@@ -92,8 +90,8 @@ void voxel_fill(uint primitive, VoxelFound found) {
     vec3 b;
     vec3 c;
     geometry_vertices(primitive, a, b, c);
-    voxel_mark(voxel_built, found.voxel, VOXEL_OCCUPIED);
-    voxel_add_normal(voxel_built, found.voxel, voxel_unit_normal(a, b, c));
+    voxel_mark(build.structure, found.voxel, VOXEL_OCCUPIED);
+    voxel_add_normal(build.structure, found.voxel, voxel_unit_normal(a, b, c));
 }
 
 #endif

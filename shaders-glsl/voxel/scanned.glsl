@@ -6,8 +6,6 @@
 
 #include "voxel/accessors.glsl"
 
-#define ScanRef VoxelRef
-
 uint scan_count(VoxelRef s, uint step) {
     return voxel_list_count(s);
 }

@@ -7,15 +7,12 @@
 
 #include "ads/constants.glsl"
 #include "voxel/lists.glsl"
-
-layout(push_constant, scalar) uniform VoxelBuildConstants {
-    VoxelRef voxel_built;
-    uint build_round;
-};
+#include "voxel/names.glsl"
+#include "ads/build_constants.glsl"
 
 #define SortRef VoxelRef
-#define sort_built voxel_built
-#define sort_round build_round
+#define sort_built build.structure
+#define sort_round build.step
 #define SORT_HEADER(s) VOXEL_HEADER(s)
 // Behind the sums of the scan.
 #define SORT_WORD(s, place) VOXEL_SCRATCH(s)[voxel_scan_words(s) + (place)]

@@ -19,38 +19,38 @@ void voxel_visit_count(uint primitive, uint axis, ivec2 cell) {
     }
     if (VOXEL_AXES == VOXEL_AXES_ALL) {
         voxel_fill(primitive, found);
-    } else if (!voxel_keeps(voxel_built, found.voxel, axis)) {
+    } else if (!voxel_keeps(build.structure, found.voxel, axis)) {
         return;
     }
-    voxel_list_count_one(voxel_built, found.list);
+    voxel_list_count_one(build.structure, found.list);
 }
 
 void voxel_visit_store(uint primitive, uint axis, ivec2 cell) {
     VoxelFound found;
     if (!voxel_fragment(primitive, axis, cell, found) || !voxel_mask_keeps(primitive, found.barycentrics)
-        || !voxel_keeps(voxel_built, found.voxel, axis)) {
+        || !voxel_keeps(build.structure, found.voxel, axis)) {
         return;
     }
     if (VOXEL_AXES == VOXEL_AXES_ALL && !voxel_contiguous()) {
         voxel_fill(primitive, found);
     }
-    uint place = voxel_allocate(voxel_built, found.list);
+    uint place = voxel_allocate(build.structure, found.list);
     if (place == VOXEL_NO_PLACE) {
         return;
     }
-    voxel_set_word(voxel_built, place, 0u, floatBitsToUint(found.z));
+    voxel_set_word(build.structure, place, 0u, floatBitsToUint(found.z));
 #ifdef PAYLOAD_ATTRIBUTES
     uvec3 words = voxel_pack_attributes(primitive, found.barycentrics);
     for (uint word = 0u; word < 3u; word++) {
-        voxel_set_word(voxel_built, place, word + 1u, words[word]);
+        voxel_set_word(build.structure, place, word + 1u, words[word]);
     }
     if (VOXEL_IDS != 0u) {
-        voxel_set_word(voxel_built, place, 4u, primitive);
+        voxel_set_word(build.structure, place, 4u, primitive);
     }
 #else
-    voxel_set_word(voxel_built, place, 1u, primitive);
+    voxel_set_word(build.structure, place, 1u, primitive);
 #endif
-    voxel_link(voxel_built, found.list, place);
+    voxel_link(build.structure, found.list, place);
 }
 
 #endif

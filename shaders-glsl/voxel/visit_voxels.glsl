@@ -10,7 +10,7 @@
 #include "voxel/column.glsl"
 
 void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
-    AxisView view = voxel_column_view(voxel_built, axis);
+    AxisView view = voxel_column_view(build.structure, axis);
     int grid = int(view.resolution);
     vec3 a;
     vec3 b;
@@ -26,12 +26,12 @@ void voxel_visit_voxels(uint primitive, uint axis, ivec2 column) {
     vec3 vote = vec3(0.0, 0.0, 1.0 / VOXEL_NORMAL_STEPS);
     vec3 normal = axis_to_world(VOXEL_AXES == VOXEL_AXES_ALL ? vote : voxel_unit_normal(a, b, c), axis);
     for (int depth = range.x; depth <= range.y; depth++) {
-        uint index = voxel_index(voxel_built, axis_to_world(ivec3(column, depth), axis));
+        uint index = voxel_index(build.structure, axis_to_world(ivec3(column, depth), axis));
         if (VOXEL_AXES == VOXEL_AXES_TRIANGLE) {
-            voxel_mark(voxel_built, index, VOXEL_OCCUPIED | 1u << axis);
+            voxel_mark(build.structure, index, VOXEL_OCCUPIED | 1u << axis);
         } else {
-            voxel_mark(voxel_built, index, VOXEL_OCCUPIED);
-            voxel_add_normal(voxel_built, index, normal);
+            voxel_mark(build.structure, index, VOXEL_OCCUPIED);
+            voxel_add_normal(build.structure, index, normal);
         }
     }
 }

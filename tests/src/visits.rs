@@ -3,10 +3,11 @@
 //! The exact side knows what single precision cannot resolve: parts of a ray that are shorter than
 //! [`unresolved`] in t, or that lie within as much of a seam between faces or of the near region.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::{Pod, bytes_of};
 use rasray_ads::Ray;
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Device, MemoryLocation};
 use rasray_shaders_glsl::Shader;
+pub use rasray_shaders_glsl::records::test_kernels::Visit;
 
 /// The face of visits to the near region, `SEGMENT_NEAR` of `ads/march_cube.glsl`.
 pub const FACE_NEAR: u32 = 6;
@@ -16,22 +17,6 @@ pub const ROUNDING: f64 = 64.0 / (1_u64 << 24) as f64;
 
 /// What double precision cannot tell from zero, relative.
 const EXACT: f64 = 1.0e-13;
-
-/// A cell that a march visited, and where on the ray. `Visit` of `ads/test_march_cells.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Visit {
-    /// 0 to 5, or [`FACE_NEAR`].
-    pub face: u32,
-    /// Column, from -1 to the resolution.
-    pub x: i32,
-    /// Row, from -1 to the resolution.
-    pub y: i32,
-    /// Where the ray enters, lowered by the bound of its error.
-    pub t_low: f32,
-    /// Where the ray leaves, raised by the bound of its error.
-    pub t_high: f32,
-}
 
 /// A part of a ray that lies in one closed cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -271,18 +256,18 @@ pub fn visit_holds(visit: &Visit, ray: &Ray, t: f64, resolution: u32, near_size:
     q[2] >= -slack && between(visit.x, q[0]) && between(visit.y, q[1])
 }
 
-/// Runs a kernel with buffers of input, output and counts, one thread an input.
+/// Runs a kernel with buffers of input, output and counts, one thread an input, and its push constants.
 ///
 /// # Panics
 /// If the device fails.
-pub fn run_kernel<T: Pod>(
+pub fn run_kernel<T: Pod, C: Pod>(
     device: &Device,
     shader: &Shader,
     inputs: &[u8],
     outputs: usize,
     counts: Option<usize>,
     threads: usize,
-    constants: &[u8],
+    constants: &C,
 ) -> (Vec<T>, Vec<u32>) {
     let input = device.create_buffer_with("inputs", BufferUsage::ALL, inputs).expect("test buffers fit");
     let output = device
@@ -306,7 +291,7 @@ pub fn run_kernel<T: Pod>(
             name: shader.name,
             spirv: shader.words(),
             sets: &[&layout],
-            push_constant_bytes: constants.len() as u32,
+            push_constant_bytes: size_of::<C>() as u32,
             constants: &[],
         })
         .expect("the kernel compiles");
@@ -314,7 +299,7 @@ pub fn run_kernel<T: Pod>(
         .submit(|recorder| {
             recorder.bind_compute(&pipeline);
             recorder.bind_sets(0, &[&set]);
-            recorder.push_constants(constants);
+            recorder.push_constants(bytes_of(constants));
             recorder.dispatch([threads.div_ceil(64) as u32, 1, 1]);
         })
         .expect("the kernel runs");

@@ -8,7 +8,7 @@ use rasray_ads::{
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_GROUP_SIZE;
 
-use crate::layout::{cell_count, draws, long_capacity};
+use crate::layout::{cell_count, draws, scratch};
 use crate::{Config, Header, March, Pool, Storage};
 
 /// Pipelines of the build: the design of an [`ABuffer`](crate::ABuffer).
@@ -115,7 +115,7 @@ impl Build {
                 Storage::Sb => (lists, false),
                 _ => (lists, true),
             };
-            let long = long_capacity(config, target.pools.sizes());
+            let long = scratch(config).long_capacity(target.pools.sizes());
             reorder.record(recorder, target, sorted, linked, long, Access::COMPUTE);
         }
         target.status_pass(recorder, "abuffer/build_13_status", &self.status);

@@ -1,8 +1,7 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Pyramid, Scan, Sizes, ViewDraw};
+use rasray_ads::{AdsError, Pyramid, Scan, Scratch, Sizes, ViewDraw};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_CAMERA;
-use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
 use crate::{Accept, Builder, Config, Coverage, Header, March, Payload, Pool, Storage, Views};
 
@@ -112,30 +111,11 @@ pub(crate) fn bounds_and_blocks(config: &Config) -> u64 {
     cell_count(config) * bounds_words(config) + pyramid_words(config)
 }
 
-/// Words for the sums of the scan of contiguous lists, and behind them for the triangles with many cells, and
-/// once those have been visited two of each long list.
-pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
-    scan_words(config) + large.max(2 * demand.long_lists)
-}
-
-/// Words for the sums of the scan.
-fn scan_words(config: &Config) -> u64 {
+/// What the pool of scratch holds: the sums of the scan of contiguous lists, and the words that binning and sorting use.
+pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
     let lists = cell_count(config) * u64::from(config.lists());
-    if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 }
-}
-
-/// Capacity of such pools for long lists.
-pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)) / 2
-}
-
-/// Capacity of such pools for triangles with many cells.
-pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    match config.builder {
-        Builder::Raster => 0,
-        Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
-    }
+    let sums = if config.storage == Storage::Sb { Scan::sums(lists) } else { 0 };
+    Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: true }
 }
 
 /// What an A-buffer of this configuration allocates for a demand.
@@ -157,13 +137,11 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
             if config.inline { 0 } else { 4 * data_words(config) * node_slots(config) },
         ),
         (Pool::Near, demand.near_triangles, 4),
-        (Pool::Scratch, scratch_words(config, demand), 4),
+        (Pool::Scratch, scratch(config).words(demand.large, demand.long_lists), 4),
         (Pool::Conservative, if config.has_conservative_lists() { demand.conservative } else { 0 }, 12),
     ];
-    if config.storage == Storage::Paged && demand.nodes > u64::from(PAGE_LIMIT) {
-        return Err(AdsError::PoolTooLarge { structure: "abuffer", pool: "nodes", elements: demand.nodes });
-    }
-    Sizes::of("abuffer", sizes)
+    let sizes = Sizes::of("abuffer", sizes)?;
+    if config.storage == Storage::Paged { sizes.of_pages("abuffer", Pool::Nodes) } else { Ok(sizes) }
 }
 
 /// The first guess where nothing has been counted: a fragment per cell, and a triangle outside of every fourth centre.

@@ -3,18 +3,15 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::abuffer::ABUFFER_NEAR_BOX;
 use rasray_shaders_glsl::constants::ads::{NEAR_REGION, TRIANGLE_ROUNDING};
 
 use crate::build::Build;
-use crate::layout::{
-    Demand, bounds_and_blocks, first_plan, formula_bytes, large_capacity, long_capacity, plan, scratch_words,
-    widest_view,
-};
+use crate::layout::{Demand, bounds_and_blocks, first_plan, formula_bytes, plan, scratch, widest_view};
 use crate::{Config, Contents, Header, March, Pool, Storage, well_formed};
 
 /// A multiview, multilayer A-buffer, made from a [`Config`].
@@ -64,7 +61,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
     Ok(Header {
         capacity: parts.elements(Pool::Nodes) as u32,
         near_capacity: parts.elements(Pool::Near) as u32,
-        long_capacity: long_capacity(config, pools.sizes()) as u32,
+        long_capacity: scratch(config).long_capacity(pools.sizes()) as u32,
         resolution: config.resolution,
         samples: config.samples,
         thickness: config.thickness.unwrap_or(0.0),
@@ -86,7 +83,7 @@ fn first_header(parts: &Parts<Config>, viewpoint: Viewpoint) -> Result<Header, A
         scratch_address: pools.address_of(Pool::Scratch),
         conservative_capacity: parts.elements(Pool::Conservative) as u32,
         conservative_address: pools.address_of(Pool::Conservative),
-        large_capacity: large_capacity(config, pools.sizes()) as u32,
+        large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
     })
@@ -121,6 +118,7 @@ impl Design for Build {
     const TITLE: &'static str = "the A-buffer";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const UNSORTED: Option<usize> = Some(offset_of!(Header, unsorted));
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn kind(config: &Config) -> StructureKind {
@@ -167,11 +165,6 @@ impl Design for Build {
         self.record(recorder, &parts.config, parts.target(scene));
     }
 
-    fn outcome(header: &Header) -> Outcome {
-        let Header { status, unsorted, corrupted, .. } = *header;
-        Outcome { status, unsorted, corrupted }
-    }
-
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {
         Demand {
             nodes: header.demand.into(),
@@ -188,10 +181,10 @@ impl Design for Build {
         Demand {
             nodes: parts.elements(Pool::Nodes),
             near_triangles: parts.elements(Pool::Near),
-            long_lists: long_capacity(config, pools.sizes()),
+            long_lists: scratch(config).long_capacity(pools.sizes()),
             triangles: u64::from(geometry.triangle_count()).max(32 * mark_words(parts)),
             conservative: parts.elements(Pool::Conservative),
-            large: large_capacity(config, pools.sizes()),
+            large: scratch(config).large_capacity(pools.sizes()),
         }
     }
 
@@ -211,7 +204,7 @@ impl Design for Build {
         match pool {
             Pool::Nodes | Pool::Data => Some(asked.nodes),
             Pool::Near => Some(asked.near_triangles),
-            Pool::Scratch => Some(scratch_words(config, *asked)),
+            Pool::Scratch => Some(scratch(config).words(asked.large, asked.long_lists)),
             Pool::Conservative => Some(asked.conservative),
             Pool::Bounds => {
                 Some(bounds_and_blocks(config) + config.mark_sets() * asked.triangles.div_ceil(32))

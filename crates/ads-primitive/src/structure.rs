@@ -3,8 +3,8 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -107,10 +107,6 @@ impl Design for Passes {
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
         self.0.record(recorder, &parts.config, parts.target(scene));
-    }
-
-    fn outcome(header: &Header) -> Outcome {
-        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {

@@ -3,9 +3,10 @@
 use std::mem::offset_of;
 
 use rasray_gpu::{Access, ComputePipeline, Device, Recorder};
-use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END};
+use rasray_shaders_glsl::records::GeometryGatherConstants;
+use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_GATHERED};
 
-use crate::geometry::{BINDINGS, pipeline};
+use crate::geometry::{BINDINGS, GATHER_BINDINGS, pipeline};
 use crate::{AdsError, Geometry, GeometryHeader};
 
 /// Bytes of the keys of a corner of the bounds.
@@ -15,6 +16,8 @@ const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 #[derive(Debug)]
 pub struct BoundsPass {
     measure: ComputePipeline,
+    /// The same, before indices are gathered.
+    measure_gathered: ComputePipeline,
     end: ComputePipeline,
 }
 
@@ -25,13 +28,19 @@ impl BoundsPass {
     /// The device refuses one.
     pub fn new(device: &Device) -> Result<Self, AdsError> {
         let layout = device.create_set_layout("geometry", BINDINGS)?;
-        let pass = |shader| pipeline(device, shader, &[&layout], 0);
-        Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
+        let gathered = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
+        let pushed = size_of::<GeometryGatherConstants>();
+        Ok(Self {
+            measure: pipeline(device, &ADS_GEOMETRY_BOUNDS, &[&layout], 0)?,
+            measure_gathered: pipeline(device, &ADS_GEOMETRY_BOUNDS_GATHERED, &[&layout, &gathered], pushed)?,
+            end: pipeline(device, &ADS_GEOMETRY_BOUNDS_END, &[&layout], 0)?,
+        })
     }
 
     /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle once, into
-    /// the header on the device. Positions and indices are visible to compute shaders; the bounds are visible to all
-    /// that follows. Corners that are not finite are ignored; the check of a build counts triangles with infinite ones.
+    /// the header on the device; one more counts the triangles where only the device knows their number. Positions and
+    /// indices are visible to compute shaders; the bounds are visible to all that follows. Indices that builds gather
+    /// are read where they are, since the build that follows gathers them. Corners that are not finite are ignored; the check of a build counts triangles with infinite ones.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry) {
         let [lower, upper] = [offset_of!(GeometryHeader, lower_keys), offset_of!(GeometryHeader, upper_keys)]
             .map(|at| at as u64);
@@ -40,9 +49,8 @@ impl BoundsPass {
         recorder.fill(geometry.header(), lower, KEY_BYTES, u32::MAX);
         recorder.fill(geometry.header(), upper, KEY_BYTES, 0);
         recorder.barrier(Access::TRANSFER_WRITE, Access::COMPUTE);
-        geometry.record_gather(recorder);
-        if let Some(groups) = geometry.groups() {
-            geometry.record(recorder, &self.measure, None, &[], groups);
+        geometry.record_count(recorder);
+        if geometry.record_measure(recorder, &self.measure, &self.measure_gathered) {
             recorder.barrier(Access::COMPUTE, Access::COMPUTE);
         }
         geometry.record(recorder, &self.end, None, &[], [1; 3]);

@@ -2,6 +2,7 @@
 
 use rasray_gpu::{Device, GpuError, Recorder, Requirements};
 
+use crate::slots::{check_read, check_recorded};
 use crate::{
     Addressing, AdsError, BuildStatus, Check, Counters, Dependencies, Domain, Geometry, Modules, RayQueue,
     SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels, TraceKernelsDesc,
@@ -100,18 +101,13 @@ impl Structure for BruteForce {
         slot: u32,
         _viewpoint: Viewpoint,
     ) -> Result<(), AdsError> {
-        if slot >= self.slots {
-            return Err(AdsError::Slot { structure: self.name(), slot, slots: self.slots });
-        }
+        check_recorded(self.name(), slot, self.slots)?;
         self.geometry.record_gather(recorder);
         Ok(())
     }
 
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
-        if slot >= self.slots {
-            let reason = format!("slot {slot} of {} was requested", self.slots);
-            return Err(GpuError::InvalidUse { name: self.name().to_owned(), reason });
-        }
+        check_read(self.name(), slot, self.slots)?;
         Ok(BuildStatus { complete: true, was_complete: true, ..BuildStatus::default() })
     }
 

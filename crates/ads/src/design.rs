@@ -21,17 +21,6 @@ pub fn default_work_budget(device: &Device) -> u32 {
     if device.is_software() { TRACE_WORK_BUDGET } else { HARDWARE_WORK_BUDGET }
 }
 
-/// What a build's last pass wrote into the header.
-#[derive(Clone, Copy, Debug)]
-pub struct Outcome {
-    /// Bits of the status.
-    pub status: u32,
-    /// Lists too long to be sorted.
-    pub unsorted: u32,
-    /// List entries with an invalid index.
-    pub corrupted: u32,
-}
-
 /// Pools with their bytes.
 pub type PoolBytes<'a, P> = Vec<(P, &'a [u8])>;
 
@@ -98,7 +87,7 @@ fn usual_rounds(work_budget: u32) -> u32 {
 pub trait Design: fmt::Debug + Sized {
     /// Options.
     type Config: Configured + fmt::Debug + Copy;
-    /// What shaders start from.
+    /// What shaders start from. Its first word is the status that the last pass of a build writes, bits `STATUS_*`.
     type Header: Pod;
     /// The demand of builds.
     type Demand: Demand;
@@ -115,6 +104,8 @@ pub trait Design: fmt::Debug + Sized {
     const BUILD_READS_SCENE: bool;
     /// Byte of the header at which list entries with an invalid index are counted.
     const CORRUPTED: usize;
+    /// Byte of the header at which lists too long to be sorted are counted; absent where none is.
+    const UNSORTED: Option<usize> = None;
     /// What it shares with its shaders, the header first.
     const RECORDS: &'static [RecordLayout];
 
@@ -208,9 +199,6 @@ pub trait Design: fmt::Debug + Sized {
         parts: &Parts<Self::Config>,
         scene: Option<&BindingSet>,
     );
-
-    /// The outcome that the status pass of the last build wrote.
-    fn outcome(header: &Self::Header) -> Outcome;
 
     /// The demand of the last build.
     fn asked(&self, parts: &Parts<Self::Config>, header: &Self::Header) -> Self::Demand;

@@ -2,19 +2,23 @@
 
 use std::mem::offset_of;
 
-use bytemuck::{Pod, Zeroable, bytes_of, pod_read_unaligned};
+use bytemuck::{bytes_of, pod_read_unaligned};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
     Device, GpuError, MemoryLocation, Recorder, SetLayout,
 };
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
+use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstants};
 
 use crate::passes::folded;
 use crate::{AdsError, GeometryDesc, GeometryHeader, Indexing};
 
 /// Buffers of the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
+
+/// Buffers of the set of what is gathered.
+pub(crate) const GATHER_BINDINGS: u32 = 1;
 
 /// Triangles of a workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
 const TRIANGLES_PER_GROUP: u64 = 64;
@@ -48,16 +52,9 @@ pub struct Geometry {
 struct Count {
     pipeline: ComputePipeline,
     set: BindingSet,
-    constants: CountConstants,
+    constants: GeometryCountConstants,
     /// Of draws of all triangles onto one view, two, ...
     draw_arguments: Buffer,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct CountConstants {
-    count_word: u32,
-    most_triangles: u32,
 }
 
 /// What `ads/geometry_gather` works with.
@@ -65,18 +62,9 @@ struct CountConstants {
 struct Gather {
     pipeline: ComputePipeline,
     set: BindingSet,
-    constants: GatherConstants,
+    constants: GeometryGatherConstants,
     /// Absolute u32 indices.
     indices: Buffer,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct GatherConstants {
-    first_place: u32,
-    index_count: u32,
-    index_bytes: u32,
-    per_draw: u32,
 }
 
 impl Geometry {
@@ -134,17 +122,40 @@ impl Geometry {
     /// Records what shaders do not read in place: the number of triangles where only the device knows it, and
     /// indices that are gathered, visible to all who read them. Nothing where neither is needed.
     pub(crate) fn record_gather(&self, recorder: &mut Recorder<'_>) {
-        if let Some(Count { pipeline, set, constants, .. }) = &self.count {
-            recorder.barrier(READERS, Access::COMPUTE);
-            self.record(recorder, pipeline, Some(set), bytes_of(constants), [1; 3]);
-            recorder.barrier(Access::COMPUTE, READERS);
-        }
+        self.record_count(recorder);
         let groups = self.groups();
         if let (Some(Gather { pipeline, set, constants, .. }), Some(groups)) = (&self.gather, groups) {
             recorder.barrier(READERS, Access::COMPUTE);
             self.record(recorder, pipeline, Some(set), bytes_of(constants), groups);
             recorder.barrier(Access::COMPUTE, READERS);
         }
+    }
+
+    /// Records the number of triangles where only the device knows it, visible to all who read it.
+    pub(crate) fn record_count(&self, recorder: &mut Recorder<'_>) {
+        if let Some(Count { pipeline, set, constants, .. }) = &self.count {
+            recorder.barrier(READERS, Access::COMPUTE);
+            self.record(recorder, pipeline, Some(set), bytes_of(constants), [1; 3]);
+            recorder.barrier(Access::COMPUTE, READERS);
+        }
+    }
+
+    /// Records one pass over all triangles that reads indices where the host has them: `in_place`, or for those that are
+    /// gathered the other one, which sees their set and constants. False without triangles.
+    pub(crate) fn record_measure(
+        &self,
+        recorder: &mut Recorder<'_>,
+        in_place: &ComputePipeline,
+        gathered: &ComputePipeline,
+    ) -> bool {
+        let Some(groups) = self.groups() else { return false };
+        match &self.gather {
+            None => self.record(recorder, in_place, None, &[], groups),
+            Some(Gather { set, constants, .. }) => {
+                self.record(recorder, gathered, Some(set), bytes_of(constants), groups);
+            }
+        }
+        true
     }
 
     /// Records [`Geometry::record_gather`], the count of triangles that the bounds, the vertices and the maximum do not
@@ -308,9 +319,9 @@ impl Count {
         let ranges = [range, whole(&draw_arguments)];
         let set = device.create_binding_set_of_ranges(&layout, "geometry count", &ranges)?;
         let shader = &rasray_shaders_glsl::ADS_GEOMETRY_COUNT;
-        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<CountConstants>())?;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryCountConstants>())?;
         let constants =
-            CountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
+            GeometryCountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
         Ok(Self { pipeline, set, constants, draw_arguments })
     }
 }
@@ -329,10 +340,10 @@ impl Gather {
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC,
             location: MemoryLocation::Device,
         })?;
-        let layout = device.create_set_layout("geometry gather", 1)?;
+        let layout = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
         let set = device.create_binding_set_of_ranges(&layout, "geometry gather", &[range])?;
         let shader = &rasray_shaders_glsl::ADS_GEOMETRY_GATHER;
-        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GatherConstants>())?;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryGatherConstants>())?;
         let index_bytes = desc.indices.format.bytes();
         let (index_count, per_draw) = match desc.indices.indexing {
             // The host has checked that all of them are there, so the product is exact.
@@ -340,7 +351,7 @@ impl Gather {
             Indexing::PerDraw { index_count } => (index_count, 1),
         };
         let first_place = (before / u64::from(index_bytes)) as u32;
-        let constants = GatherConstants { first_place, index_count, index_bytes, per_draw };
+        let constants = GeometryGatherConstants { first_place, index_count, index_bytes, per_draw };
         Ok(Self { pipeline, set, constants, indices })
     }
 }

@@ -2,8 +2,10 @@
 
 use bytemuck::bytes_of;
 use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, Recorder, SetLayout};
+use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
+use crate::pools::halves;
 use crate::{AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
 
 /// The scene's set, which surfaces and alpha masks are read from.
@@ -74,15 +76,6 @@ struct Kernel {
     pipeline: ComputePipeline,
 }
 
-/// Address of the structure (zero with descriptors), [`Domain::word`], and work units per dispatch.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct TraceConstants {
-    structure: [u32; 2],
-    domain: u32,
-    work_budget: u32,
-}
-
 impl TraceKernels {
     /// Makes the pipelines.
     ///
@@ -111,7 +104,7 @@ impl TraceKernels {
             name: "ads/queue_next_round",
             spirv: rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
             sets: &[geometry.layout(), desc.structure_layout, &queue_layout],
-            push_constant_bytes: 4,
+            push_constant_bytes: size_of::<NextRoundConstants>() as u32,
             constants: &[],
         })?;
         Ok(Self {
@@ -131,8 +124,7 @@ impl TraceKernels {
     }
 
     fn constants(&self, address: u64, domain: Domain) -> TraceConstants {
-        let structure = [address as u32, (address >> 32) as u32];
-        TraceConstants { structure, domain: domain.word(), work_budget: self.work_budget }
+        TraceConstants { structure: halves(address), domain: domain.word(), work_budget: self.work_budget }
     }
 
     fn bind(
@@ -196,7 +188,7 @@ impl TraceKernels {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE);
         recorder.bind_compute(&self.next_round);
         recorder.bind_sets(2, &[queue.set()]);
-        recorder.push_constants(&u32::from(last).to_le_bytes());
+        recorder.push_constants(bytes_of(&NextRoundConstants { last: last.into() }));
         recorder.dispatch([1, 1, 1]);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::INDIRECT_READ | Access::TRANSFER);
     }

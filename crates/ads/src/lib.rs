@@ -38,6 +38,8 @@ mod pools;
 mod pyramid;
 mod queue;
 mod scan;
+mod scratch;
+mod slots;
 mod status;
 mod steps;
 mod structure;
@@ -49,7 +51,7 @@ pub use bounds_pass::BoundsPass;
 pub use brute_force::BruteForce;
 pub use configured::{Common, Configured, bytes_of_words, check_range, check_work_budget};
 pub use counters::Counters;
-pub use design::{Demand, Design, Outcome, Parts, PoolBytes, default_work_budget};
+pub use design::{Demand, Design, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
 pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
@@ -66,6 +68,7 @@ pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 pub use scan::Scan;
+pub use scratch::Scratch;
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{

@@ -1,11 +1,13 @@
 //! The passes of a build: how their pipelines are made, bound, dispatched and drawn.
 
-use bytemuck::{Pod, Zeroable, bytes_of};
+use bytemuck::bytes_of;
 use rasray_gpu::{
     Access, BindingSet, ComputePipeline, ComputePipelineDesc, Device, RasterPipeline, RasterPipelineDesc,
     Recorder, SetLayout,
 };
+use rasray_shaders_glsl::records::BuildConstants;
 
+use crate::pools::halves;
 use crate::{AdsError, Geometry, Modules, PoolName, Pools, SceneBinding};
 
 /// Maximum number of workgroups along the first dimension; more go to the second, and shaders compute one index from
@@ -16,15 +18,6 @@ const MOST_GROUPS: u64 = 32_768;
 pub fn folded(groups: u64) -> Option<[u32; 3]> {
     let rows = groups.div_ceil(MOST_GROUPS);
     (groups > 0).then(|| [groups.div_ceil(rows) as u32, rows as u32, 1])
-}
-
-/// Push constants of every build pass: address of the header (zero with descriptors), and a number whose meaning
-/// is the pass's, such as the digit of a sort.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct BuildConstants {
-    structure: [u32; 2],
-    step: u32,
 }
 
 /// Makes the pipelines of a build. Sets are geometry, structure and, where given, scene.
@@ -123,8 +116,7 @@ impl BuildTarget<'_> {
         if let Some(scene) = self.scene {
             recorder.bind_sets(2, &[scene]);
         }
-        let address = self.pools.address();
-        let structure = [address as u32, (address >> 32) as u32];
+        let structure = halves(self.pools.address());
         recorder.push_constants(bytes_of(&BuildConstants { structure, step }));
     }
 

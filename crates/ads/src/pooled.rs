@@ -2,12 +2,13 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use bytemuck::{bytes_of, pod_read_unaligned};
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::contract::STATUS_COMPLETE;
 
 use crate::{
     AdsError, BuildPipelines, BuildStatus, Check, Common, Configured, Counters, Demand, Dependencies, Design,
-    Domain, Geometry, InlineTrace, Modules, Outcome, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
+    Domain, Geometry, InlineTrace, Modules, Parts, PoolName, PoolSize, PoolStatus, Pools, RayQueue,
     RecordLayout, SceneBinding, Sizes, Structure, StructureKind, StructureReport, TraceKernels,
     TraceKernelsDesc, TraceMode, Viewpoint, default_work_budget,
 };
@@ -126,7 +127,7 @@ impl<D: Design> Pooled<D> {
     /// A pool is larger than what was allocated, or the device failed.
     pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
         let (header, pools) = D::pools_of(contents);
-        device.upload(self.parts.pools.header_buffer(), 0, bytemuck::bytes_of(&header))?;
+        device.upload(self.parts.pools.header_buffer(), 0, bytes_of(&header))?;
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
     }
 
@@ -210,7 +211,7 @@ impl<D: Design> Structure for Pooled<D> {
     fn status(&self, slot: u32) -> Result<BuildStatus, GpuError> {
         let header: D::Header = self.parts.pools.header(slot)?;
         *self.known.lock().unwrap_or_else(PoisonError::into_inner) = header;
-        let Outcome { status, unsorted, corrupted } = D::outcome(&header);
+        let word = |at: usize| pod_read_unaligned::<u32>(&bytes_of(&header)[at..at + size_of::<u32>()]);
         let mut pools = Vec::new();
         let _ = self.design.asked(&self.parts, &header).zip(
             D::capacity(&self.parts),
@@ -219,15 +220,15 @@ impl<D: Design> Structure for Pooled<D> {
                 demand
             },
         );
-        let was_complete = status & STATUS_COMPLETE != 0;
+        let was_complete = word(0) & STATUS_COMPLETE != 0;
         let is_current = self.parts.pools.are_of(slot);
         Ok(BuildStatus {
             complete: was_complete && is_current,
             was_complete,
             pools,
-            unsorted: unsorted.into(),
+            unsorted: D::UNSORTED.map_or(0, word).into(),
             outside: if is_current { self.parts.pools.outside(slot)? } else { 0 },
-            corrupted: corrupted.into(),
+            corrupted: word(D::CORRUPTED).into(),
         })
     }
 

@@ -2,12 +2,13 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use bytemuck::{AnyBitPattern, NoUninit, pod_read_unaligned};
+use bytemuck::{AnyBitPattern, NoUninit};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, Device, GpuError, MemoryLocation, Recorder,
     SetLayout,
 };
 
+use crate::slots::Slots;
 use crate::{
     Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, QueueHeader, RayQueue, Sizes,
     TraceKernels, TraceMode,
@@ -32,16 +33,8 @@ pub struct Pools {
     sizes: Sizes,
     /// What the next build's header begins as.
     header: Vec<u8>,
-    /// Per slot the header after its build, and behind it [`Pools::outside`]; one more entry for builds without a slot.
-    header_readback: Buffer,
-    /// Builds whose outcome is kept apart: frames that the device works on at a time.
-    slots: u32,
-    /// Times that the pools were replaced.
-    replaced: u32,
-    /// That number when the last build of each slot was recorded.
-    replaced_before: Vec<u32>,
-    /// The slot of the build that is recorded.
-    slot: u32,
+    /// What the host reads of builds.
+    slots: Slots,
     pools: Vec<Buffer>,
     set: Option<BindingSet>,
     /// Rounds that were allowed in addition to those that a trace has at first. Traces raise it, so it changes behind a
@@ -65,52 +58,15 @@ impl Pools {
             Addressing::Address => 0,
         };
         let layout = device.create_set_layout(structure, bindings)?;
-        let header_readback = readback(device, structure, bytes(sizes, HEADER), 1)?;
-        Self::with_layout(device, structure, addressing, layout, sizes, header_readback)
-    }
-
-    fn with_layout(
-        device: &Device,
-        structure: &'static str,
-        addressing: Addressing,
-        layout: SetLayout,
-        sizes: &Sizes,
-        header_readback: Buffer,
-    ) -> Result<Self, AdsError> {
-        // Headers may hold the arguments of dispatches.
-        let usage = BufferUsage::STORAGE
-            | BufferUsage::INDIRECT
-            | BufferUsage::TRANSFER_SRC
-            | BufferUsage::TRANSFER_DST;
-        let buffer = |name: &str, size: u64, location| {
-            device.create_buffer(&BufferDesc { name: &format!("{structure} {name}"), size, usage, location })
-        };
         let header_bytes = bytes(sizes, HEADER);
-        // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
-        let mut pools =
-            vec![device.create_buffer_of_zeros(&format!("{structure} {HEADER}"), usage, header_bytes)?];
-        for pool in sizes.pools.iter().skip(1) {
-            pools.push(buffer(pool.name, pool.elements * pool.element_bytes, MemoryLocation::Device)?);
-        }
-        let set = match addressing {
-            Addressing::Descriptor => {
-                let bindings: Vec<&Buffer> = pools.iter().collect();
-                Some(device.create_binding_set(&layout, structure, &bindings)?)
-            }
-            Addressing::Address => None,
-        };
-        let sizes = sizes.clone();
+        let (pools, set) = allocate(device, structure, addressing, &layout, sizes)?;
         Ok(Self {
             structure,
             addressing,
             layout,
-            sizes,
+            sizes: sizes.clone(),
             header: vec![0; header_bytes as usize],
-            header_readback,
-            slots: 1,
-            replaced: 0,
-            replaced_before: vec![0],
-            slot: 1,
+            slots: Slots::new(device, structure, header_bytes)?,
             pools,
             set,
             rounds: AtomicU32::new(0),
@@ -122,17 +78,17 @@ impl Pools {
     /// # Errors
     /// As for [`Pools::new`]; then the pools are as they were.
     pub fn resize(&mut self, device: &Device, sizes: &Sizes) -> Result<(), AdsError> {
-        let (layout, readback) = (self.layout.clone(), self.header_readback.clone());
-        let pools = Self::with_layout(device, self.structure, self.addressing, layout, sizes, readback)?;
-        let replaced_before = std::mem::take(&mut self.replaced_before);
-        let (slots, slot, replaced) = (self.slots, self.slots, self.replaced + 1);
-        *self = Self { slots, slot, replaced, replaced_before, ..pools };
+        (self.pools, self.set) = allocate(device, self.structure, self.addressing, &self.layout, sizes)?;
+        self.sizes = sizes.clone();
+        self.header.fill(0);
+        self.slots.replace_pools();
+        *self.rounds.get_mut() = 0;
         Ok(())
     }
 
     /// Whether the pools are those that the last build of a slot was recorded for.
     pub fn are_of(&self, slot: u32) -> bool {
-        self.replaced_before.get(slot as usize) == Some(&self.replaced)
+        self.slots.are_pools_of(slot)
     }
 
     /// Keeps the outcome of `slots` builds separately from now on, at least 1; outcomes of earlier builds are lost.
@@ -140,29 +96,12 @@ impl Pools {
     /// # Errors
     /// Out of memory; then all is as it was.
     pub fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), AdsError> {
-        self.header_readback = readback(device, self.structure, self.header.len() as u64, slots.max(1))?;
-        (self.slots, self.slot) = (slots.max(1), slots.max(1));
-        self.replaced_before = vec![self.replaced; self.slots as usize];
-        Ok(())
+        self.slots.set_count(device, slots)
     }
 
     /// Builds whose outcome is kept apart.
     pub fn slots(&self) -> u32 {
-        self.slots
-    }
-
-    /// Bytes of a slot's entry: header and count.
-    fn entry(&self) -> u64 {
-        entry_bytes(self.header.len() as u64)
-    }
-
-    /// Where the entry of a slot begins.
-    fn entry_of(&self, slot: u32) -> Result<u64, GpuError> {
-        if slot >= self.slots {
-            let reason = format!("slot {slot} of {} was requested", self.slots);
-            return Err(GpuError::InvalidUse { name: self.structure.to_owned(), reason });
-        }
-        Ok(u64::from(slot) * self.entry())
+        self.slots.count()
     }
 
     /// Layout of the set; empty by address.
@@ -208,7 +147,7 @@ impl Pools {
             Addressing::Descriptor => 0,
             Addressing::Address => self.pool(pool).address().unwrap_or(0),
         };
-        [address as u32, (address >> 32) as u32]
+        halves(address)
     }
 
     /// Takes the header that the passes recorded next start from, and the slot that keeps their outcome. Each recording
@@ -220,12 +159,8 @@ impl Pools {
     /// # Panics
     /// The header is not as long as its pool: a structure plans its own.
     pub fn begin<H: NoUninit>(&mut self, slot: u32, header: &H) -> Result<(), AdsError> {
-        if slot >= self.slots {
-            return Err(AdsError::Slot { structure: self.structure, slot, slots: self.slots });
-        }
-        self.set_header(header);
-        self.slot = slot;
-        self.replaced_before[slot as usize] = self.replaced;
+        self.slots.begin(slot)?;
+        self.header.copy_from_slice(bytemuck::bytes_of(header));
         Ok(())
     }
 
@@ -235,7 +170,7 @@ impl Pools {
     /// The header is not as long as its pool.
     pub fn set_header<H: NoUninit>(&mut self, header: &H) {
         self.header.copy_from_slice(bytemuck::bytes_of(header));
-        self.slot = self.slots;
+        self.slots.begin_unread();
     }
 
     /// Records the header, zeros in the pools of `cleared` and the check of the triangles, visible to `readers`.
@@ -252,8 +187,8 @@ impl Pools {
             let pool = self.pool(*pool);
             recorder.fill(pool, 0, pool.size(), 0);
         }
-        let count = u64::from(self.slot) * self.entry() + self.header.len() as u64;
-        geometry.record_check(recorder, &self.header_readback, count);
+        let (target, offset) = self.slots.outside_target();
+        geometry.record_check(recorder, target, offset);
         recorder.barrier(Access::TRANSFER_WRITE | Access::COMPUTE_WRITE, readers | Access::HOST_READ);
         self.keep(recorder);
     }
@@ -273,15 +208,14 @@ impl Pools {
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
     pub fn outside(&self, slot: u32) -> Result<u32, GpuError> {
-        let count = self.entry_of(slot)? + self.header.len() as u64;
-        Ok(pod_read_unaligned(&self.header_readback.read(count, 4)?))
+        self.slots.outside(slot)
     }
 
     /// Records the copy of the header to the host, after compute shaders wrote it.
     pub fn record_readback(&self, recorder: &mut Recorder<'_>) {
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
-        let entry = u64::from(self.slot) * self.entry();
-        recorder.copy(&self.pools[0], 0, &self.header_readback, entry, self.pools[0].size());
+        let (target, offset) = self.slots.header_target();
+        recorder.copy(&self.pools[0], 0, target, offset, self.pools[0].size());
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::HOST_READ);
     }
 
@@ -290,8 +224,7 @@ impl Pools {
     /// # Errors
     /// There is no such slot, or host-visible memory could not be read.
     pub fn header<H: AnyBitPattern>(&self, slot: u32) -> Result<H, GpuError> {
-        let entry = self.entry_of(slot)?;
-        Ok(pod_read_unaligned(&self.header_readback.read(entry, size_of::<H>() as u64)?))
+        self.slots.header(slot)
     }
 
     /// Downloads a pool in words. Submits and waits: for tests and tools.
@@ -392,22 +325,41 @@ impl Pools {
     }
 }
 
-/// Bytes that a slot keeps of its build: the header, and the count of triangles outside.
-fn entry_bytes(header_bytes: u64) -> u64 {
-    header_bytes + 4
+/// A device address as shaders take it, low word first.
+pub(crate) fn halves(address: u64) -> [u32; 2] {
+    [address as u32, (address >> 32) as u32]
 }
 
-/// Zeros for the outcome of builds.
-fn readback(device: &Device, structure: &str, header_bytes: u64, slots: u32) -> Result<Buffer, AdsError> {
-    let size = entry_bytes(header_bytes) * (u64::from(slots) + 1);
-    let buffer = device.create_buffer(&BufferDesc {
-        name: &format!("{structure} header readback"),
-        size,
-        usage: BufferUsage::TRANSFER_DST,
-        location: MemoryLocation::Readback,
-    })?;
-    buffer.write(0, &vec![0; size as usize])?;
-    Ok(buffer)
+/// Pools, and the set that binds them; none by address.
+fn allocate(
+    device: &Device,
+    structure: &'static str,
+    addressing: Addressing,
+    layout: &SetLayout,
+    sizes: &Sizes,
+) -> Result<(Vec<Buffer>, Option<BindingSet>), AdsError> {
+    // Headers may hold the arguments of dispatches.
+    let usage =
+        BufferUsage::STORAGE | BufferUsage::INDIRECT | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST;
+    // Fresh memory may hold the header of a structure that was dropped: nothing is built until it says so.
+    let name = |pool: &str| format!("{structure} {pool}");
+    let mut pools = vec![device.create_buffer_of_zeros(&name(HEADER), usage, bytes(sizes, HEADER))?];
+    for pool in sizes.pools.iter().skip(1) {
+        pools.push(device.create_buffer(&BufferDesc {
+            name: &name(pool.name),
+            size: pool.elements * pool.element_bytes,
+            usage,
+            location: MemoryLocation::Device,
+        })?);
+    }
+    let set = match addressing {
+        Addressing::Descriptor => {
+            let bindings: Vec<&Buffer> = pools.iter().collect();
+            Some(device.create_binding_set(layout, structure, &bindings)?)
+        }
+        Addressing::Address => None,
+    };
+    Ok((pools, set))
 }
 
 fn bytes(sizes: &Sizes, name: &str) -> u64 {

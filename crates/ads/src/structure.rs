@@ -1,6 +1,7 @@
 //! The contract between structures and everything that traces through them.
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
+use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
 use crate::{AdsError, BuildStatus, Check, Counters, Domain, Geometry, PoolName, RayQueue, Viewpoint};
 
@@ -71,6 +72,18 @@ impl Sizes {
             Some(pool) => Err(AdsError::PoolTooLarge { structure, pool: pool.name, elements: pool.elements }),
             None => Ok(Self { pools }),
         }
+    }
+
+    /// The same, where one pool holds pages: fewer of them have numbers, since lists mark their links.
+    ///
+    /// # Errors
+    /// There are more pages than [`PAGE_LIMIT`].
+    pub fn of_pages(self, structure: &'static str, pool: impl PoolName) -> Result<Self, AdsError> {
+        let elements = self.elements_of(pool);
+        if elements > PAGE_LIMIT.into() {
+            return Err(AdsError::PoolTooLarge { structure, pool: pool.name(), elements });
+        }
+        Ok(self)
     }
 
     /// Whether a pool is larger than the pool of the same name in `other`.

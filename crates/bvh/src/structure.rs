@@ -4,8 +4,8 @@ use std::mem::offset_of;
 
 use bytemuck::cast_slice;
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, PoolBytes, Pooled,
-    RecordLayout, SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, PoolBytes, Pooled, RecordLayout,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bvh::BVH_NONE;
@@ -209,10 +209,6 @@ impl Design for Tree {
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
         self.build.record(recorder, parts.target(scene));
-    }
-
-    fn outcome(header: &Header) -> Outcome {
-        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
     }
 
     fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {

@@ -173,7 +173,7 @@ impl PosePass {
         let placements = self.places.iter().map(|place| placer.draw(place, &anchors, &mut targets)).collect();
         let lights = if self.lights_move {
             let disk = crate::kinds::disk_of(self.geometry.bounds()[0], self.geometry.bounds()[1]);
-            pack_lights(&placer.lights(scene), self.frame_origin, disk).1
+            pack_lights(&pose.lights(rig, &scene.lights), self.frame_origin, disk).1
         } else {
             Vec::new()
         };
@@ -181,7 +181,7 @@ impl PosePass {
             true => self.emitters.at(scene, &pose, &placer),
             false => (self.emitters.power_at_rest(), Vec::new()),
         };
-        let cameras = placer.cameras(scene);
+        let cameras = pose.cameras(rig, &scene.cameras);
         Ok(FramePose { placements, joints, targets, lights, emissive, emissive_power, cameras })
     }
 

@@ -3,7 +3,7 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout, Scan,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, Scan,
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
@@ -120,10 +120,6 @@ impl Design for Passes {
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
         self.0.record(recorder, cell_count(cells(parts).0), parts.target(scene));
-    }
-
-    fn outcome(header: &Header) -> Outcome {
-        Outcome { status: header.status, unsorted: 0, corrupted: header.corrupted }
     }
 
     fn asked(&self, parts: &Parts<Config>, header: &Header) -> Demand {

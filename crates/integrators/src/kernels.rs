@@ -1,12 +1,13 @@
 //! Pipelines over the slots of a wave, all made and recorded the same way.
 
-use bytemuck::{Pod, Zeroable, bytes_of};
+use bytemuck::bytes_of;
 use rasray_ads::{Domain, RayQueue};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder, SetLayout,
 };
 use rasray_gpu_scene::GpuScene;
+pub(crate) use rasray_shaders_glsl::records::WaveConstants;
 use rasray_shaders_glsl::{Shader, constant_ids::integrators::PIXEL_CENTRES};
 
 use crate::{IntegratorError, Wave};
@@ -19,23 +20,10 @@ pub(crate) fn camera_constants(pixel_centres: bool) -> [(u32, u32); 1] {
     [(PIXEL_CENTRES, u32::from(pixel_centres))]
 }
 
-/// Push constants of all kernels, `WaveConstants` of `integrators/storage.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub(crate) struct WaveConstants {
-    pub first_pixel: u32,
-    pub pixel_count: u32,
-    pub sample: u32,
-    pub round: u32,
-    pub bounces: u32,
-    pub range: f32,
-    pub domain: u32,
-}
-
 impl From<Wave> for WaveConstants {
     fn from(wave: Wave) -> Self {
         let Wave { first_pixel, pixel_count, sample } = wave;
-        Self { first_pixel, pixel_count, sample, round: 0, bounces: 0, range: 0.0, domain: 0 }
+        Self { first_pixel, pixel_count, sample_index: sample, ..Self::default() }
     }
 }
 

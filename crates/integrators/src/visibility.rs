@@ -1,6 +1,6 @@
 //! What camera rays hit, found by drawing.
 
-use bytemuck::{Pod, Zeroable, bytes_of};
+use bytemuck::bytes_of;
 use rasray_ads::{Counters, Domain, Geometry, RayQueue};
 use rasray_gpu::{
     Access, BindingSet, Buffer, ComputePipeline, ComputePipelineDesc, Device, Feature, RasterPipeline,
@@ -12,7 +12,7 @@ use rasray_shaders_glsl::{
     INTEGRATORS_VISIBILITY_RESOLVE, Shader,
     constant_ids::contract::COUNTERS,
     constants::scene::{VISIBILITY_LOWEST, VISIBILITY_NEAREST},
-    records::{Hit, VisibilityCounts},
+    records::{Hit, VisibilityConstants, VisibilityCounts},
 };
 
 use crate::{IntegratorError, Wave, kernels::device_buffer};
@@ -32,15 +32,6 @@ pub struct Visibility {
     scene: BindingSet,
     draw: RasterPipeline,
     resolve: ComputePipeline,
-}
-
-/// Push constants of all passes, `VisibilityConstants` of `integrators/visibility.glsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct VisibilityConstants {
-    first_pixel: u32,
-    pixel_count: u32,
-    round: u32,
 }
 
 impl Visibility {

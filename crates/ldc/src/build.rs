@@ -9,7 +9,7 @@ use rasray_ads::{
 use rasray_gpu::{Access, ComputePipeline, RasterPipeline, Recorder};
 use rasray_shaders_glsl::constants::ldc::LDC_GROUP_SIZE;
 
-use crate::layout::{cell_count, layer_capacity, long_capacity};
+use crate::layout::{cell_count, layer_capacity, scratch};
 use crate::{Config, Coverage, Depth, Header, Making, Payload, Pool};
 
 /// The view of a triangle is chosen by the vertex stage, so every triangle is drawn once.
@@ -106,7 +106,7 @@ impl Build {
         }
         // Long lists are stored where the large-triangle queue was, so all triangles are visited before.
         if let Layers::Single { sort, .. } = &self.layers {
-            let long = long_capacity(config, target.pools.sizes());
+            let long = scratch(config).long_capacity(target.pools.sizes());
             sort.record(recorder, target, cells, false, long, shaders);
         }
         if let Some(attributes) = &self.attributes {

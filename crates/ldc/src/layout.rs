@@ -1,6 +1,6 @@
 //! Sizes of the pools: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Sizes};
+use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
 use rasray_shaders_glsl::constants::ldc::LDC_LEVEL_BLOCKS;
 
@@ -65,35 +65,22 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
     Sizes::of("ldc", sizes)
 }
 
-/// Words for the sums of the scan, and behind them for the triangles with many cells, and once those have
-/// been visited two of each long list; or one of each layer that is peeled.
+/// What the pool of scratch holds: the sums of the scan, and the words that binning and sorting use.
+pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
+    let sums = Scan::sums(cell_count(config.resolution));
+    let sorts = config.making == Making::Single;
+    Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts }
+}
+
+/// Words of that pool: where layers are peeled there is one for each behind the sums.
 pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
-    let sorted_or_peeled = match config.making {
-        Making::Single => large.max(2 * demand.long_lists),
-        Making::Peel => demand.layers,
-    };
-    Scan::sums(cell_count(config.resolution)) + sorted_or_peeled
-}
-
-/// Words that such pools have behind the sums.
-fn words_behind_sums(config: &Config, sizes: &Sizes) -> u64 {
-    sizes.elements_of(Pool::Scratch).saturating_sub(scratch_words(config, Demand::default()))
-}
-
-/// Capacity of such pools for long lists.
-pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    if config.making == Making::Single { words_behind_sums(config, sizes) / 2 } else { 0 }
-}
-
-/// Capacity of such pools for triangles with many cells.
-pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    if config.builder == Builder::Binning { words_behind_sums(config, sizes) } else { 0 }
+    let layers = if config.making == Making::Peel { demand.layers } else { 0 };
+    scratch(config).words(demand.large, demand.long_lists) + layers
 }
 
 /// Layers that are peeled into such pools.
 pub(crate) fn layer_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    if config.making == Making::Peel { words_behind_sums(config, sizes) } else { 0 }
+    if config.making == Making::Peel { scratch(config).words_behind_sums(sizes) } else { 0 }
 }
 
 /// The first guess where nothing has been counted: two fragments per cell, and a triangle outside of the centre of

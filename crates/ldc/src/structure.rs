@@ -3,15 +3,13 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
 use crate::build::Build;
-use crate::layout::{
-    Demand, first_plan, formula_bytes, large_capacity, layer_capacity, long_capacity, plan, scratch_words,
-};
+use crate::layout::{Demand, first_plan, formula_bytes, layer_capacity, plan, scratch, scratch_words};
 use crate::{Config, Contents, Header, Pool, well_formed};
 
 /// Fragments of three orthographic views, each triangle in the one it faces most; made from a [`Config`].
@@ -23,7 +21,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     Header {
         capacity: parts.elements(Pool::Payload) as u32,
         conservative_capacity: parts.elements(Pool::Conservative) as u32,
-        long_capacity: long_capacity(config, pools.sizes()) as u32,
+        long_capacity: scratch(config).long_capacity(pools.sizes()) as u32,
         layer_capacity: layer_capacity(config, pools.sizes()) as u32,
         layer_limit: config.layers,
         resolution: config.resolution,
@@ -35,7 +33,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
         heads_address: pools.address_of(Pool::Heads),
         conservative_address: pools.address_of(Pool::Conservative),
         scratch_address: pools.address_of(Pool::Scratch),
-        large_capacity: large_capacity(config, pools.sizes()) as u32,
+        large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(u64::from(config.resolution + 2).pow(2))],
         ..Header::default()
     }
@@ -64,6 +62,7 @@ impl Design for Build {
     const TITLE: &'static str = "the layered depth cube";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const UNSORTED: Option<usize> = Some(offset_of!(Header, unsorted));
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn kind(_config: &Config) -> StructureKind {
@@ -118,11 +117,6 @@ impl Design for Build {
         self.record(recorder, &parts.config, parts.target(scene));
     }
 
-    fn outcome(header: &Header) -> Outcome {
-        let Header { status, unsorted, corrupted, .. } = *header;
-        Outcome { status, unsorted, corrupted }
-    }
-
     fn asked(&self, _parts: &Parts<Config>, header: &Header) -> Demand {
         Demand {
             fragments: header.demand.into(),
@@ -138,9 +132,9 @@ impl Design for Build {
         Demand {
             fragments: parts.elements(Pool::Payload),
             conservative: parts.elements(Pool::Conservative),
-            long_lists: long_capacity(config, pools.sizes()),
+            long_lists: scratch(config).long_capacity(pools.sizes()),
             layers: layer_capacity(config, pools.sizes()),
-            large: large_capacity(config, pools.sizes()),
+            large: scratch(config).large_capacity(pools.sizes()),
         }
     }
 

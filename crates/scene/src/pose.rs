@@ -8,7 +8,7 @@ use crate::animation::{
     Channel, ChannelValues, DeformedMesh, Interpolation, NodeTransform, Rig, Skin, SkinBinding,
 };
 use crate::remarks::Remarks;
-use crate::{Light, Mesh, Scene, check};
+use crate::{Camera, Light, Mesh, Scene, check};
 
 /// When a scene is shown, and what moves it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,6 +73,38 @@ impl Pose {
             }
         }
         Self { world_from_node: multiply(rig, &local), weights }
+    }
+
+    /// Map from a node's space to the world; the identity where there is no such node.
+    pub fn world(&self, node: usize) -> DAffine3 {
+        self.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY)
+    }
+
+    /// How much of each morph target of a mesh is shown at a node: as animated, else as at rest.
+    pub fn weights_of(&self, node: usize, deformed: &DeformedMesh) -> Vec<f64> {
+        let animated = self.weights.get(node).cloned().flatten();
+        animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
+    }
+
+    /// Where cameras of the scene with that rig are, in their order: world, metres, rigid. One without a node, or whose
+    /// node degenerates, stays.
+    pub fn cameras(&self, rig: &Rig, at_rest: &[Camera]) -> Vec<DAffine3> {
+        let nodes = rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
+        let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
+        at_rest
+            .iter()
+            .zip(nodes)
+            .map(|(camera, node)| placed(node).unwrap_or(camera.world_from_camera))
+            .collect()
+    }
+
+    /// The lights of the scene with that rig where they are. One without a node, or whose node degenerates, stays.
+    pub fn lights(&self, rig: &Rig, at_rest: &[Light]) -> Vec<Light> {
+        let mut lights = at_rest.to_vec();
+        for (light, &node) in lights.iter_mut().zip(&rig.lights) {
+            move_light(light, self.world(node));
+        }
+        lights
     }
 }
 
@@ -262,7 +294,7 @@ fn cofactors(matrix: DMat3) -> DMat3 {
 
 /// The rigid map with the same place, view direction and up direction: where a camera at a node is. Absent where the node
 /// is degenerate.
-pub fn rigid(world: DAffine3) -> Option<DAffine3> {
+pub(crate) fn rigid(world: DAffine3) -> Option<DAffine3> {
     let back = world.matrix3.z_axis.try_normalize()?;
     let right = world.matrix3.y_axis.try_normalize()?.cross(back).try_normalize()?;
     let up = back.cross(right);
@@ -284,7 +316,6 @@ impl Scene {
             return scene;
         }
         let pose = Pose::new(rig, moment);
-        let world = |node: usize| pose.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY);
         let mut deformed_of = vec![None; self.meshes.len()];
         for deformed in &rig.deformed {
             deformed_of[deformed.mesh] = Some(deformed);
@@ -293,11 +324,9 @@ impl Scene {
         let mut made: HashMap<(usize, Vec<u64>), (usize, Option<DAffine3>)> = HashMap::new();
         let mut is_replaced = vec![false; self.meshes.len()];
         for (instance, placement) in scene.instances.iter_mut().zip(&rig.placements) {
-            let mut placed = world(placement.node) * placement.node_from_mesh;
+            let mut placed = pose.world(placement.node) * placement.node_from_mesh;
             if let Some(deformed) = deformed_of[instance.mesh] {
-                let weights = pose.weights.get(placement.node).cloned().flatten();
-                let weights =
-                    weights.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect());
+                let weights = pose.weights_of(placement.node, deformed);
                 let key = (instance.mesh, weights.iter().map(|weight| weight.to_bits()).collect());
                 let (mesh, skinned) = *made.entry(key).or_insert_with(|| {
                     let (mesh, place) =
@@ -323,12 +352,10 @@ impl Scene {
             }
             instance.world_from_mesh = placed;
         }
-        for (camera, &node) in scene.cameras.iter_mut().zip(&rig.cameras) {
-            camera.world_from_camera = rigid(world(node)).unwrap_or(camera.world_from_camera);
+        for (camera, place) in scene.cameras.iter_mut().zip(pose.cameras(rig, &self.cameras)) {
+            camera.world_from_camera = place;
         }
-        for (light, &node) in scene.lights.iter_mut().zip(&rig.lights) {
-            move_light(light, world(node));
-        }
+        scene.lights = pose.lights(rig, &self.lights);
         scene
     }
 }
@@ -358,7 +385,7 @@ pub fn posed_mesh(
 }
 
 /// Moves a light to where its node is; one whose node degenerates stays.
-pub fn move_light(light: &mut Light, world: DAffine3) {
+fn move_light(light: &mut Light, world: DAffine3) {
     let (place, way) = (world.translation, light_direction(world));
     if !place.is_finite() {
         return;

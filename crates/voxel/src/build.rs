@@ -9,7 +9,7 @@ use rasray_ads::{
 use rasray_gpu::{Access, ComputePipeline, Recorder};
 use rasray_shaders_glsl::constants::voxel::VOXEL_GROUP_SIZE;
 
-use crate::layout::{list_count, long_capacity};
+use crate::layout::{list_count, scratch};
 use crate::{Axes, Config, Header, Marking, Payload, Pool, Storage};
 
 /// Pipelines of the build: the design of [`Voxels`](crate::Voxels).
@@ -98,7 +98,7 @@ impl Build {
         }
         if let Some(sort) = &self.sort {
             let linked = config.storage == Storage::Linked;
-            let long = long_capacity(config, target.pools.sizes());
+            let long = scratch(config).long_capacity(target.pools.sizes());
             sort.record(recorder, target, lists, linked, long, Access::COMPUTE);
         }
         if let Some(longest) = &self.longest {

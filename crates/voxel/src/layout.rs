@@ -1,7 +1,6 @@
 //! Sizes of the pools, and the cube they divide: plain arithmetic, no device.
 
-use rasray_ads::{AdsError, Scan, Sizes};
-use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
+use rasray_ads::{AdsError, Scan, Scratch, Sizes};
 
 use crate::{Axes, Builder, Config, Header, Payload, Pool, Storage};
 
@@ -36,16 +35,10 @@ pub fn plan(config: &Config, demand: Demand) -> Result<Sizes, AdsError> {
         (Pool::Normals, normals, 12),
         (Pool::Lists, lists, 4),
         (Pool::Fragments, demand.entries, 4 * entry_words(config)),
-        (Pool::Scratch, scratch_words(config, demand), 4),
+        (Pool::Scratch, scratch(config).words(demand.large, demand.long_lists), 4),
     ];
-    if config.storage == Storage::Paged && demand.entries > u64::from(PAGE_LIMIT) {
-        return Err(AdsError::PoolTooLarge {
-            structure: "voxel",
-            pool: "fragments",
-            elements: demand.entries,
-        });
-    }
-    Sizes::of("voxel", sizes)
+    let sizes = Sizes::of("voxel", sizes)?;
+    if config.storage == Storage::Paged { sizes.of_pages("voxel", Pool::Fragments) } else { Ok(sizes) }
 }
 
 /// Words of a fragment, with its link where it has one; or of a page of them, with that to the next page.
@@ -58,34 +51,14 @@ pub(crate) fn entry_words(config: &Config) -> u64 {
     }
 }
 
-/// Words for the sums of the scan where lists are counted, and behind them for the triangles with many cells,
-/// and once those have been visited for two of each long list.
-pub(crate) fn scratch_words(config: &Config, demand: Demand) -> u64 {
-    let large = if config.builder == Builder::Binning { demand.large } else { 0 };
-    let long = if config.sorts() { 2 * demand.long_lists } else { 0 };
-    scan_words(config) + large.max(long)
-}
-
-/// Words for the sums of the scan.
-fn scan_words(config: &Config) -> u64 {
-    match config.storage {
+/// What the pool of scratch holds: the sums of the scan where lists are counted, and the words that binning and sorting
+/// use.
+pub(crate) fn scratch(config: &Config) -> Scratch<Pool> {
+    let sums = match config.storage {
         Storage::Contiguous => Scan::sums(list_count(config.resolution)),
         Storage::Linked | Storage::Paged => 0,
-    }
-}
-
-/// Capacity of such pools for long lists.
-pub(crate) fn long_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    let behind = sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config));
-    if config.sorts() { behind / 2 } else { 0 }
-}
-
-/// Capacity of such pools for triangles with many cells.
-pub(crate) fn large_capacity(config: &Config, sizes: &Sizes) -> u64 {
-    match config.builder {
-        Builder::Raster => 0,
-        Builder::Binning => sizes.elements_of(Pool::Scratch).saturating_sub(scan_words(config)),
-    }
+    };
+    Scratch { pool: Pool::Scratch, sums, builder: config.builder, sorts: config.sorts() }
 }
 
 /// Iterations of the loops over the cells of a view, or over the columns of voxels and the few of each that a
@@ -152,6 +125,8 @@ pub fn formula_bytes(config: &Config, demand: Demand) -> FormulaBytes {
 
 #[cfg(test)]
 mod tests {
+    use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
+
     use super::*;
     use crate::{Accept, Coverage};
 

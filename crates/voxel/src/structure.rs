@@ -3,16 +3,14 @@
 use std::mem::offset_of;
 
 use rasray_ads::{
-    AdsError, BuildPipelines, Dependencies, Design, Geometry, Outcome, Parts, Pooled, RecordLayout,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
+    Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::voxel::VOXEL_REFINEMENTS;
 
 use crate::build::Build;
-use crate::layout::{
-    Demand, first_plan, formula_bytes, large_capacity, long_capacity, plan, scratch_words, widest_view,
-};
+use crate::layout::{Demand, first_plan, formula_bytes, plan, scratch, widest_view};
 use crate::{Accept, Config, Contents, Coverage, Header, March, Pool, Storage, well_formed};
 
 /// Lists of maximum length that a ray gets rounds for.
@@ -26,7 +24,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
     let Parts { config, pools, .. } = parts;
     Header {
         capacity: parts.elements(Pool::Fragments) as u32,
-        long_capacity: long_capacity(config, pools.sizes()) as u32,
+        long_capacity: scratch(config).long_capacity(pools.sizes()) as u32,
         resolution: config.resolution,
         grid: config.grid(),
         samples: config.samples,
@@ -35,7 +33,7 @@ fn first_header(parts: &Parts<Config>) -> Header {
         lists_address: pools.address_of(Pool::Lists),
         fragments_address: pools.address_of(Pool::Fragments),
         scratch_address: pools.address_of(Pool::Scratch),
-        large_capacity: large_capacity(config, pools.sizes()) as u32,
+        large_capacity: scratch(config).large_capacity(pools.sizes()) as u32,
         groups: [0, 0, bin_groups(widest_view(config))],
         ..Header::default()
     }
@@ -62,6 +60,7 @@ impl Design for Build {
     const TITLE: &'static str = "the voxels";
     const BUILD_READS_SCENE: bool = true;
     const CORRUPTED: usize = offset_of!(Header, corrupted);
+    const UNSORTED: Option<usize> = Some(offset_of!(Header, unsorted));
     const RECORDS: &'static [RecordLayout] = &[Header::LAYOUT];
 
     fn kind(config: &Config) -> StructureKind {
@@ -107,11 +106,6 @@ impl Design for Build {
         self.record(recorder, &parts.config, parts.target(scene));
     }
 
-    fn outcome(header: &Header) -> Outcome {
-        let Header { status, unsorted, corrupted, .. } = *header;
-        Outcome { status, unsorted, corrupted }
-    }
-
     fn asked(&self, _parts: &Parts<Config>, header: &Header) -> Demand {
         Demand {
             entries: header.demand.into(),
@@ -124,8 +118,8 @@ impl Design for Build {
         let Parts { config, pools, .. } = parts;
         Demand {
             entries: parts.elements(Pool::Fragments),
-            long_lists: long_capacity(config, pools.sizes()),
-            large: large_capacity(config, pools.sizes()),
+            long_lists: scratch(config).long_capacity(pools.sizes()),
+            large: scratch(config).large_capacity(pools.sizes()),
         }
     }
 
@@ -160,7 +154,7 @@ impl Design for Build {
     fn used(parts: &Parts<Config>, asked: &Demand, pool: Pool) -> Option<u64> {
         match pool {
             Pool::Fragments => Some(asked.entries),
-            Pool::Scratch => Some(scratch_words(&parts.config, *asked)),
+            Pool::Scratch => Some(scratch(&parts.config).words(asked.large, asked.long_lists)),
             _ => None,
         }
     }

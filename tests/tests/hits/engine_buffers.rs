@@ -2,7 +2,8 @@
 //! vertices, a number of triangles that only the device knows. Hits are those of packed buffers, bit for bit.
 
 use rasray_ads::{
-    BufferOffset, Draw, Geometry, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange, Structure,
+    BoundsPass, BufferOffset, Draw, Geometry, GeometryDesc, GeometryHeader, IndexFormat, IndexRange,
+    Indexing, PositionRange, Structure,
 };
 use rasray_gpu::BufferUsage;
 use rasray_tests::harness::Bench;
@@ -160,6 +161,37 @@ fn buffers_of_an_engine_change_no_hit() {
             let found = subject.answers_of(&bench, EYE, structure.as_mut(), &rays);
             assert_same(&name, &rays, &expected, &found);
             assert_sound(&bench, &name, structure.as_ref());
+        }
+    }
+}
+
+/// Measured before anything is gathered, from indices of every kind.
+#[test]
+fn bounds_are_those_of_the_triangles_wherever_their_indices_lie() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let pass = BoundsPass::new(device).expect("the device works");
+    let triangles = scene(true);
+    for layout in LAYOUTS {
+        let (whole, counter) = geometry(&bench, &triangles, layout);
+        let stated = whole.desc().bounds;
+        let desc = GeometryDesc { bounds: [[0.0; 3]; 2], ..whole.desc().clone() };
+        let unmeasured = Geometry::new(device, desc).expect("the buffer holds it");
+        let measured = || {
+            device.submit(|recorder| pass.record(recorder, &unmeasured)).expect("the device works");
+            let header = device.download_as::<GeometryHeader>(unmeasured.header(), 0, 1);
+            let header = header.expect("the device works")[0];
+            [header.lower, header.upper]
+        };
+        assert_eq!(measured(), stated, "{}", layout.name);
+        if let Some(counter) = counter {
+            set_count(&bench, &counter, 1);
+            let corners = |with: fn(f32, f32) -> f32| -> [f32; 3] {
+                std::array::from_fn(|axis| {
+                    triangles[0].iter().map(|corner| corner[axis]).reduce(with).expect("three corners")
+                })
+            };
+            assert_eq!(measured(), [corners(f32::min), corners(f32::max)], "{}: one", layout.name);
         }
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use rasray_shaders_glsl::Shader;
 use rasray_shaders_glsl::layout::layouts;
+use spirq::entry_point::EntryPoint;
 use spirq::reflect_cfg::ReflectConfig;
 use spirq::ty::Type;
 use spirq::var::Variable;
@@ -55,15 +56,18 @@ pub fn without_constant_expressions(words: &[u32]) -> Vec<u32> {
     kept
 }
 
-/// What an independent reader says.
-pub fn read_by_spirq(shader: &Shader) -> BTreeMap<String, Record> {
-    let entry_points = ReflectConfig::new()
+fn reflected(shader: &Shader) -> Vec<EntryPoint> {
+    ReflectConfig::new()
         .spv(without_constant_expressions(shader.words()))
         .ref_all_rscs(true)
         .reflect()
-        .unwrap_or_else(|error| panic!("{shader:?}: {error}"));
+        .unwrap_or_else(|error| panic!("{shader:?}: {error}"))
+}
+
+/// What an independent reader says.
+pub fn read_by_spirq(shader: &Shader) -> BTreeMap<String, Record> {
     let mut found = BTreeMap::new();
-    for variable in entry_points.iter().flat_map(|entry_point| &entry_point.vars) {
+    for variable in reflected(shader).iter().flat_map(|entry_point| &entry_point.vars) {
         if let Variable::Descriptor { ty, .. } | Variable::PushConstant { ty, .. } = variable {
             collect(ty, None, &mut found);
         }
@@ -110,26 +114,10 @@ pub fn difference(record: Option<&Record>, members: &[Member], size: usize) -> O
     }
 }
 
-/// Checks a record in a module with both readers.
-pub fn check(shader: &Shader, name: &str, members: &[Member], size: usize) {
-    for (reader, records) in [("own reader", read_by_us(shader)), ("spirq", read_by_spirq(shader))] {
-        if let Some(difference) = difference(records.get(name), members, size) {
-            panic!("{name} in {} ({reader}): {difference}", shader.name);
-        }
-    }
-}
-
-/// Size of a member that a function leads to.
-pub fn size_of_member<T, M>(_: fn(&T) -> &M) -> usize {
-    size_of::<M>()
-}
-
-macro_rules! members {
-    ($record:ty { $($member:ident),* }) => {
-        [$((
-            stringify!($member).to_owned(),
-            std::mem::offset_of!($record, $member),
-            crate::reader::size_of_member(|record: &$record| &record.$member),
-        )),*]
-    };
+/// The name of a module's push constants, as the independent reader finds them; none where it has none.
+pub fn push_constants(shader: &Shader) -> Option<String> {
+    reflected(shader).iter().flat_map(|entry_point| &entry_point.vars).find_map(|variable| match variable {
+        Variable::PushConstant { ty: Type::Struct(record), .. } => record.name.clone(),
+        _ => None,
+    })
 }

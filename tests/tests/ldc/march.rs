@@ -3,6 +3,7 @@
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::LDC_TEST_MARCH;
+use rasray_shaders_glsl::records::test_kernels::SquareMarchTestConstants;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::visits::{run_kernel, runs};
@@ -40,15 +41,16 @@ fn a_traversal_resumes_wherever_it_was_stopped() {
     for (first, last) in [(0, 7), (8, 15), (8184, 8191)] {
         let rays = rays(&mut random, first, last);
         let limit = 64_usize;
-        let constants = [rays.len() as u32, first as u32, last as u32, limit as u32];
-        let (found, counts) = run_kernel::<Visit>(
+        let ray_count = rays.len() as u32;
+        let constants = SquareMarchTestConstants { ray_count, first, last, limit: limit as u32 };
+        let (found, counts) = run_kernel::<Visit, _>(
             bench.device(),
             &LDC_TEST_MARCH,
             bytemuck::cast_slice(&rays),
             2 * rays.len() * limit,
             Some(2 * rays.len()),
             rays.len(),
-            bytemuck::cast_slice(&constants),
+            &constants,
         );
         let traversals = runs(&found, &counts, limit);
         // Squares; columns without rows, and of those such as stand before the first row or past the last, by side.

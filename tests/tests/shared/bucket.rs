@@ -1,22 +1,12 @@
 //! The bucket function: monotone, defined for every range, the same number on both sides.
 
-use bytemuck::{Pod, Zeroable};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use rasray_shaders_glsl::ADS_TEST_BUCKET;
+use rasray_shaders_glsl::records::test_kernels::{BucketCase as Case, BucketTestConstants};
 use rasray_tests::harness::Bench;
 use rasray_tests::visits::run_kernel;
-
-/// `Case` of `ads/test_bucket.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-struct Case {
-    z_min: f32,
-    z_max: f32,
-    z: f32,
-    buckets: u32,
-}
 
 /// The same arithmetic as `ads/bucket.glsl`.
 fn scale(z_min: f32, z_max: f32, buckets: u32) -> f32 {
@@ -36,8 +26,9 @@ fn expected(case: &Case) -> u32 {
 
 fn on_device(bench: &Bench, cases: &[Case]) -> Vec<u32> {
     let bytes = bytemuck::cast_slice(cases);
-    let constants = (cases.len() as u32).to_le_bytes();
-    run_kernel::<u32>(bench.device(), &ADS_TEST_BUCKET, bytes, cases.len(), None, cases.len(), &constants).0
+    let constants = BucketTestConstants { case_count: cases.len() as u32 };
+    run_kernel::<u32, _>(bench.device(), &ADS_TEST_BUCKET, bytes, cases.len(), None, cases.len(), &constants)
+        .0
 }
 
 /// A range of depths and depths within it, ascending.

@@ -3,34 +3,18 @@
 
 use std::collections::HashMap;
 
-use bytemuck::{Pod, Zeroable};
 use rasray_abuffer::{ABuffer, Config, Contents, well_formed};
 use rasray_gpu::Timing;
 use rasray_reference::oracle::{Oracle, Outcome, Ray, Verdict};
 use rasray_shaders_glsl::ADS_TEST_COVERAGE;
+use rasray_shaders_glsl::records::test_kernels::{
+    CoverageCase as Case, CoverageResult, CoverageTestConstants,
+};
 use rasray_tests::harness::{Bench, oracle_of};
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::visits::{cell_center, face_from_world, run_kernel, world_from_face};
 use rasray_tracer::build_until_complete;
-
-/// `Case` of `ads/test_coverage.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Case {
-    triangle: Triangle,
-    face: u32,
-    x: i32,
-    y: i32,
-}
-
-/// `Result` of `ads/test_coverage.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Found {
-    covered: u32,
-    z: f32,
-}
 
 /// The ray through a cell's centre, in face space; its t is the depth.
 fn center_ray(x: i32, y: i32, resolution: u32) -> Ray {
@@ -126,15 +110,15 @@ fn coverage_of_centres_agrees_with_the_oracle() {
                 }
             }
         }
-        let constants = [cases.len() as u32, resolution];
-        let (found, _) = run_kernel::<Found>(
+        let constants = CoverageTestConstants { case_count: cases.len() as u32, resolution };
+        let (found, _) = run_kernel::<CoverageResult, _>(
             bench.device(),
             &ADS_TEST_COVERAGE,
             bytemuck::cast_slice(&cases),
             cases.len(),
             None,
             cases.len(),
-            bytemuck::cast_slice(&constants),
+            &constants,
         );
         let (mut covered, mut uncovered, mut ambiguous) = (0, 0, 0);
         for (case, found) in cases.iter().zip(&found) {

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::ADS_TEST_MARCH_GRID;
+use rasray_shaders_glsl::records::test_kernels::GridMarchTestConstants;
 use rasray_tests::hard_cases::{self, Scale};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
@@ -21,14 +22,14 @@ fn traverse(bench: &Bench, rays: &[Ray], size: u32) -> Vec<Vec<Cell>> {
     let limit = visit_limit(size);
     let mut all = Vec::with_capacity(rays.len());
     for chunk in rays.chunks((64 << 20) / (size_of::<Cell>() * limit)) {
-        let (found, counts) = run_kernel::<Cell>(
+        let (found, counts) = run_kernel::<Cell, _>(
             bench.device(),
             &ADS_TEST_MARCH_GRID,
             bytemuck::cast_slice(chunk),
             chunk.len() * limit,
             Some(chunk.len()),
             chunk.len(),
-            bytemuck::cast_slice(&[chunk.len() as u32, size, limit as u32]),
+            &GridMarchTestConstants { ray_count: chunk.len() as u32, size, limit: limit as u32 },
         );
         for (ray, visits) in chunk.iter().zip(runs(&found, &counts, limit)) {
             all.push(visits.unwrap_or_else(|| panic!("{ray:?} visits more than {limit} cells")));

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use rasray_ads::Ray;
 use rasray_shaders_glsl::ADS_TEST_MARCH_CELLS;
+use rasray_shaders_glsl::records::test_kernels::CellMarchTestConstants;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::visits::{
@@ -28,15 +29,20 @@ fn traverse_within(
 ) -> Vec<Option<Vec<Visit>>> {
     let mut all = Vec::with_capacity(rays.len());
     for chunk in rays.chunks(((32 << 20) / (size_of::<Visit>() * limit)).max(1)) {
-        let constants = [chunk.len() as u32, resolution, limit as u32, near.to_bits()];
-        let (found, counts) = run_kernel::<Visit>(
+        let constants = CellMarchTestConstants {
+            ray_count: chunk.len() as u32,
+            resolution,
+            limit: limit as u32,
+            near_size: near,
+        };
+        let (found, counts) = run_kernel::<Visit, _>(
             bench.device(),
             &ADS_TEST_MARCH_CELLS,
             bytemuck::cast_slice(chunk),
             chunk.len() * limit,
             Some(chunk.len()),
             chunk.len(),
-            bytemuck::cast_slice(&constants),
+            &constants,
         );
         all.extend(runs(&found, &counts, limit));
     }

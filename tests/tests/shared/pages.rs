@@ -1,6 +1,7 @@
 //! Lists of pages that many threads fill at once: every entry gets a slot of its own, in its own list.
 
 use rasray_shaders_glsl::ADS_TEST_PAGES;
+use rasray_shaders_glsl::records::test_kernels::PageTestConstants;
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::visits::run_kernel;
@@ -9,10 +10,12 @@ use rasray_tests::visits::run_kernel;
 /// that each was given.
 fn fill(bench: &Bench, lists: &[u32], list_count: usize, page: u32, capacity: u32) -> (Vec<u32>, Vec<u32>) {
     let words = 1 + list_count + (capacity * (1 + page)) as usize;
-    let constants: Vec<u8> = [lists.len() as u32, list_count as u32, page, capacity]
-        .iter()
-        .flat_map(|n| n.to_le_bytes())
-        .collect();
+    let constants = PageTestConstants {
+        thread_count: lists.len() as u32,
+        list_count: list_count as u32,
+        page_size: page,
+        page_capacity: capacity,
+    };
     let inputs = bytemuck::cast_slice(lists);
     let (slots, words) = run_kernel(
         bench.device(),

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use rasray_ads::{Hit, InlineTrace, Ray, Structure};
 use rasray_gpu::{BufferDesc, BufferUsage, ComputePipelineDesc, Feature, MemoryLocation, Timing};
+use rasray_shaders_glsl::records::test_kernels::ParityTestConstants;
 use rasray_shaders_glsl::{ALL, Shader};
 use rasray_systems::{SYSTEMS, Spec};
 use rasray_tests::harness::{Bench, bits};
@@ -58,12 +59,16 @@ fn side_by_side(
             name: shader.name,
             spirv: shader.words(),
             sets: &[geometry.layout(), first.layout, second.layout, &layout],
-            push_constant_bytes: 20,
+            push_constant_bytes: size_of::<ParityTestConstants>() as u32,
             constants: &constants,
         })
         .expect("the kernel compiles");
     let words = |address: u64| [address as u32, (address >> 32) as u32];
-    let ([a, b], [c, d]) = (words(first.address), words(second.address));
+    let pushed = ParityTestConstants {
+        first: words(first.address),
+        second: words(second.address),
+        count: rays.len() as u32,
+    };
     device
         .submit(|recorder| {
             recorder.bind_compute(&pipeline);
@@ -74,7 +79,7 @@ fn side_by_side(
                 }
             }
             recorder.bind_sets(3, &[&set]);
-            recorder.push_constants(bytemuck::bytes_of(&[a, b, c, d, rays.len() as u32]));
+            recorder.push_constants(bytemuck::bytes_of(&pushed));
             recorder.dispatch([rays.len().div_ceil(64) as u32, 1, 1]);
         })
         .expect("the kernel runs");

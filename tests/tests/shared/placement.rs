@@ -1,50 +1,21 @@
 //! Where header passes place views and cells (`ads/placement.glsl`), on the device and held against arithmetic in f64.
 
-use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
+use bytemuck::cast_slice;
 use rasray_shaders_glsl::ADS_TEST_PLACEMENT;
 use rasray_shaders_glsl::constants::ads::PLACEMENT_MARGIN;
+use rasray_shaders_glsl::records::test_kernels::{
+    PlacementCase as Case, PlacementResult, PlacementTestConstants,
+};
 use rasray_tests::harness::Bench;
 use rasray_tests::visits::run_kernel;
 
-/// `Case` of `ads/test_placement.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Case {
-    bounds: [[f32; 3]; 2],
-    eye: [f32; 3],
-    cells: [u32; 3],
-}
-
-/// `Result` of `ads/test_placement.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Placed {
-    centre: [f32; 3],
-    cube_lower: [f32; 3],
-    cube_side: f32,
-    box_centre: [f32; 3],
-    box_rounding: f32,
-    box_lower: [f32; 3],
-    box_per_metre: [f32; 3],
-    box_reach: f32,
-}
-
 const BOUNDS: [[f32; 3]; 2] = [[-2.0, -1.5, 0.0], [2.0, 1.5, 8.0]];
 
-fn placed(cases: &[Case]) -> Vec<Placed> {
+fn placed(cases: &[Case]) -> Vec<PlacementResult> {
     let bench = Bench::new();
     let count = cases.len();
-    let constants = [count as u32, 0];
-    run_kernel(
-        bench.device(),
-        &ADS_TEST_PLACEMENT,
-        cast_slice(cases),
-        count,
-        None,
-        count,
-        bytes_of(&constants),
-    )
-    .0
+    let constants = PlacementTestConstants { case_count: count as u32 };
+    run_kernel(bench.device(), &ADS_TEST_PLACEMENT, cast_slice(cases), count, None, count, &constants).0
 }
 
 /// The centres of faces for eyes and bounds.

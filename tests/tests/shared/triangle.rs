@@ -1,30 +1,14 @@
 //! The t of a ray and a triangle against double precision: never farther off than its bound says, and close
 //! to the truth on triangles of any shape and size.
 
-use bytemuck::{Pod, Zeroable};
 use rasray_shaders_glsl::ADS_TEST_TRIANGLE;
+use rasray_shaders_glsl::records::test_kernels::{
+    TriangleCase as Case, TriangleResult, TriangleTestConstants,
+};
 use rasray_tests::harness::Bench;
 use rasray_tests::random::Random;
 use rasray_tests::shapes::Triangle;
 use rasray_tests::visits::run_kernel;
-
-/// `Case` of `ads/test_triangle.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Case {
-    triangle: Triangle,
-    origin: [f32; 3],
-    direction: [f32; 3],
-}
-
-/// `Result` of `ads/test_triangle.comp`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Found {
-    hit: u32,
-    t: f32,
-    t_error: f32,
-}
 
 const CASES: usize = 20_000;
 
@@ -84,14 +68,14 @@ fn cases(make: impl Fn(&mut Random) -> Case) -> Vec<Case> {
 
 /// The largest error of t relative to t, and relative to its bound. Panics where it is beyond.
 fn worst(bench: &Bench, name: &str, cases: &[Case]) -> (f64, f64) {
-    let (found, _) = run_kernel::<Found>(
+    let (found, _) = run_kernel::<TriangleResult, _>(
         bench.device(),
         &ADS_TEST_TRIANGLE,
         bytemuck::cast_slice(cases),
         cases.len(),
         None,
         cases.len(),
-        bytemuck::bytes_of(&(cases.len() as u32)),
+        &TriangleTestConstants { case_count: cases.len() as u32 },
     );
     let (mut hits, mut relative, mut of_bound) = (0, 0.0_f64, 0.0_f64);
     for (case, found) in cases.iter().zip(&found).filter(|(_, found)| found.hit == 1) {

@@ -1,27 +1,16 @@
 //! Shares of lights that depend on the bounds, which the device alone knows.
 
-use bytemuck::{Pod, Zeroable, bytes_of};
+use bytemuck::bytes_of;
 use rasray_ads::Geometry;
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferUsage, ComputePipeline, ComputePipelineDesc, Device, Recorder,
 };
 use rasray_scene::{Light, Scene};
 use rasray_shaders_glsl::SCENE_POSE_LIGHTS;
-use rasray_shaders_glsl::records::PoseLightPower;
+use rasray_shaders_glsl::records::{PoseLightConstants, PoseLightPower};
 
 use crate::kinds::punctual_power;
 use crate::{GpuScene, GpuSceneError, SceneTables};
-
-/// As `scene/pose_lights.comp` has it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Pod, Zeroable)]
-struct Constants {
-    light_count: u32,
-    emissive: u32,
-    emissive_power: f32,
-    environment: u32,
-    irradiance: f32,
-}
 
 /// The pass `scene/pose_lights`: directional lights and the environment count by the circle around the bounds.
 #[derive(Debug)]
@@ -29,7 +18,7 @@ pub struct FarLights {
     pipeline: ComputePipeline,
     set: BindingSet,
     powers: Buffer,
-    constants: Constants,
+    constants: PoseLightConstants,
 }
 
 impl FarLights {
@@ -70,10 +59,10 @@ impl FarLights {
             name: SCENE_POSE_LIGHTS.name,
             spirv: SCENE_POSE_LIGHTS.words(),
             sets: &[gpu.geometry().layout(), &layout],
-            push_constant_bytes: size_of::<Constants>() as u32,
+            push_constant_bytes: size_of::<PoseLightConstants>() as u32,
             constants: &[],
         })?;
-        let constants = Constants {
+        let constants = PoseLightConstants {
             light_count: lights.len() as u32,
             emissive: 0,
             emissive_power: 0.0,
@@ -90,7 +79,7 @@ impl FarLights {
 
     /// Records the shares for the bounds on the device, with that power of emissive triangles, W.
     pub fn record(&self, recorder: &mut Recorder<'_>, geometry: &Geometry, emissive_power: f64) {
-        let constants = Constants {
+        let constants = PoseLightConstants {
             emissive: u32::from(emissive_power > 0.0),
             emissive_power: emissive_power.min(1.0e38) as f32,
             ..self.constants

@@ -1,9 +1,8 @@
 //! The host's part of a pose: what the device is told of a frame.
 
 use glam::{DAffine3, DMat3, DVec3};
-use rasray_scene::Scene;
 use rasray_scene::animation::Rig;
-use rasray_scene::pose::{Pose, rigid};
+use rasray_scene::pose::Pose;
 use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
 
@@ -50,10 +49,6 @@ pub(super) struct Placer<'a> {
 }
 
 impl Placer<'_> {
-    fn world(&self, node: usize) -> DAffine3 {
-        self.pose.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY)
-    }
-
     /// Appends the matrices of the joints of a skin, which take the pivot to about zero, and answers where that is, world,
     /// metres: the place of joint 0.
     pub fn joints(&self, place: &SkinPlace, joints: &mut Vec<PoseMatrix>) -> DVec3 {
@@ -62,7 +57,7 @@ impl Placer<'_> {
             .joints
             .iter()
             .zip(&skin.joint_from_mesh)
-            .map(|(&joint, &joint_from_mesh)| self.world(joint) * joint_from_mesh)
+            .map(|(&joint, &joint_from_mesh)| self.pose.world(joint) * joint_from_mesh)
             .collect();
         let anchor = moves.first().map_or(DVec3::ZERO, |first| first.transform_point3(place.pivot));
         joints.extend(
@@ -107,37 +102,14 @@ impl Placer<'_> {
     /// Where an instance without joints is.
     pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
         let placement = self.rig.placements[instance];
-        self.world(placement.node) * placement.node_from_mesh
+        self.pose.world(placement.node) * placement.node_from_mesh
     }
 
     /// Weights of the morph targets of a draw.
     pub fn weights(&self, place: &DrawPlace) -> Vec<f64> {
         let Some(deformed) = place.deformed else { return Vec::new() };
         let node = self.rig.placements[place.instance].node;
-        let animated = self.pose.weights.get(node).cloned().flatten();
-        animated
-            .unwrap_or_else(|| self.rig.deformed[deformed].weights.iter().copied().map(f64::from).collect())
-    }
-
-    /// Where the cameras of `scene` are.
-    pub fn cameras(&self, scene: &Scene) -> Vec<DAffine3> {
-        let nodes = self.rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
-        let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
-        scene
-            .cameras
-            .iter()
-            .zip(nodes)
-            .map(|(camera, node)| placed(node).unwrap_or(camera.world_from_camera))
-            .collect()
-    }
-
-    /// The lights of `scene` where they are.
-    pub fn lights(&self, scene: &Scene) -> Vec<rasray_scene::Light> {
-        let mut lights = scene.lights.clone();
-        for (light, &node) in lights.iter_mut().zip(&self.rig.lights) {
-            rasray_scene::pose::move_light(light, self.world(node));
-        }
-        lights
+        self.pose.weights_of(node, &self.rig.deformed[deformed])
     }
 }
 

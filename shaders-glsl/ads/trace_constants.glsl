@@ -1,0 +1,14 @@
+// What: the push constants of the kernels that trace a queue or find surfaces at its hits.
+// Reads: push constants. Writes: nothing.
+// Included after contract/select.glsl, which says what StructureRef is.
+#ifndef ADS_TRACE_CONSTANTS_GLSL
+#define ADS_TRACE_CONSTANTS_GLSL
+
+// What a queue is traced through, and which of its slots. 16 bytes.
+layout(push_constant, scalar) uniform TraceConstants {
+    StructureRef structure;   // the device address of the header, low word first; zero with descriptors
+    uint domain;              // the number of first slots, or DOMAIN_SELECTED
+    uint work_budget;         // units of work that a ray may spend per dispatch
+} trace;
+
+#endif
