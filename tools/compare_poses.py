@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Hold poses of animated glTF scenes against Blender's importer.
 
-Each scene is shown at key times of its first clip, because between keys of rotations Blender mixes quaternions where the
-format asks for the arc. Prints a Markdown table: how far a vertex of rasray's is from the nearest one of Blender's, over
-the longest side of the scene. Needs Python 3.11 with the packages bpy and numpy, and `cargo build --release -p
+Each scene is shown at key times of each of its clips, because between keys of rotations Blender mixes quaternions where
+the format asks for the arc. Prints a Markdown table: how far a corner or the centroid of a triangle of either is from the
+nearest one of the other, over the longest side of the scene. Needs Python 3.11 with the packages bpy and numpy, and `cargo build --release -p
 rasray-scene --example positions`.
 
   tools/compare_poses.py target/release/examples/positions SCENE.glb ...
@@ -38,24 +38,43 @@ def document(path):
     return root, buffer
 
 
-def key_times(path):
-    """Times of the keys of the first channel of the first clip, seconds."""
+def key_times(path, clip):
+    """Times of the keys of the first channel of a clip, seconds."""
     root, buffer = document(path)
-    accessor = root["accessors"][root["animations"][0]["samplers"][0]["input"]]
+    accessor = root["accessors"][root["animations"][clip]["samplers"][0]["input"]]
     view = root["bufferViews"][accessor["bufferView"]]
     start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     return np.frombuffer(buffer(view["buffer"]), "<f4", accessor["count"], start).astype(float)
 
 
-def of_rasray(positions, path, seconds):
-    """Corners of all triangles, metres."""
-    command = [positions, str(path), repr(seconds), "0"]
+def marked(triangles):
+    """Corners and centroids of triangles: where vertices are, and which of them triangles join."""
+    points = np.concatenate([triangles.reshape(-1, 3), triangles.mean(axis=1)])
+    return np.unique(points, axis=0)
+
+
+def of_rasray(positions, path, seconds, clip):
+    """All triangles, metres."""
+    command = [positions, str(path), repr(seconds), str(clip)]
     text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return np.unique(np.array([line.split() for line in text.splitlines()], dtype=float), axis=0)
+    return np.array([line.split() for line in text.splitlines()], dtype=float).reshape(-1, 3, 3)
+
+
+def play(name):
+    """Makes Blender play one clip alone. The importer keeps each as a muted track of what it moves, and plays the first."""
+    for item in bpy.data.objects:
+        for animated in (item, getattr(item.data, "shape_keys", None)):
+            data = getattr(animated, "animation_data", None)
+            if data is None:
+                continue
+            strips = [track.strips[0] for track in data.nla_tracks if track.name == name]
+            data.action = strips[0].action if strips else None
+            if strips:
+                data.action_slot = strips[0].action_slot
 
 
 def of_blender(seconds):
-    """Vertices of the imported meshes, metres, in axes of glTF."""
+    """All triangles of the imported meshes, metres, in axes of glTF."""
     scene = bpy.context.scene
     frame = seconds * scene.render.fps / scene.render.fps_base
     scene.frame_set(math.floor(frame), subframe=frame - math.floor(frame))
@@ -67,19 +86,28 @@ def of_blender(seconds):
             continue
         evaluated = item.evaluated_get(graph)
         mesh = evaluated.to_mesh()
+        mesh.calc_loop_triangles()
         local = np.empty(3 * len(mesh.vertices))
         mesh.vertices.foreach_get("co", local)
+        corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+        mesh.loop_triangles.foreach_get("vertices", corners)
         matrix = np.array(evaluated.matrix_world)
         world = local.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3]
-        found.append(np.stack([world[:, 0], world[:, 2], -world[:, 1]], axis=1))
+        turned = np.stack([world[:, 0], world[:, 2], -world[:, 1]], axis=1)
+        found.append(turned[corners].reshape(-1, 3, 3))
         evaluated.to_mesh_clear()
     return np.concatenate(found)
 
 
 def farthest(ours, theirs):
-    """The largest distance from a point to the nearest of others."""
-    parts = np.array_split(ours, len(ours) // 256 + 1)
-    return max(np.sqrt(((part[:, None] - theirs[None]) ** 2).sum(axis=2)).min(axis=1).max() for part in parts)
+    """The largest distance from a point of either side to the nearest of the other."""
+
+    def one_way(points, others):
+        parts = np.array_split(points, len(points) // 256 + 1)
+        distances = (((part[:, None] - others[None]) ** 2).sum(axis=2) for part in parts)
+        return max(np.sqrt(squares).min(axis=1).max() for squares in distances)
+
+    return max(one_way(ours, theirs), one_way(theirs, ours))
 
 
 def main():
@@ -87,20 +115,27 @@ def main():
     parser.add_argument("positions", help="the example of rasray-scene")
     parser.add_argument("scenes", nargs="+", type=Path)
     given = parser.parse_args()
-    print("| scene | times, s | corners | largest distance / size |")
-    print("|---|---|---|---|")
+    print("| scene | clip | times, s | triangles | largest distance / size |")
+    print("|---|---|---|---|---|")
     for path in given.scenes:
-        keys = key_times(path)
-        times = sorted({float(keys[len(keys) * part // 4]) for part in (1, 2, 3)})
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-        bpy.ops.import_scene.gltf(filepath=str(path))
-        worst, count = 0.0, 0
-        for seconds in times:
-            ours, theirs = of_rasray(given.positions, path, seconds), of_blender(seconds)
-            size = (theirs.max(axis=0) - theirs.min(axis=0)).max()
-            worst, count = max(worst, farthest(ours, theirs) / size), len(ours)
-        listed = ", ".join(f"{seconds:.3f}" for seconds in times)
-        print(f"| {path.name} | {listed} | {count:,} | {worst:.1e} |", flush=True)
+        clips = document(path)[0]["animations"]
+        for clip, named in enumerate(clips):
+            keys = key_times(path, clip)
+            times = sorted({float(keys[min(len(keys) * part // 4, len(keys) - 1)]) for part in range(5)})
+            bpy.ops.wm.read_factory_settings(use_empty=True)
+            bpy.ops.import_scene.gltf(filepath=str(path))
+            name = named.get("name") or f"Anim_{clip}"
+            play(name)
+            worst, count = 0.0, 0
+            for seconds in times:
+                ours, theirs = of_rasray(given.positions, path, seconds, clip), of_blender(seconds)
+                count = len(ours)
+                size = np.ptp(theirs.reshape(-1, 3), axis=0).max()
+                worst = max(worst, farthest(marked(ours), marked(theirs)) / size)
+                if len(ours) != len(theirs):
+                    print(f"{path.name}: {len(ours)} triangles, {len(theirs)} in Blender")
+            listed = ", ".join(f"{seconds:.3f}" for seconds in times)
+            print(f"| {path.name} | {name} | {listed} | {count:,} | {worst:.1e} |", flush=True)
 
 
 if __name__ == "__main__":
