@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Hold what the camera sees, found by drawing, against traces: times, and pixels that differ.
 
-Each scene is rendered twice through each system, with `--primary trace` and `--primary raster`. Prints a Markdown table:
+Each scene is rendered through each system, with `--primary trace` and `--primary raster`. Prints a Markdown table:
 milliseconds per sample of all pixels, and how many pixels differ in triangle and in distance at their centres, and in
 colour (ray casting, a random place in the pixel for each sample).
+
+With `--processor` times are the processor's: what a run takes beyond one of a single sample, per sample more. They hold
+everything that a sample does, and are the ones to use where a software driver shares its cores with other programs.
 
   tools/compare_primary.py --program target/release/rasray --systems bricks,mmrt,hu cornell SCENE.glb ...
 """
 
 import argparse
 import json
+import os
 import struct
 import subprocess
 import sys
@@ -69,18 +73,38 @@ def words(path):
     return image
 
 
-def render(options, scene, system, primary, folder):
-    """Channels and the run of the report."""
+def render(options, scene, system, primary, samples, folder):
+    """Channels, number of triangles, the run of the report and processor time in ms; nothing where it is refused."""
     image, report = folder / "image.exr", folder / "report.json"
     command = [options.program, "render", scene, "--system", system, "--primary", primary, "--integrator", "raycast"]
-    command += ["--size", options.size, "--spp", str(options.samples), "--aov", "depth,primitive"]
+    command += ["--size", options.size, "--spp", str(samples), "--aov", "depth,primitive"]
     command += ["--output", str(image), "--report", str(report), "--quiet"]
+    before = os.times()
     done = subprocess.run(command, capture_output=True, text=True)
+    after = os.times()
     if done.returncode != 0:
         print(f"{scene}: {done.stderr.strip()}", file=sys.stderr)
         return None
     found = json.loads(report.read_text())
-    return words(image), found["scene"]["triangles"], found["runs"][0]
+    spent = after.children_user + after.children_system - before.children_user - before.children_system
+    return words(image), found["scene"]["triangles"], found["runs"][0], 1000.0 * spent
+
+
+def measure(options, scene, system, folder):
+    """Of both ways: channels, and milliseconds per sample; and the number of triangles. Nothing where it is refused."""
+    images, times = [], []
+    for way, key in (("trace", "trace_ms"), ("raster", "visible_ms")):
+        whole = render(options, scene, system, way, options.samples, folder)
+        if whole is None:
+            return None
+        image, triangles, run, spent = whole
+        time = run[key] / options.samples
+        if options.processor:
+            single = render(options, scene, system, way, 1, folder)
+            time = (spent - single[3]) / (options.samples - 1)
+        images.append(image)
+        times.append(time)
+    return images, times, triangles
 
 
 def different(first, second, names):
@@ -93,18 +117,18 @@ def main():
     parser.add_argument("--program", default="target/release/rasray", help="[%(default)s]")
     parser.add_argument("--systems", default="bricks,mmrt,hu", help="[%(default)s]")
     parser.add_argument("--size", default="160x90", help="pixels [%(default)s]")
-    parser.add_argument("--samples", type=int, default=4, help="per pixel [%(default)s]")
+    parser.add_argument("--samples", type=int, default=4, help="per pixel, 2 or more [%(default)s]")
+    parser.add_argument("--processor", action="store_true", help="times are processor time, not that of passes")
     options = parser.parse_args()
     print("| scene | triangles | system | traced, ms | drawn, ms | | other triangle | other distance | other colour |")
     print("|---|---|---|---|---|---|---|---|---|")
     for scene in options.scenes:
         for system in options.systems.split(","):
             with tempfile.TemporaryDirectory() as folder:
-                both = [render(options, scene, system, way, Path(folder)) for way in ("trace", "raster")]
-            if None in both:
+                measured = measure(options, scene, system, Path(folder))
+            if measured is None:
                 continue
-            (traced, triangles, run), (drawn, _, drawn_run) = both
-            times = run["trace_ms"] / options.samples, drawn_run["visible_ms"] / options.samples
+            (traced, drawn), times, triangles = measured
             cells = [Path(scene).name, f"{triangles:,}", f"`{system}`", *(f"{time:.2f}" for time in times)]
             cells += [f"{times[1] / times[0]:.2f}", different(traced, drawn, ["id"]), different(traced, drawn, ["Z"])]
             cells.append(different(traced, drawn, ["R", "G", "B"]))

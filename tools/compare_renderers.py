@@ -293,10 +293,11 @@ def variance(scene, renderers, folder, seeds):
             row(scene.name, side.name, sampler, f"{value:.6f}")
 
 
-def furnace(renderers, folder):
+def furnace(renderers, folder, kinds):
     """Share of a white sky that a white ball sends to the camera, mean over its disk but for the edge."""
     disk = np.hypot(*np.mgrid[-31.5:32, -31.5:32]) * math.tan(math.radians(10)) / 32 < 0.97 / math.sqrt(63)
-    for kind, fields in {"metal": {"metallic": 1.0}, "dielectric": {}, "glass": {"glass": True}}.items():
+    materials = {"metal": {"metallic": 1.0}, "dielectric": {}, "glass": {"glass": True}}
+    for kind, fields in ((kind, fields) for kind, fields in materials.items() if kind in (kinds or materials)):
         for roughness in (0.0, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0):
             white = ball((0, 0, 0), 1.0, Material(roughness=roughness, specular=1.0, **fields), 128)
             scene = write_scene("ball", folder, [white], eye=(0, 0, 8), target=(0, 0, 0), fov=20, sky=1.0, bounces=32)
@@ -304,7 +305,7 @@ def furnace(renderers, folder):
             row(kind, roughness, *(f"{mean:.4f}" for mean in means))
 
 
-def leaning(renderers, folder):
+def leaning(renderers, folder, _):
     """Share of a white sky that a white, dull square shows whose normals lean away from the camera; (1 + cos) / 2."""
     for lean, view in ((30, 0), (30, 45), (30, 70), (50, 0), (50, 45), (50, 70)):
         across, up = math.sin(math.radians(lean)), math.cos(math.radians(lean))
@@ -323,7 +324,7 @@ def main():
     parser.add_argument("--scenes", required=True, type=Path, help="folder of the real scenes")
     parser.add_argument("--output", type=Path, default=Path("comparison"), help="folder for pictures [%(default)s]")
     parser.add_argument("--tables", default="measure,variance,furnace,leaning", help="which to make [%(default)s]")
-    parser.add_argument("--only", help="names of scenes, with commas between them [all]")
+    parser.add_argument("--only", help="names of scenes and kinds of balls, with commas between them [all]")
     parser.add_argument("--size", type=int, default=128, help="pixels along each side [%(default)s]")
     parser.add_argument("--samples", type=int, default=64, help="of the converged pictures [%(default)s]")
     parser.add_argument("--seeds", type=int, default=8, help="for the variance [%(default)s]")
@@ -348,13 +349,14 @@ def main():
     ):
         file = options.scenes.resolve() / path / (Path(path).name + ".glb")
         scenes.append(Scene(name, file, eye, target, fov, sky, 16))
-    for scene in scenes if not options.only else [item for item in scenes if item.name in options.only.split(",")]:
+    only = options.only.split(",") if options.only else []
+    for scene in [item for item in scenes if not only or item.name in only]:
         if "measure" in options.tables:
             measure(scene, sides if scene.meshes else sides[:2], folder, options.size, options.samples)
         if "variance" in options.tables:
             variance(scene, sides if scene.meshes else sides[:2], folder, options.seeds)
     for make in [make for make in (furnace, leaning) if make.__name__ in options.tables]:
-        make(sides, folder)
+        make(sides, folder, only)
 
 
 if __name__ == "__main__":
