@@ -1,5 +1,5 @@
 // What: turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
-// the order of the triangles: one invocation per triangle.
+// the order of the triangles, or picks those of a part: one invocation per triangle.
 // Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET.
 #version 460
 #include "contract/extensions.glsl"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform GeometryGatherConstants {
     uint first_place;    // of the first index, in what is bound, in indices
     uint index_count;
     uint index_bytes;    // 2 or 4
-    uint per_draw;       // 0: whatever draws say, triangles follow one another and indices are absolute
+    uint per_draw;       // 0: whatever draws say, triangles follow one another by their ids and indices are absolute
 };
 layout(set = 1, binding = 0, scalar) readonly buffer GeometrySourceBuffer {
     uint geometry_source_words[];
@@ -45,12 +45,12 @@ void main() {
     if (primitive >= geometry_triangle_count()) {
         return;
     }
-    Draw draw = Draw(0u, per_draw == 0u ? geometry_triangle_count() : 0u, 0u, 0u, 0u, 0);
+    Draw draw = Draw(0u, per_draw == 0u ? index_count / 3u : 0u, 0u, 0u, 0u, 0);
     if (per_draw != 0u && geometry_header.draw_count > 0u) {
         draw = geometry_draws[geometry_draw(primitive)];
     }
     // A triangle before the first draw wraps to a large number.
-    uint local = primitive - draw.first_triangle;
+    uint local = geometry_id(primitive) - draw.first_triangle;
     for (uint corner = 0u; corner < 3u; corner++) {
         uint vertex = local < draw.triangle_count ? absolute_index(draw, 3u * local + corner) : PRIMITIVE_NONE;
         geometry_indices[3u * primitive + corner] = vertex;

@@ -3,10 +3,10 @@
 use std::mem::offset_of;
 
 use rasray_gpu::{Access, ComputePipeline, Device, Recorder};
-use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END};
+use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_UNITE};
 
 use crate::geometry::{BINDINGS, pipeline};
-use crate::{AdsError, Geometry, GeometryHeader};
+use crate::{AdsError, Geometry, GeometryHeader, GeometryParts};
 
 /// Bytes of the keys of a corner of the bounds.
 const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
@@ -16,6 +16,7 @@ const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 pub struct BoundsPass {
     measure: ComputePipeline,
     end: ComputePipeline,
+    unite: ComputePipeline,
 }
 
 impl BoundsPass {
@@ -26,7 +27,24 @@ impl BoundsPass {
     pub fn new(device: &Device) -> Result<Self, AdsError> {
         let layout = device.create_set_layout("geometry", BINDINGS)?;
         let pass = |shader| pipeline(device, shader, &[&layout], 0);
-        Ok(Self { measure: pass(&ADS_GEOMETRY_BOUNDS)?, end: pass(&ADS_GEOMETRY_BOUNDS_END)? })
+        let parts = GeometryParts::layout(device)?;
+        Ok(Self {
+            measure: pass(&ADS_GEOMETRY_BOUNDS)?,
+            end: pass(&ADS_GEOMETRY_BOUNDS_END)?,
+            unite: pipeline(device, &ADS_GEOMETRY_BOUNDS_UNITE, &[&layout, &parts], 0)?,
+        })
+    }
+
+    /// Records the bounds of a geometry of which only a part moved: those of that part, by reading its triangles alone,
+    /// and from these and the bounds that the header of the static part states, those of the whole. Otherwise as
+    /// [`BoundsPass::record`].
+    pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
+        self.record(recorder, parts.moving_part());
+        recorder.begin_pass("ads/geometry_bounds_unite");
+        let whole = parts.moving_part().whole();
+        whole.record(recorder, &self.unite, Some(parts.headers()), &[], [1; 3]);
+        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
+        recorder.end_pass();
     }
 
     /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle once, into

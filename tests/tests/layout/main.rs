@@ -96,7 +96,7 @@ fn push_constants_of_traversals() {
             .iter()
             .find(|(name, _)| name.ends_with("Constants"))
             .unwrap_or_else(|| panic!("{}: {:?}", shader.name, records.keys()));
-        let words: &[_] = if name == "TraceConstants" { &[(8, 4), (12, 4)] } else { &[(8, 4)] };
+        let words: &[_] = if name == "TraceConstants" { &[(8, 4), (12, 4), (16, 4)] } else { &[(8, 4)] };
         let found: Vec<_> = push.members.iter().map(|(_, offset, size)| (*offset, *size)).collect();
         assert!(found.ends_with(words), "{name}: {found:?}");
         assert_eq!(push.size, 8 + 4 * words.len(), "{name}");
