@@ -10,13 +10,13 @@
 #include "ads/triangle.glsl"
 
 // The verdict (TEST_*) on a triangle with these corners for hits within [t_low, t_high]; t and t_error are 0 where the
-// ray does not intersect it.
+// ray does not intersect it. Candidates are excluded and ranked by their ids.
 uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, out float t,
     out vec2 barycentrics, out float t_error) {
     t = 0.0;
     barycentrics = vec2(0.0);
     t_error = 0.0;
-    if (primitive == ray.exclude_primitive) {
+    if (ray.exclude_primitive != PRIMITIVE_NONE && geometry_id(primitive) == ray.exclude_primitive) {
         return TEST_EXCLUDED;
     }
     if (!triangle_intersect(ray.origin, ray.direction, a, b, c, t, barycentrics, t_error)) {
@@ -31,7 +31,7 @@ uint evaluate_corners(Ray ray, Hit best, uint primitive, vec3 a, vec3 b, vec3 c,
     if (!(t >= t_low && t <= t_high)) {
         return TEST_OUTSIDE_CELL;
     }
-    if (!hit_is_better(best, t, primitive)) {
+    if (!hit_is_better(best, t, geometry_id(primitive))) {
         return TEST_NOT_BETTER;
     }
     return alpha_accepts(primitive, barycentrics) ? TEST_ACCEPTED : TEST_TRANSPARENT;
@@ -47,6 +47,17 @@ uint evaluate_triangle(Ray ray, Hit best, uint primitive, float t_low, float t_h
     return evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
 }
 
+// Logs the verdict on a triangle, and that it is the best hit if it is accepted.
+void test_log(uint primitive, uint verdict, float t, float t_error) {
+    if (COUNTERS >= COUNTERS_STEPS) {
+        uint id = geometry_id(primitive);
+        trace_log(STEP_TEST, id, verdict, 0u, t, t_error);
+        if (verdict == TEST_ACCEPTED) {
+            trace_log(STEP_BEST, id, 0u, 0u, t, t);
+        }
+    }
+}
+
 // Evaluates a triangle, logs the verdict, and replaces the best hit if the triangle is accepted. True if it was
 // replaced. The caller counts the test.
 bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, float t_high, inout Hit best) {
@@ -54,12 +65,11 @@ bool test_corners(Ray ray, uint primitive, vec3 a, vec3 b, vec3 c, float t_low, 
     vec2 barycentrics;
     float t_error;
     uint verdict = evaluate_corners(ray, best, primitive, a, b, c, t_low, t_high, t, barycentrics, t_error);
-    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    test_log(primitive, verdict, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
-    best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    best = Hit(t, geometry_id(primitive), barycentrics.x, barycentrics.y);
     return true;
 }
 

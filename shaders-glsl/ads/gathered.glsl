@@ -39,12 +39,12 @@ uint absolute_index(Draw draw, uint local) {
 
 // The vertices of a triangle that there is; PRIMITIVE_NONE where an index is missing.
 uvec3 gathered_triangle(uint primitive) {
-    Draw draw = Draw(0u, pushed.per_draw == 0u ? geometry_triangle_count() : 0u, 0u, 0u, 0u, 0);
+    Draw draw = Draw(0u, pushed.per_draw == 0u ? pushed.index_count / 3u : 0u, 0u, 0u, 0u, 0);
     if (pushed.per_draw != 0u && geometry_header.draw_count > 0u) {
         draw = geometry_draws[geometry_draw(primitive)];
     }
     // A triangle before the first draw wraps to a large number.
-    uint local = primitive - draw.first_triangle;
+    uint local = geometry_id(primitive) - draw.first_triangle;
     if (local >= draw.triangle_count) {
         return uvec3(PRIMITIVE_NONE);
     }

@@ -12,7 +12,7 @@
 #define GEOMETRY_SET 0
 #endif
 
-// Counts and bounds of the geometry, and where positions and indices lie. 76 bytes.
+// Counts and bounds of the geometry, and where positions and indices lie. 84 bytes.
 struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles
@@ -26,6 +26,8 @@ struct GeometryHeader {
     uint index_word;     // word of the first index in its binding
     uint lower_keys[3];  // lower corner while it is computed: integers in the order of the floats
     uint upper_keys[3];  // upper corner while it is computed
+    uint first_id;       // of a part in one run: id of its first triangle; 0 elsewhere
+    uint run_count;      // of a part in several runs: how many; 0 elsewhere
 };
 
 #ifdef GEOMETRY_WRITTEN
@@ -35,6 +37,8 @@ struct GeometryHeader {
 #endif
 layout(set = GEOMETRY_SET, binding = 0, scalar) GEOMETRY_HEADER_ACCESS buffer GeometryHeaderBuffer {
     GeometryHeader geometry_header;
+    // Of a part in several runs, each: its first triangle here, and the id of that. In order.
+    uvec2 geometry_runs[];
 };
 #ifdef GEOMETRY_GATHERED
 #define GEOMETRY_INDEX_ACCESS
@@ -69,7 +73,7 @@ vec3 geometry_position(uint vertex) {
     return vec3(geometry_positions[word], geometry_positions[word + 1u], geometry_positions[word + 2u]);
 }
 
-// The three vertex indices of a global triangle id.
+// The three vertex indices of a triangle.
 uvec3 geometry_triangle(uint primitive) {
     if (primitive >= geometry_header.triangle_count) {
         return uvec3(0u);
@@ -78,7 +82,7 @@ uvec3 geometry_triangle(uint primitive) {
     return uvec3(geometry_indices[first], geometry_indices[first + 1u], geometry_indices[first + 2u]);
 }
 
-// The three posed corners of a global triangle id.
+// The three posed corners of a triangle.
 void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     uvec3 vertices = geometry_triangle(primitive);
     a = geometry_position(vertices.x);
@@ -86,8 +90,25 @@ void geometry_vertices(uint primitive, out vec3 a, out vec3 b, out vec3 c) {
     c = geometry_position(vertices.z);
 }
 
+// The global id of a triangle, which hits have. A part of a geometry numbers its triangles from 0, in the order of their
+// ids; everywhere else the number is the id. O(log runs).
+uint geometry_id(uint primitive) {
+    uint end = geometry_header.run_count;
+    if (end == 0u) {
+        return geometry_header.first_id + primitive;
+    }
+    uint run = 0u;
+    while (end > run + 1u) {
+        uint middle = run + (end - run) / 2u;
+        if (geometry_runs[middle].x > primitive) end = middle;
+        else run = middle;
+    }
+    return geometry_runs[run].y + (primitive - geometry_runs[run].x);
+}
+
 // The draw of a triangle, in O(log draws): draws lie in the order of their triangles. 0 where there is none.
 uint geometry_draw(uint primitive) {
+    primitive = geometry_id(primitive);
     uint draw = 0u;
     uint end = geometry_header.draw_count;
     while (end > draw + 1u) {

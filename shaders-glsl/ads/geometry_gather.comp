@@ -1,5 +1,5 @@
 // What: turns indices of an engine (u16 or u32, per draw a first index and a base vertex) into absolute u32 indices in
-// the order of the triangles: one invocation per triangle.
+// the order of the triangles, or picks those of a part: one invocation per triangle.
 // Reads: draws of GEOMETRY_SET, indices in a buffer of the embedder's. Writes: indices of GEOMETRY_SET.
 #version 460
 #include "contract/extensions.glsl"

@@ -14,9 +14,9 @@ void main() {
     }
     Ray ray = queue_ray(slot);
     Hit hit;
-    TraceState state = trace_state_begin(ray);
-    if (queue_header.round > 0u) {
-        state = queue_states[slot];
+    TraceState state;
+    if (!trace_begin(slot, ray, state)) {
+        return;
     }
     uint result = trace_closest(trace.structure, ray, state, hit);
     trace_file(slot, result, state, hit);

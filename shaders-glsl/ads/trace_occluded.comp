@@ -14,9 +14,9 @@ void main() {
         return;
     }
     Ray ray = queue_ray(slot);
-    TraceState state = trace_state_begin(ray);
-    if (queue_header.round > 0u) {
-        state = queue_states[slot];
+    TraceState state;
+    if (!trace_begin(slot, ray, state)) {
+        return;
     }
     uint result = trace_occluded(trace.structure, ray, state);
     Hit hit = Hit(ray.t_max, PRIMITIVE_NONE, 0.0, 0.0);

@@ -17,7 +17,18 @@ void queue_file_work(uint slot, TraceState state) {
     if (COUNTERS < COUNTERS_PER_RAY || slot >= uint(queue_work.length())) {
         return;
     }
-    queue_work[slot] = RayWork(state.cells, state.entries, state.tests, state.rounds);
+    RayWork work = RayWork(state.cells, state.entries, state.tests, state.rounds);
+    if (trace.continues != 0u) {
+        // What came with this round is added to the work in other parts.
+        RayWork sum = queue_work[slot];
+        TraceState before = queue_states[slot];
+        bool first = queue_header.round == 0u;
+        work.cells += sum.cells - (first ? 0u : before.cells);
+        work.entries += sum.entries - (first ? 0u : before.entries);
+        work.tests += sum.tests - (first ? 0u : before.tests);
+        work.rounds += sum.rounds - (first ? 0u : before.rounds);
+    }
+    queue_work[slot] = work;
 }
 
 // The slot of this invocation; false where there is none.
@@ -33,7 +44,22 @@ bool trace_slot(uint invocation, out uint slot) {
         return false;
     }
     trace_log_begin(slot);
-    trace_log(STEP_ROUND, queue_header.round, 0u, 0u, 0.0, 0.0);
+    trace_log(STEP_ROUND, queue_header.round, trace.continues, 0u, 0.0, 0.0);
+    return true;
+}
+
+// The state to trace a slot's ray from. False where another part was not ready, so that there is no answer.
+bool trace_begin(uint slot, Ray ray, out TraceState state) {
+    state = trace_state_begin(ray);
+    if (queue_header.round > 0u) {
+        state = queue_states[slot];
+    } else if (trace.continues != 0u) {
+        Hit before = queue_hit(slot);
+        if (before.primitive == PRIMITIVE_NONE) {
+            return floatBitsToUint(before.b) != HIT_NOT_READY;
+        }
+        state.best = before;
+    }
     return true;
 }
 
@@ -49,6 +75,11 @@ void trace_file(uint slot, uint result, TraceState state, Hit hit) {
     }
     if (result == TRACE_NOT_READY) {
         atomicAdd(queue_header.not_ready, 1u);
+        hit = Hit(queue_ray(slot).t_max, PRIMITIVE_NONE, 0.0, uintBitsToFloat(HIT_NOT_READY));
+    }
+    if (result == TRACE_MISS && hit.primitive != PRIMITIVE_NONE) {
+        // Of another part.
+        result = TRACE_HIT;
     }
     trace_log(STEP_END, result, hit.primitive, 0u, hit.t, hit.t);
     queue_add_work(state.cells, state.entries, state.tests);

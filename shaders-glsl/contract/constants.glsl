@@ -21,6 +21,9 @@
 // No barycentric is as large.
 #define HIT_STORED 0x7F7FFFFFu
 
+// In Hit.b of a miss, as bits: the structure was not complete, so there is no answer.
+#define HIT_NOT_READY 0x7F7FFFFEu
+
 // Draw flags.
 #define DRAW_ALPHA_MASKED 1u
 
@@ -41,7 +44,7 @@
 #define COUNTERS_STEPS 3u
 
 // Kinds of steps that a traversal logs, with the meaning of a, b, c, t_low and t_high.
-// A dispatch begins for the ray; a: the round.
+// A dispatch begins for the ray; a: the round, b: 1 where the trace goes on from the hit of another part.
 #define STEP_ROUND 1u
 // A view (or the near region) is entered; a: the view, t: its interval along the ray.
 #define STEP_VIEW 2u

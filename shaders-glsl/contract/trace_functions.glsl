@@ -1,5 +1,6 @@
 // What: the contract's trace functions of a structure, made from its own functions: an invalid ray is a miss, and a
-// structure that is not complete gives no answer, in queues and in shaders of a host alike.
+// structure that is not complete gives no answer, in queues and in shaders of a host alike. A trace may start with a best
+// hit of other triangles; where any hit suffices, that is the answer.
 // Reads, writes: see the structure.
 #ifndef CONTRACT_TRACE_FUNCTIONS_GLSL
 #define CONTRACT_TRACE_FUNCTIONS_GLSL
@@ -18,6 +19,9 @@
         } \
         if ((prefix##_status(s) & STATUS_COMPLETE) == 0u) { \
             return TRACE_NOT_READY; \
+        } \
+        if (any_hit && state.best.primitive != PRIMITIVE_NONE) { \
+            return TRACE_HIT; \
         } \
         return prefix##_trace(s, ray, state, any_hit); \
     } \

@@ -33,12 +33,11 @@ bool primitive_test_in_tile(PrimitiveRef s, PrimitiveTile tile, uint primitive, 
     if (verdict == TEST_ACCEPTED && !primitive_in_tile(s, tile, t)) {
         verdict = TEST_OUTSIDE_CELL;
     }
-    trace_log(STEP_TEST, primitive, verdict, 0u, t, t_error);
+    test_log(primitive, verdict, t, t_error);
     if (verdict != TEST_ACCEPTED) {
         return false;
     }
-    trace_log(STEP_BEST, primitive, 0u, 0u, t, t);
-    state.best = Hit(t, primitive, barycentrics.x, barycentrics.y);
+    state.best = Hit(t, geometry_id(primitive), barycentrics.x, barycentrics.y);
     return true;
 }
 

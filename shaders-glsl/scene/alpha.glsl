@@ -9,7 +9,7 @@
 #include "scene/attributes.glsl"
 #include "scene/texture.glsl"
 
-// Alpha of the base colour at level 0.
+// Alpha of the base colour at level 0, of a triangle of the geometry that is bound.
 float alpha_at(DrawShading draw, uint primitive, vec2 barycentrics) {
     Material material = scene_material(draw.material);
     uvec3 triangle = geometry_triangle(primitive);
@@ -19,9 +19,10 @@ float alpha_at(DrawShading draw, uint primitive, vec2 barycentrics) {
     return attribute_base_color(draw, material, triangle, weights, texel).a;
 }
 
-// `barycentrics` are the weights of vertices 1 and 2. True for every point of a draw that is not masked.
+// A triangle of the geometry that is bound, which may be a part: the scene knows it by its id. `barycentrics` are the
+// weights of vertices 1 and 2. True for every point of a draw that is not masked.
 bool alpha_accepts(uint primitive, vec2 barycentrics) {
-    uint draw_index = scene_draw_of(primitive);
+    uint draw_index = scene_draw_of(geometry_id(primitive));
     if ((scene_draw_flags(draw_index) & DRAW_ALPHA_MASKED) == 0u) return true;
     DrawShading draw = scene_draw_shading(draw_index);
     return alpha_at(draw, primitive, barycentrics) >= scene_material(draw.material).alpha_cutoff;

@@ -191,7 +191,7 @@ impl Drop for Bench {
 
 /// Processor time of all threads of this process so far, in seconds; absent where the system does not tell it in
 /// `/proc`. Tests take turns, so what passes between two calls within a turn is that test's.
-fn processor_seconds() -> Option<f64> {
+pub fn processor_seconds() -> Option<f64> {
     // Ticks of user and system time are fields 14 and 15; the name before them may hold spaces. Linux counts 100 a second.
     let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();

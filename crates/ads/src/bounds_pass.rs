@@ -4,10 +4,12 @@ use std::mem::offset_of;
 
 use rasray_gpu::{Access, ComputePipeline, Device, Recorder};
 use rasray_shaders_glsl::records::GeometryGatherConstants;
-use rasray_shaders_glsl::{ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_GATHERED};
+use rasray_shaders_glsl::{
+    ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_GATHERED, ADS_GEOMETRY_BOUNDS_UNITE,
+};
 
 use crate::geometry::{BINDINGS, GATHER_BINDINGS, pipeline};
-use crate::{AdsError, Geometry, GeometryHeader};
+use crate::{AdsError, Geometry, GeometryHeader, GeometryParts};
 
 /// Bytes of the keys of a corner of the bounds.
 const KEY_BYTES: u64 = size_of::<[u32; 3]>() as u64;
@@ -19,6 +21,7 @@ pub struct BoundsPass {
     /// The same, before indices are gathered.
     measure_gathered: ComputePipeline,
     end: ComputePipeline,
+    unite: ComputePipeline,
 }
 
 impl BoundsPass {
@@ -29,12 +32,26 @@ impl BoundsPass {
     pub fn new(device: &Device) -> Result<Self, AdsError> {
         let layout = device.create_set_layout("geometry", BINDINGS)?;
         let gathered = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
+        let parts = GeometryParts::layout(device)?;
         let pushed = size_of::<GeometryGatherConstants>();
         Ok(Self {
             measure: pipeline(device, &ADS_GEOMETRY_BOUNDS, &[&layout], 0)?,
             measure_gathered: pipeline(device, &ADS_GEOMETRY_BOUNDS_GATHERED, &[&layout, &gathered], pushed)?,
             end: pipeline(device, &ADS_GEOMETRY_BOUNDS_END, &[&layout], 0)?,
+            unite: pipeline(device, &ADS_GEOMETRY_BOUNDS_UNITE, &[&layout, &parts], 0)?,
         })
+    }
+
+    /// Records the bounds of a geometry of which only a part moved: those of that part, by reading its triangles alone,
+    /// and from these and the bounds that the header of the static part states, those of the whole. Otherwise as
+    /// [`BoundsPass::record`].
+    pub fn record_parts(&self, recorder: &mut Recorder<'_>, parts: &GeometryParts) {
+        self.record(recorder, parts.moving_part());
+        recorder.begin_pass("ads/geometry_bounds_unite");
+        let whole = parts.moving_part().whole();
+        whole.record(recorder, &self.unite, Some(parts.headers()), &[], [1; 3]);
+        recorder.barrier(Access::COMPUTE_WRITE, Access::ALL);
+        recorder.end_pass();
     }
 
     /// Records the computation of the bounds of all triangles, in two dispatches that read every triangle once, into

@@ -128,7 +128,20 @@ impl Structure for BruteForce {
         mode: TraceMode,
         rounds: u32,
     ) {
-        self.kernels.record_trace(recorder, &self.geometry, None, 0, queue, domain, mode, rounds);
+        let geometry = &self.geometry;
+        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, false);
+    }
+
+    fn record_continued_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        let geometry = &self.geometry;
+        self.kernels.record_trace(recorder, geometry, None, 0, queue, domain, mode, rounds, true);
     }
 
     fn record_surfaces(

@@ -115,6 +115,11 @@ pub trait Design: fmt::Debug + Sized {
     /// What makes a build stale, in addition to the triangles.
     fn depends_on(config: &Self::Config) -> Dependencies;
 
+    /// As for [`Structure::is_stale`](crate::Structure::is_stale).
+    fn is_stale(parts: &Parts<Self::Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
+        Self::depends_on(&parts.config).are_stale(built, wanted)
+    }
+
     /// What it requires of a device in addition to what its modules require.
     fn requirements(config: &Self::Config) -> Requirements;
 

@@ -54,6 +54,14 @@ pub enum AdsError {
         /// What is wrong, and with which numbers.
         reason: String,
     },
+    /// A structure that cannot be built apart for some of the triangles, or that was not given what its parts need.
+    #[error("{structure} cannot be in parts: {reason}")]
+    InParts {
+        /// Name of the structure.
+        structure: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
     /// A build found triangles that its geometry does not allow.
     #[error(
         "{triangles} triangles have a corner outside of the bounds that the geometry states, have an invalid vertex \

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use bytemuck::{bytes_of, pod_read_unaligned};
+use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
     Device, GpuError, MemoryLocation, Recorder, SetLayout,
@@ -12,7 +12,7 @@ use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
 use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstants};
 
 use crate::passes::folded;
-use crate::{AdsError, GeometryDesc, GeometryHeader, Indexing};
+use crate::{AdsError, GeometryDesc, GeometryHeader, IndexRange, Indexing};
 
 /// Buffers of the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
@@ -22,6 +22,9 @@ pub(crate) const GATHER_BINDINGS: u32 = 1;
 
 /// Triangles of a workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
 const TRIANGLES_PER_GROUP: u64 = 64;
+
+/// Bytes of the indices of a triangle, where shaders read them.
+const TRIANGLE_INDEX_BYTES: u64 = size_of::<[u32; 3]>() as u64;
 
 /// Bytes of the arguments of an indirect draw.
 const DRAW_ARGUMENT_BYTES: u64 = 16;
@@ -45,6 +48,18 @@ pub struct Geometry {
     count: Option<Count>,
     /// Where indices are not read in place.
     gather: Option<Gather>,
+    /// What it is a part of.
+    whole: Option<Box<Self>>,
+}
+
+/// Consecutive triangles of a part.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct Run {
+    /// Of the first one, in the part.
+    pub first: u32,
+    /// Of the first one, in the whole.
+    pub id: u32,
 }
 
 /// What `ads/geometry_count` works with.
@@ -68,17 +83,41 @@ struct Gather {
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 76 bytes), where they are needed one for gathered indices (12 bytes
+    /// Makes the header buffer ([`GeometryHeader`], 84 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
     /// per triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
     /// Ranges beyond their buffers, offsets or a stride that are not aligned, bounds that are not finite or the wrong way
     /// round; out of memory, or a range exceeds what one binding can hold.
     pub fn new(device: &Device, desc: GeometryDesc) -> Result<Self, AdsError> {
+        Self::made(device, desc, None)
+    }
+
+    /// The triangles of `runs` of `whole`, which reads absolute indices: in place where they are one run, else gathered.
+    pub(crate) fn part_of(
+        device: &Device,
+        whole: &Self,
+        (runs, triangle_count): (&[Run], u32),
+        bounds: [[f32; 3]; 2],
+    ) -> Result<Self, AdsError> {
+        let mut indices = match &whole.gather {
+            Some(gather) => IndexRange::from(gather.indices.clone()),
+            None => whole.desc.indices.clone(),
+        };
+        if let [run] = runs {
+            indices.offset += u64::from(run.id) * TRIANGLE_INDEX_BYTES;
+        }
+        let desc = GeometryDesc { indices, triangle_count, bounds, ..whole.desc.clone() };
+        Self::made(device, desc, Some((whole, runs)))
+    }
+
+    fn made(device: &Device, desc: GeometryDesc, part: Option<(&Self, &[Run])>) -> Result<Self, AdsError> {
         desc.check(device)?;
+        let runs = part.map_or(&[][..], |(_, runs)| runs);
+        let bound_runs = if runs.len() > 1 { runs.len() } else { 1 };
         let header = device.create_buffer(&BufferDesc {
             name: "geometry header",
-            size: size_of::<GeometryHeader>() as u64,
+            size: (size_of::<GeometryHeader>() + bound_runs * size_of::<Run>()) as u64,
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
             location: MemoryLocation::Upload,
         })?;
@@ -87,9 +126,12 @@ impl Geometry {
             unreachable!("positions, indices and draws are always bound")
         };
         let layout = device.create_set_layout("geometry", BINDINGS)?;
-        let gather = match desc.indices.is_gathered() {
-            true => Some(Gather::new(device, &layout, &desc, indices, before_indices)?),
-            false => None,
+        let gather = match part {
+            Some((whole, runs)) if runs.len() > 1 => Some(Gather::of_part(device, &layout, &desc, whole)?),
+            None if desc.indices.is_gathered() => {
+                Some(Gather::new(device, &layout, &desc, (indices, before_indices))?)
+            }
+            _ => None,
         };
         let count = match bindings.get(3) {
             Some((range, before)) => Some(Count::new(device, &layout, &desc, *range, *before)?),
@@ -110,13 +152,19 @@ impl Geometry {
                 index_word: if gather.is_some() { 0 } else { (before_indices / 4) as u32 },
                 lower_keys: [0; 3],
                 upper_keys: [0; 3],
+                first_id: if let [run] = runs { run.id } else { 0 },
+                run_count: if runs.len() > 1 { runs.len() as u32 } else { 0 },
             }),
         )?;
+        if runs.len() > 1 {
+            header.write(size_of::<GeometryHeader>() as u64, cast_slice(runs))?;
+        }
         let read = gather.as_ref().map_or(indices, |gather| whole(&gather.indices));
         let ranges = [whole(&header), positions, read, draws];
         let set = device.create_binding_set_of_ranges(&layout, "geometry", &ranges)?;
         let check = pipeline(device, &rasray_shaders_glsl::ADS_GEOMETRY_CHECK, &[&layout], 0)?;
-        Ok(Self { desc, header, check, layout, set, count, gather })
+        let whole = part.map(|(whole, _)| Box::new(whole.clone()));
+        Ok(Self { desc, header, check, layout, set, count, gather, whole })
     }
 
     /// Records what shaders do not read in place: the number of triangles where only the device knows it, and
@@ -131,8 +179,12 @@ impl Geometry {
         }
     }
 
-    /// Records the number of triangles where only the device knows it, visible to all who read it.
+    /// Records the number of triangles where only the device knows it, and for a part the indices of the whole, from which
+    /// those of the part come, visible to all who read them.
     pub(crate) fn record_count(&self, recorder: &mut Recorder<'_>) {
+        if let Some(whole) = &self.whole {
+            whole.record_gather(recorder);
+        }
         if let Some(Count { pipeline, set, constants, .. }) = &self.count {
             recorder.barrier(READERS, Access::COMPUTE);
             self.record(recorder, pipeline, Some(set), bytes_of(constants), [1; 3]);
@@ -275,6 +327,17 @@ impl Geometry {
         &self.header
     }
 
+    /// Whether it is a part of another geometry ([`Geometry::parts`]): its triangles are numbered from 0 in its indices, hits
+    /// on them have the ids of the whole.
+    pub fn is_part(&self) -> bool {
+        self.whole.is_some()
+    }
+
+    /// The geometry that it is a part of, else itself.
+    pub fn whole(&self) -> &Self {
+        self.whole.as_deref().unwrap_or(self)
+    }
+
     /// What it was made from.
     pub fn desc(&self) -> &GeometryDesc {
         &self.desc
@@ -327,16 +390,47 @@ impl Count {
 }
 
 impl Gather {
+    /// Of indices that are not absolute, or not of 32 bits.
     fn new(
         device: &Device,
         geometry: &SetLayout,
         desc: &GeometryDesc,
-        range: BufferRange<'_>,
-        before: u64,
+        source: (BufferRange<'_>, u64),
+    ) -> Result<Self, AdsError> {
+        let (index_count, per_draw) = match desc.indices.indexing {
+            // The host has checked that all of them are there, so the product is exact.
+            Indexing::Absolute => (3 * desc.triangle_count, 0),
+            Indexing::PerDraw { index_count } => (index_count, 1),
+        };
+        let index_bytes = desc.indices.format.bytes();
+        Self::from(device, geometry, desc.triangle_count, source, [index_count, index_bytes, per_draw])
+    }
+
+    /// Of the indices that shaders read of the whole.
+    fn of_part(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        of: &Geometry,
+    ) -> Result<Self, AdsError> {
+        let source = match &of.gather {
+            Some(gather) => (whole(&gather.indices), 0),
+            None => of.desc.bindings(device)[1],
+        };
+        let constants = [3 * of.desc.triangle_count, size_of::<u32>() as u32, 0];
+        Self::from(device, geometry, desc.triangle_count, source, constants)
+    }
+
+    fn from(
+        device: &Device,
+        geometry: &SetLayout,
+        triangle_count: u32,
+        (range, before): (BufferRange<'_>, u64),
+        [index_count, index_bytes, per_draw]: [u32; 3],
     ) -> Result<Self, AdsError> {
         let indices = device.create_buffer(&BufferDesc {
             name: "gathered indices",
-            size: u64::from(desc.triangle_count) * size_of::<[u32; 3]>() as u64,
+            size: u64::from(triangle_count) * TRIANGLE_INDEX_BYTES,
             usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC,
             location: MemoryLocation::Device,
         })?;
@@ -344,12 +438,6 @@ impl Gather {
         let set = device.create_binding_set_of_ranges(&layout, "geometry gather", &[range])?;
         let shader = &rasray_shaders_glsl::ADS_GEOMETRY_GATHER;
         let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryGatherConstants>())?;
-        let index_bytes = desc.indices.format.bytes();
-        let (index_count, per_draw) = match desc.indices.indexing {
-            // The host has checked that all of them are there, so the product is exact.
-            Indexing::Absolute => (3 * desc.triangle_count, 0),
-            Indexing::PerDraw { index_count } => (index_count, 1),
-        };
         let first_place = (before / u64::from(index_bytes)) as u32;
         let constants = GeometryGatherConstants { first_place, index_count, index_bytes, per_draw };
         Ok(Self { pipeline, set, constants, indices })

@@ -123,8 +123,13 @@ impl TraceKernels {
         self.counters
     }
 
-    fn constants(&self, address: u64, domain: Domain) -> TraceConstants {
-        TraceConstants { structure: halves(address), domain: domain.word(), work_budget: self.work_budget }
+    fn constants(&self, address: u64, domain: Domain, continues: bool) -> TraceConstants {
+        TraceConstants {
+            structure: halves(address),
+            domain: domain.word(),
+            work_budget: self.work_budget,
+            continues: continues.into(),
+        }
     }
 
     fn bind(
@@ -149,7 +154,8 @@ impl TraceKernels {
     }
 
     /// Records a trace of the slots of `domain`: one dispatch for all, then up to `rounds - 1` for
-    /// the rays that paused. Rays still paused after that are counted as unfinished.
+    /// the rays that paused. Rays still paused after that are counted as unfinished. With `continues` rays keep the hits
+    /// that the queue has, unless a better one is found.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -161,12 +167,13 @@ impl TraceKernels {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
+        continues: bool,
     ) {
         let kernel = match mode {
             TraceMode::Closest => &self.closest,
             TraceMode::Occluded => &self.occluded,
         };
-        let constants = self.constants(address, domain);
+        let constants = self.constants(address, domain, continues);
         let round = std::mem::offset_of!(QueueHeader, round) as u64;
         let after_paused = std::mem::offset_of!(QueueHeader, unfinished) as u64;
         recorder.begin_pass(kernel.label);
@@ -194,7 +201,7 @@ impl TraceKernels {
     }
 
     /// Records the surface lookup of the slots of `domain`; false where the kernels were made
-    /// without a scene.
+    /// without a scene. Hits are on triangles by their ids, so for a part of a geometry the whole of it is bound.
     #[must_use]
     pub fn record_surfaces(
         &self,
@@ -208,9 +215,9 @@ impl TraceKernels {
         let Some(kernel) = &self.surfaces else {
             return false;
         };
-        let constants = self.constants(address, domain);
+        let constants = self.constants(address, domain, false);
         recorder.begin_pass(kernel.label);
-        self.bind(recorder, kernel, geometry, structure, queue, constants);
+        self.bind(recorder, kernel, geometry.whole(), structure, queue, constants);
         queue.record_dispatch(recorder, domain);
         recorder.barrier(Access::COMPUTE, Access::COMPUTE | Access::TRANSFER);
         recorder.end_pass();

@@ -22,12 +22,14 @@
 mod addressing;
 mod bounds_pass;
 mod brute_force;
+mod combined;
 mod configured;
 mod counters;
 mod design;
 mod error;
 mod geometry;
 mod geometry_desc;
+mod geometry_parts;
 mod kernels;
 mod lengths;
 mod list_sort;
@@ -49,12 +51,14 @@ mod visit;
 pub use addressing::{Addressing, Modules, TraceModules};
 pub use bounds_pass::BoundsPass;
 pub use brute_force::BruteForce;
+pub use combined::Combined;
 pub use configured::{Common, Configured, bytes_of_words, check_range, check_work_budget};
 pub use counters::Counters;
 pub use design::{Demand, Design, Parts, PoolBytes, default_work_budget};
 pub use error::AdsError;
 pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
+pub use geometry_parts::GeometryParts;
 pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
 pub use lengths::Lengths;
 pub use list_sort::ListSort;
@@ -74,7 +78,7 @@ pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
 pub use structure::{
     Dependencies, InlineTrace, PoolSize, Sizes, Structure, StructureKind, StructureReport, TraceMode,
 };
-pub use viewpoint::{CameraView, Viewpoint};
+pub use viewpoint::{CameraView, Viewpoint, box_ignores_eye};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 
 /// "No primitive": a miss.

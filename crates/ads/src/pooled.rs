@@ -46,6 +46,7 @@ impl<D: Design> Pooled<D> {
         geometry: &Geometry,
         scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
+        Self::check_part(&config, geometry)?;
         let sizes = D::first_plan(&config, geometry)?;
         let common = config.common();
         let Common { addressing, counters, .. } = common;
@@ -134,6 +135,29 @@ impl<D: Design> Pooled<D> {
     fn first_rounds(&self) -> u32 {
         D::first_rounds(&self.parts, &self.known())
     }
+
+    /// Fragments are not stored with the ids that a part's triangles have in the whole.
+    fn check_part(config: &D::Config, geometry: &Geometry) -> Result<(), AdsError> {
+        if geometry.is_part() && !D::kind(config).finds_triangles() {
+            let reason = "it stores fragments, of which those of one part depend on the other";
+            return Err(AdsError::InParts { structure: D::NAME, reason });
+        }
+        Ok(())
+    }
+
+    fn trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+        continues: bool,
+    ) {
+        let (Parts { pools, geometry, .. }, kernels) = (&self.parts, &self.kernels);
+        let corrupted = D::CORRUPTED;
+        pools.record_trace(recorder, kernels, geometry, queue, domain, mode, rounds, continues, corrupted);
+    }
 }
 
 impl<D: Design> Structure for Pooled<D> {
@@ -168,6 +192,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        Self::check_part(&self.parts.config, geometry)?;
         if let Some(sizes) = D::plan_for(&self.parts, geometry)? {
             self.resize(device, &sizes)?;
         }
@@ -194,6 +219,10 @@ impl<D: Design> Structure for Pooled<D> {
 
     fn depends_on(&self) -> Dependencies {
         D::depends_on(&self.parts.config)
+    }
+
+    fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
+        D::is_stale(&self.parts, built, wanted)
     }
 
     fn record_build(
@@ -229,6 +258,7 @@ impl<D: Design> Structure for Pooled<D> {
             unsorted: D::UNSORTED.map_or(0, word).into(),
             outside: if is_current { self.parts.pools.outside(slot)? } else { 0 },
             corrupted: word(D::CORRUPTED).into(),
+            parts: Vec::new(),
         })
     }
 
@@ -267,8 +297,18 @@ impl<D: Design> Structure for Pooled<D> {
         mode: TraceMode,
         rounds: u32,
     ) {
-        let Parts { pools, geometry, .. } = &self.parts;
-        pools.record_trace(recorder, &self.kernels, geometry, queue, domain, mode, rounds, D::CORRUPTED);
+        self.trace(recorder, queue, domain, mode, rounds, false);
+    }
+
+    fn record_continued_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+    ) {
+        self.trace(recorder, queue, domain, mode, rounds, true);
     }
 
     fn record_surfaces(

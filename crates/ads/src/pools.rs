@@ -1,5 +1,6 @@
 //! The buffers of one structure: a header that shaders start from, and pools.
 
+use std::mem::offset_of;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use bytemuck::{AnyBitPattern, NoUninit};
@@ -277,7 +278,8 @@ impl Pools {
     }
 
     /// Records a trace of the slots of `domain`. Traces count list entries with an invalid index in the word of the
-    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]).
+    /// header at byte `corrupted`; the queue takes note of it ([`crate::QueueCounters::corrupted`]). With `continues` the
+    /// queue has hits and counts of another part.
     #[expect(clippy::too_many_arguments, reason = "everything a trace depends on, each of its own type")]
     pub fn record_trace(
         &self,
@@ -288,15 +290,25 @@ impl Pools {
         domain: Domain,
         mode: TraceMode,
         rounds: u32,
+        continues: bool,
         corrupted: usize,
     ) {
         self.keep(recorder);
-        kernels.record_trace(recorder, geometry, self.set(), self.address(), queue, domain, mode, rounds);
+        if continues {
+            let [noted, before] =
+                [offset_of!(QueueHeader, corrupted), offset_of!(QueueHeader, corrupted_before)]
+                    .map(|at| at as u64);
+            recorder.barrier(Access::COMPUTE | Access::TRANSFER_WRITE, Access::TRANSFER);
+            recorder.copy(queue.header(), noted, queue.header(), before, 4);
+            recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER);
+        }
+        let (set, address) = (self.set(), self.address());
+        kernels.record_trace(recorder, geometry, set, address, queue, domain, mode, rounds, continues);
         self.record_corrupted(recorder, queue, corrupted);
     }
 
     fn record_corrupted(&self, recorder: &mut Recorder<'_>, queue: &RayQueue, corrupted: usize) {
-        let noted = std::mem::offset_of!(QueueHeader, corrupted) as u64;
+        let noted = offset_of!(QueueHeader, corrupted) as u64;
         recorder.barrier(Access::COMPUTE, Access::TRANSFER);
         recorder.copy(&self.pools[0], corrupted as u64, queue.header(), noted, 4);
         recorder.barrier(Access::TRANSFER, Access::COMPUTE | Access::TRANSFER | Access::INDIRECT_READ);

@@ -72,7 +72,8 @@ pub struct QueueCounters {
     pub unfinished: u32,
     /// Rays traced while the structure was incomplete.
     pub not_ready: u32,
-    /// List entries with an invalid index in the structure last traced, since it was built; anything but 0 is a fault.
+    /// List entries with an invalid index in the structure last traced, all its parts together, since it was built;
+    /// anything but 0 is a fault.
     pub corrupted: u32,
     /// Cells stepped; zero unless counters are enabled.
     pub cells: u64,
@@ -298,7 +299,7 @@ impl RayQueue {
         QueueCounters {
             unfinished: header.unfinished,
             not_ready: header.not_ready,
-            corrupted: header.corrupted,
+            corrupted: header.corrupted.saturating_add(header.corrupted_before),
             cells: wide(header.cells_low, header.cells_high),
             entries: wide(header.entries_low, header.entries_high),
             tests: wide(header.tests_low, header.tests_high),

@@ -32,6 +32,8 @@ pub struct BuildStatus {
     /// List entries with an invalid index that the build found; anything but 0 is a fault. Those that traces find are
     /// in [`crate::QueueCounters::corrupted`].
     pub corrupted: u64,
+    /// Outcomes of the parts of a [`Combined`](crate::Combined) structure; empty for all others.
+    pub parts: Vec<Self>,
 }
 
 impl BuildStatus {

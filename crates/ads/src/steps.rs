@@ -194,6 +194,7 @@ impl fmt::Display for TraceStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let records::TraceStep { a, b, t_low, t_high, .. } = self.0;
         match self.kind() {
+            StepKind::Round if self.b != 0 => write!(f, "round {a} of the next part"),
             StepKind::Round => write!(f, "round {a}"),
             StepKind::View if a == VIEW_NEAR => write!(f, "near region, t {t_low} to {t_high}"),
             StepKind::View if a == VIEW_CAMERA => write!(f, "the camera's view, t {t_low} to {t_high}"),

@@ -234,6 +234,12 @@ pub trait Structure {
     /// What makes a build stale, in addition to the triangles.
     fn depends_on(&self) -> Dependencies;
 
+    /// Whether a build for `built` is to be made anew for `wanted`, where the triangles are the same: the dependencies
+    /// differ, unless the structure knows that the difference does not matter.
+    fn is_stale(&self, built: Viewpoint, wanted: Viewpoint) -> bool {
+        self.depends_on().are_stale(built, wanted)
+    }
+
     /// Records a build for a viewpoint, whose status is that of `slot` once the device is done. Structures without
     /// views ignore the viewpoint.
     ///
@@ -275,6 +281,18 @@ pub trait Structure {
 
     /// Records a trace of the slots of `domain` of `queue`, in at most `rounds` dispatches.
     fn record_trace(
+        &self,
+        recorder: &mut Recorder<'_>,
+        queue: &RayQueue,
+        domain: Domain,
+        mode: TraceMode,
+        rounds: u32,
+    );
+
+    /// Records a trace that goes on from the hits that the slots of `domain` have: those of another structure over other
+    /// triangles of the same geometry, traced before in the same mode. A slot keeps its hit unless a better one is found.
+    /// Slots without an answer because that structure was not ready get none.
+    fn record_continued_trace(
         &self,
         recorder: &mut Recorder<'_>,
         queue: &RayQueue,

@@ -4,7 +4,7 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, SceneBinding,
-    Sizes, StructureKind, StructureReport, Viewpoint, pools_of_words,
+    Sizes, StructureKind, StructureReport, Viewpoint, box_ignores_eye, pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -13,7 +13,7 @@ use rasray_shaders_glsl::constants::bricks::{BRICK_GROUP_SIZE, BRICK_GROUPS_MOST
 use crate::build::Build;
 use crate::config::BRICK_SIDE;
 use crate::layout::{Demand, bricks_of, first_demand, first_plan, formula_bytes, plan};
-use crate::{Config, Contents, Header, Pool, well_formed};
+use crate::{Config, Contents, Header, Pool, Views, well_formed};
 
 /// Lists of triangles in bricks of cells; made from a [`Config`].
 pub type Bricks = Pooled<Passes>;
@@ -104,6 +104,13 @@ impl Design for Passes {
 
     fn depends_on(_config: &Config) -> Dependencies {
         Dependencies { eye: true, camera: false }
+    }
+
+    /// Cells along the axes have a margin for the eye only where that is far away.
+    fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
+        let is_near = |viewpoint: Viewpoint| box_ignores_eye(parts.geometry.bounds(), viewpoint.eye);
+        let both_near = parts.config.views == Views::Axes && is_near(built) && is_near(wanted);
+        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
     fn requirements(config: &Config) -> Requirements {

@@ -280,7 +280,7 @@ impl Built {
 
     /// Whether the scene's camera has moved so that the build is none for it.
     pub fn is_stale(&self, scene: &GpuScene) -> bool {
-        self.structure.depends_on().are_stale(self.viewpoint, scene.viewpoint().at(scene.eye()))
+        self.structure.is_stale(self.viewpoint, scene.viewpoint().at(scene.eye()))
     }
 
     /// Times of the passes of builds.

@@ -7,7 +7,7 @@ use rasray_ads::{QueueCounters, Structure};
 use rasray_gpu::{Device, PassTiming, Recorder, Timing};
 use rasray_gpu_scene::{FramePose, GpuScene, PosePass, Sampling, View};
 use rasray_integrators::{Integrator, Traced, Visibility, waves_of};
-use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, TracerError};
+use rasray_tracer::{FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
 
 use crate::FrameError;
 use crate::readback::{FilmCopy, Readback};
@@ -74,7 +74,9 @@ pub struct FrameRenderer {
 }
 
 impl FrameRenderer {
-    /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built. With
+    /// Frames of `scene`, moved by `pose`, seen through `structure`, which was made for both and not built: a
+    /// structure over all triangles, all of which each frame builds in which anything moved, or a
+    /// [`Combined`](rasray_ads::Combined) one over the parts of [`PosePass::parts`], of which only what moved is built. With
     /// `reads_films` each picture has its image on the host; without, it is on the device in the integrator's film.
     ///
     /// # Errors
@@ -82,7 +84,7 @@ impl FrameRenderer {
     pub fn new(
         device: &Device,
         (scene, pose): (GpuScene, Option<PosePass>),
-        structure: Box<dyn Structure>,
+        structure: impl Into<Refresh>,
         integrator: Box<dyn Integrator>,
         (keeping, timing, reads_films): (Keeping, Timing, bool),
     ) -> Result<Self, FrameError> {
@@ -145,7 +147,7 @@ impl FrameRenderer {
         let Self { scene, pose, integrator, visibility, frames, readbacks, .. } = self;
         let moved = input.pose.as_ref().filter(|&wanted| self.posed.as_ref() != Some(wanted));
         let pass = pose.as_ref().filter(|pass| pass.moves());
-        if moved.is_some() && pass.is_some() {
+        if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
             frames.geometry_moved();
         }
         let before = |recorder: &mut Recorder<'_>, _slot: u32| {

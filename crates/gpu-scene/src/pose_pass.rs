@@ -4,13 +4,15 @@ mod emitters;
 mod far_lights;
 mod frame_pose;
 mod moving;
+mod moving_triangles;
 mod sources;
 
 use std::mem::offset_of;
+use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of, cast_slice};
 use glam::DVec3;
-use rasray_ads::{BoundsPass, Geometry, folded};
+use rasray_ads::{BoundsPass, Geometry, GeometryParts, folded};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder,
@@ -25,6 +27,7 @@ use self::emitters::Emitters;
 use self::far_lights::FarLights;
 use self::frame_pose::Placer;
 use self::moving::Moving;
+use self::moving_triangles::MovingTriangles;
 use self::sources::{DrawPlace, SkinPlace, Sources};
 use crate::layout::{EmissiveTriangle, Frame};
 use crate::lights::pack_lights;
@@ -42,6 +45,7 @@ const UPDATE_BYTES: usize = 65_536;
 pub struct PosePass {
     /// One per draw of the geometry.
     moving_draws: Vec<bool>,
+    moving_triangles: MovingTriangles,
     places: Vec<DrawPlace>,
     skins: Vec<SkinPlace>,
     instance_count: usize,
@@ -59,6 +63,8 @@ pub struct PosePass {
     targets: Buffer,
     geometry: Geometry,
     bounds: BoundsPass,
+    /// Where only what moves is measured.
+    parts: Option<GeometryParts>,
     far_lights: Option<FarLights>,
     posed: PosedBuffers,
     bytes_by_part: Vec<(&'static str, u64)>,
@@ -90,6 +96,7 @@ impl PosePass {
         let sources = Sources::new(scene, tables, if is_placed { &moving } else { &nothing })?;
         let mut moving_draws = vec![false; tables.posed.draws.len()];
         sources.places.iter().for_each(|place| moving_draws[place.draw] = true);
+        let moving_triangles = MovingTriangles::of(&tables.posed, &moving_draws);
         let posed = gpu.posed_buffers().clone();
         let geometry = gpu.geometry().clone();
         let emitters = Emitters::new(tables, &sources.places);
@@ -131,6 +138,7 @@ impl PosePass {
         bytes_by_part.extend(far_lights.iter().map(FarLights::bytes));
         Ok(Self {
             moving_draws,
+            moving_triangles,
             places: sources.places,
             skins: sources.skins,
             instance_count: scene.instances.len(),
@@ -147,6 +155,7 @@ impl PosePass {
             targets,
             geometry,
             bounds: BoundsPass::new(device)?,
+            parts: None,
             far_lights,
             posed,
             bytes_by_part,
@@ -211,7 +220,10 @@ impl PosePass {
         }
         recorder.end_pass();
         if self.group_count > 0 {
-            self.bounds.record(recorder, &self.geometry);
+            match &self.parts {
+                Some(parts) => self.bounds.record_parts(recorder, parts),
+                None => self.bounds.record(recorder, &self.geometry),
+            }
         }
         if let Some(far_lights) = &self.far_lights {
             far_lights.record(recorder, &self.geometry, pose.emissive_power);
@@ -239,6 +251,25 @@ impl PosePass {
     /// Whether anything moves: vertices or lights.
     pub fn moves(&self) -> bool {
         self.lights_move || !self.places.is_empty()
+    }
+
+    /// Ids of the triangles that any clip can move: in order, no range empty, none that touch.
+    pub fn moving_triangles(&self) -> &[Range<u32>] {
+        &self.moving_triangles.ids
+    }
+
+    /// The geometry of the scene in two parts, what any clip can move and all else, each with bounds of its own. From then on
+    /// each frame measures the bounds of what moves, and with them those of the whole, without reading the static triangles.
+    ///
+    /// # Errors
+    /// Out of memory, or a lost device.
+    pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, GpuSceneError> {
+        if let Some(parts) = &self.parts {
+            return Ok(parts.clone());
+        }
+        let MovingTriangles { ids, bounds } = &self.moving_triangles;
+        let parts = self.geometry.parts(device, ids, *bounds)?;
+        Ok(self.parts.insert(parts).clone())
     }
 
     /// For each draw of the geometry whether any clip can move it. All others stay where the tables have them.

@@ -4,7 +4,8 @@ use std::mem::offset_of;
 
 use rasray_ads::{
     AdsError, BuildPipelines, Dependencies, Design, Geometry, Parts, Pooled, RecordLayout, Scan,
-    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, pools_of_words,
+    SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint, bin_groups, box_ignores_eye,
+    pools_of_words,
 };
 use rasray_gpu::{BindingSet, Recorder, Requirements};
 
@@ -82,6 +83,13 @@ impl Design for Passes {
 
     fn depends_on(_config: &Config) -> Dependencies {
         Dependencies { eye: true, camera: false }
+    }
+
+    /// Cells along the axes have a margin for the eye only where that is far away.
+    fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
+        let is_near = |viewpoint: Viewpoint| box_ignores_eye(parts.geometry.bounds(), viewpoint.eye);
+        let both_near = is_near(built) && is_near(wanted);
+        !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
     }
 
     fn requirements(_config: &Config) -> Requirements {

@@ -1,7 +1,9 @@
 //! A structure over frames in flight.
 
-use rasray_ads::{AdsError, Check, Geometry, Structure, Viewpoint};
+use rasray_ads::{AdsError, Check, Geometry, GeometryParts, Structure, Viewpoint};
 use rasray_gpu::{Device, Recorder};
+
+use crate::Refresh;
 
 /// How a structure is kept over frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,8 +36,10 @@ pub enum FrameOutcome {
 pub struct StructureCounts {
     /// Frames recorded.
     pub frames: u64,
-    /// Frames that recorded a build; the others traced through the last one.
+    /// Frames that recorded a build, if only of a part; the others traced through the last one.
     pub builds: u64,
+    /// Of these, frames that built the static part, too; all of them where there are no parts.
+    pub static_builds: u64,
     /// Frames whose build was not complete.
     pub incomplete: u64,
     /// Times that pools grew.
@@ -47,6 +51,19 @@ pub struct StructureCounts {
 struct Built {
     number: u64,
     viewpoint: Viewpoint,
+}
+
+/// What is known of a part that is built by itself.
+#[derive(Default)]
+struct Part {
+    /// What the next frame can be traced through, unless something changed.
+    built: Option<Built>,
+    /// Builds recorded so far.
+    builds: u64,
+    used: Vec<Option<Used>>,
+    /// The last build whose frame has ended, and whether it was complete. Frames end in order, so that none traced
+    /// through an earlier one is left.
+    ended: Option<(u64, bool)>,
 }
 
 /// What a slot's frame was traced through.
@@ -66,16 +83,11 @@ struct Used {
 /// of a slot [`FrameStructure::finish`], in the same order, before the slot is recorded again. Other triangles
 /// are handed over between frames.
 pub struct FrameStructure {
-    structure: Box<dyn Structure>,
+    structure: Refresh,
     headroom: u32,
-    /// What the next frame can be traced through, unless something changed.
-    built: Option<Built>,
-    /// Builds recorded so far.
-    builds: u64,
-    used: Vec<Option<Used>>,
-    /// The last build whose frame has ended, and whether it was complete. Frames end in order, so that none traced
-    /// through an earlier one is left.
-    ended: Option<(u64, bool)>,
+    slots: u32,
+    /// As the structure has them; the last one moves.
+    parts: Vec<Part>,
     counts: StructureCounts,
 }
 
@@ -84,27 +96,18 @@ impl FrameStructure {
     ///
     /// # Errors
     /// Out of memory.
-    pub fn new(
-        device: &Device,
-        mut structure: Box<dyn Structure>,
-        keeping: Keeping,
-    ) -> Result<Self, AdsError> {
+    pub fn new(device: &Device, structure: impl Into<Refresh>, keeping: Keeping) -> Result<Self, AdsError> {
+        let mut structure = structure.into();
         let slots = keeping.slots.max(1);
-        structure.set_slots(device, slots)?;
-        Ok(Self {
-            structure,
-            headroom: keeping.headroom,
-            built: None,
-            builds: 0,
-            used: vec![None; slots as usize],
-            ended: None,
-            counts: StructureCounts::default(),
-        })
+        structure.structure_mut().set_slots(device, slots)?;
+        let part = |_| Part { used: vec![None; slots as usize], ..Part::default() };
+        let parts = (0..structure.count()).map(part).collect();
+        Ok(Self { structure, headroom: keeping.headroom, slots, parts, counts: StructureCounts::default() })
     }
 
     /// The structure.
     pub fn structure(&self) -> &dyn Structure {
-        self.structure.as_ref()
+        self.structure.structure()
     }
 
     /// Sums over all frames so far.
@@ -114,27 +117,47 @@ impl FrameStructure {
 
     /// The vertices have moved, or will have by the time that the next frame builds.
     pub fn geometry_moved(&mut self) {
-        self.built = None;
+        if let Some(moving) = self.parts.last_mut() {
+            moving.built = None;
+        }
     }
 
-    /// Takes other triangles. Frames in flight keep those that they were recorded with.
+    /// Takes other triangles; all of them are built. Frames in flight keep those that they were recorded with.
+    ///
+    /// # Errors
+    /// Out of memory, or a [`Combined`](rasray_ads::Combined) structure is given another number of triangles: then
+    /// [`FrameStructure::set_parts`].
+    pub fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        self.replace(|structure| structure.set_geometry(device, geometry))
+    }
+
+    /// Takes other triangles, of which others may move; all of them are built.
     ///
     /// # Errors
     /// Out of memory.
-    pub fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
-        let sizes = self.structure.sizes().clone();
-        self.structure.set_geometry(device, geometry)?;
-        if *self.structure.sizes() != sizes {
+    pub fn set_parts(&mut self, device: &Device, parts: &GeometryParts) -> Result<(), AdsError> {
+        self.replace(|structure| structure.set_parts(device, parts))
+    }
+
+    fn replace(&mut self, with: impl FnOnce(&mut Refresh) -> Result<(), AdsError>) -> Result<(), AdsError> {
+        let sizes = self.structure().sizes().clone();
+        // Also where only one part took them.
+        self.parts.iter_mut().for_each(|part| part.built = None);
+        with(&mut self.structure)?;
+        if *self.structure().sizes() != sizes {
             self.counts.growths += 1;
         }
-        self.built = None;
         Ok(())
     }
 
     /// Whether a frame from this viewpoint records a build.
     pub fn is_stale(&self, viewpoint: Viewpoint) -> bool {
-        let depends_on = self.structure.depends_on();
-        self.built.is_none_or(|built| depends_on.are_stale(built.viewpoint, viewpoint))
+        (0..self.parts.len()).any(|part| self.is_part_stale(part, viewpoint))
+    }
+
+    fn is_part_stale(&self, part: usize, viewpoint: Viewpoint) -> bool {
+        let structure = self.structure.part(part);
+        self.parts[part].built.is_none_or(|built| structure.is_stale(built.viewpoint, viewpoint))
     }
 
     /// Does what only the host can do for the build of the next frame, if that builds: for structures that are built on the
@@ -144,10 +167,15 @@ impl FrameStructure {
     /// # Errors
     /// The device failed, or memory does not suffice.
     pub fn prepare(&mut self, device: &Device, viewpoint: Viewpoint) -> Result<(), AdsError> {
-        if self.is_stale(viewpoint) { self.structure.prepare_build(device) } else { Ok(()) }
+        for part in 0..self.parts.len() {
+            if self.is_part_stale(part, viewpoint) {
+                self.structure.change_part(part, |structure| structure.prepare_build(device))?;
+            }
+        }
+        Ok(())
     }
 
-    /// Records the build of a frame, unless the last one still holds. What follows in the frame may be traced through
+    /// Records the build of a frame, of each part for which the last one does not hold. What follows in the frame may be traced through
     /// [`FrameStructure::structure`]. True where a build was recorded.
     ///
     /// # Errors
@@ -158,25 +186,35 @@ impl FrameStructure {
         slot: u32,
         viewpoint: Viewpoint,
     ) -> Result<bool, AdsError> {
-        let slots = self.used.len() as u32;
+        let slots = self.slots;
         if slot >= slots {
-            return Err(AdsError::Slot { structure: self.structure.name(), slot, slots });
+            return Err(AdsError::Slot { structure: self.structure().name(), slot, slots });
         }
-        let reused = if self.is_stale(viewpoint) { None } else { self.built };
-        let build = match reused {
-            Some(built) => built.number,
-            None => {
-                self.structure.record_build(recorder, slot, viewpoint)?;
-                self.builds += 1;
-                self.built = Some(Built { number: self.builds, viewpoint });
-                self.builds
+        let (mut any_made, mut static_made) = (false, false);
+        for index in 0..self.parts.len() {
+            let made = self.is_part_stale(index, viewpoint);
+            if made {
+                let build = |structure: &mut dyn Structure| structure.record_build(recorder, slot, viewpoint);
+                if let Err(error) = self.structure.change_part(index, build) {
+                    // The caller cannot submit this frame.
+                    self.take_back(slot);
+                    return Err(error);
+                }
             }
-        };
-        let made = reused.is_none();
-        self.used[slot as usize] = Some(Used { build, made });
+            let part = &mut self.parts[index];
+            if made {
+                part.builds += 1;
+                part.built = Some(Built { number: part.builds, viewpoint });
+            }
+            let build = part.built.map_or(part.builds, |built| built.number);
+            part.used[slot as usize] = Some(Used { build, made });
+            static_made |= made && index == 0;
+            any_made |= made;
+        }
         self.counts.frames += 1;
-        self.counts.builds += u64::from(made);
-        Ok(made)
+        self.counts.builds += u64::from(any_made);
+        self.counts.static_builds += u64::from(static_made);
+        Ok(any_made)
     }
 
     /// Says what became of the build that a slot's frame was traced through; the caller has waited for the frame. Grows
@@ -185,52 +223,69 @@ impl FrameStructure {
     /// # Errors
     /// No sizes suffice, triangles reach out of their bounds ([`AdsError::OutsideBounds`]), or out of memory.
     pub fn finish(&mut self, device: &Device, slot: u32) -> Result<FrameOutcome, AdsError> {
-        let Some(used) = self.used.get_mut(slot as usize).and_then(Option::take) else {
-            return Ok(FrameOutcome::Complete);
-        };
-        if used.made {
-            let read = self.read(device, slot);
-            let is_complete = matches!(read, Ok(true));
-            self.ended = Some((used.build, is_complete));
-            if !is_complete && self.built.is_some_and(|built| built.number == used.build) {
-                self.built = None;
+        let mut is_complete = true;
+        let mut failed = None;
+        for part in 0..self.parts.len() {
+            match self.finish_part(device, part, slot) {
+                Ok(complete) => is_complete &= complete,
+                // The others are still to be read.
+                Err(error) => failed = failed.or(Some(error)),
             }
-            read?;
         }
-        if self.ended == Some((used.build, true)) {
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        if is_complete {
             return Ok(FrameOutcome::Complete);
         }
         self.counts.incomplete += 1;
         Ok(FrameOutcome::Incomplete)
     }
 
+    /// Whether what a slot's frame used of a part was complete.
+    fn finish_part(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
+        let Some(used) = self.parts[index].used.get_mut(slot as usize).and_then(Option::take) else {
+            return Ok(true);
+        };
+        if used.made {
+            let read = self.read(device, index, slot);
+            let is_complete = matches!(read, Ok(true));
+            let part = &mut self.parts[index];
+            part.ended = Some((used.build, is_complete));
+            if !is_complete && part.built.is_some_and(|built| built.number == used.build) {
+                part.built = None;
+            }
+            read?;
+        }
+        Ok(self.parts[index].ended == Some((used.build, true)))
+    }
+
     /// The frame that was recorded last was not submitted: what it built does not exist.
     pub fn take_back(&mut self, slot: u32) {
-        if let Some(used) = self.used.get_mut(slot as usize).and_then(Option::take)
-            && used.made
-        {
-            self.built = None;
+        for part in &mut self.parts {
+            if let Some(used) = part.used.get_mut(slot as usize).and_then(Option::take)
+                && used.made
+            {
+                part.built = None;
+            }
         }
     }
 
-    /// Whether the build of a slot was complete; grows if not.
-    fn read(&mut self, device: &Device, slot: u32) -> Result<bool, AdsError> {
-        let status = self.structure.status(slot)?;
+    /// Whether the build of a part in a slot was complete; grows if not.
+    fn read(&mut self, device: &Device, index: usize, slot: u32) -> Result<bool, AdsError> {
+        let structure = self.structure.part(index);
+        let status = structure.status(slot)?;
         if status.was_complete {
             return Ok(true);
         }
-        match self.structure.check(&status, self.headroom)? {
+        match structure.check(&status, self.headroom)? {
             Check::Complete => Ok(status.complete),
             Check::Grow(sizes) => {
-                let grows = sizes != *self.structure.sizes();
-                tracing::debug!(
-                    structure = self.structure.name(),
-                    bytes = sizes.bytes(),
-                    "grows between frames"
-                );
-                self.structure.resize(device, &sizes)?;
+                let grows = sizes != *structure.sizes();
+                tracing::debug!(structure = structure.name(), bytes = sizes.bytes(), "grows between frames");
+                self.structure.change_part(index, |structure| structure.resize(device, &sizes))?;
                 self.counts.growths += u64::from(grows);
-                self.built = None;
+                self.parts[index].built = None;
                 Ok(false)
             }
         }
@@ -241,7 +296,7 @@ impl std::fmt::Debug for FrameStructure {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter
             .debug_struct("FrameStructure")
-            .field("structure", &self.structure.name())
+            .field("structure", &self.structure().name())
             .field("counts", &self.counts)
             .finish_non_exhaustive()
     }

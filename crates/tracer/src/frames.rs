@@ -2,10 +2,10 @@
 
 use std::collections::VecDeque;
 
-use rasray_ads::{AdsError, Geometry, Structure, Viewpoint};
+use rasray_ads::{AdsError, Geometry, GeometryParts, Structure, Viewpoint};
 use rasray_gpu::{Device, Flights, PassTiming, Recorder, Timing};
 
-use crate::{FrameOutcome, FrameStructure, Keeping, TracerError};
+use crate::{FrameOutcome, FrameStructure, Keeping, Refresh, TracerError};
 
 /// Frames of a structure in flight: each records what moves its vertices, the build if that is stale, and what traces
 /// through it, in one submission that nothing waits for until the frame is taken.
@@ -48,7 +48,7 @@ impl Frames {
     /// Out of memory, the device has no queue, or it cannot time passes as asked.
     pub fn new(
         device: &Device,
-        structure: Box<dyn Structure>,
+        structure: impl Into<Refresh>,
         keeping: Keeping,
         timing: Timing,
     ) -> Result<Self, TracerError> {
@@ -84,6 +84,14 @@ impl Frames {
     /// Out of memory.
     pub fn set_geometry(&mut self, geometry: &Geometry) -> Result<(), AdsError> {
         self.structure.set_geometry(&self.device, geometry)
+    }
+
+    /// As [`FrameStructure::set_parts`].
+    ///
+    /// # Errors
+    /// Out of memory.
+    pub fn set_parts(&mut self, parts: &GeometryParts) -> Result<(), AdsError> {
+        self.structure.set_parts(&self.device, parts)
     }
 
     /// Records a frame and submits it; returns its number. `before` records what moves vertices and comes first, `after`

@@ -9,6 +9,7 @@ mod build;
 mod error;
 mod frame_structure;
 mod frames;
+mod refresh;
 mod replay;
 mod share;
 
@@ -17,6 +18,7 @@ pub use build::{BuildOutcome, build_until_complete};
 pub use error::TracerError;
 pub use frame_structure::{FrameOutcome, FrameStructure, Keeping, StructureCounts};
 pub use frames::{Ended, Frames};
+pub use refresh::Refresh;
 pub use replay::Replay;
 
 /// What the readme shows compiles.

@@ -2,8 +2,8 @@
 //! frame in flight while the next is written.
 
 use rasray_ads::{
-    BoundsPass, Domain, Draw, Geometry, GeometryDesc, Hit, QueueCounters, QueueHeader, Ray, RayQueue,
-    Structure, TraceMode,
+    BoundsPass, Domain, Draw, Geometry, GeometryDesc, GeometryParts, Hit, QueueCounters, QueueHeader, Ray,
+    RayQueue, Structure, TraceMode,
 };
 use rasray_gpu::{Access, Buffer, BufferDesc, BufferUsage, Device, MemoryLocation, Recorder};
 use rasray_tests::random::Random;
@@ -39,7 +39,7 @@ impl Shown {
         Self { eye: centre, triangles, rays }
     }
 
-    fn bounds(&self) -> [[f32; 3]; 2] {
+    pub fn bounds(&self) -> [[f32; 3]; 2] {
         let corners = || self.triangles.iter().flatten();
         let over = |with: fn(f32, f32) -> f32| {
             std::array::from_fn(|axis| corners().map(|corner| corner[axis]).reduce(with).unwrap_or(0.0))
@@ -124,6 +124,15 @@ impl Crowd {
         recorder.copy(&self.slots[slot as usize].positions, 0, &self.positions, 0, size);
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
         self.bounds.record(recorder, geometry);
+    }
+
+    /// The same where only one part moves.
+    pub fn record_move_parts(&self, recorder: &mut Recorder<'_>, slot: u32, parts: &GeometryParts) {
+        let triangles = parts.moving_part().whole().triangle_count();
+        let size = u64::from(triangles) * size_of::<Triangle>() as u64;
+        recorder.copy(&self.slots[slot as usize].positions, 0, &self.positions, 0, size);
+        recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
+        self.bounds.record_parts(recorder, parts);
     }
 
     /// Records the rays of a frame and what the host reads of them.

@@ -1,6 +1,8 @@
 //! Frames in flight: nothing is shown that is not right, nothing is built that is not stale, and nothing is left behind.
 
 mod crowd;
+mod parts;
 mod pictures;
+mod refresh;
 mod soak;
 mod stale;

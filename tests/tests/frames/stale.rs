@@ -33,6 +33,9 @@ fn only_what_a_structure_depends_on_makes_it_build() {
         let geometry = crowd.geometry(&shown);
         let structure = subject.structure(&bench, &geometry);
         let depends_on = structure.depends_on();
+        // Cells along the axes are the same for every eye that is not far away.
+        let eye_matters = structure.is_stale(turned, away);
+        assert!(!eye_matters || depends_on.are_stale(turned, away), "{name}");
         let mut frames = Frames::new(device, structure, keeping, Timing::None).expect("the device works");
         let show = |frames: &mut Frames, viewpoint: Viewpoint| {
             let slot = frames.free_slot().expect("none is in flight");
@@ -61,7 +64,7 @@ fn only_what_a_structure_depends_on_makes_it_build() {
         assert_eq!(hits, first, "{name}: nothing changed");
         assert_eq!(show(&mut frames, turned).0, depends_on.camera, "{name}: the camera turned");
         let (built, outcome, _) = show(&mut frames, away);
-        assert_eq!(built, depends_on.are_stale(turned, away), "{name}: the eye moved");
+        assert_eq!(built, eye_matters, "{name}: the eye moved");
         assert!(outcome == FrameOutcome::Complete || built, "{name}");
         frames.geometry_moved();
         assert!(show(&mut frames, away).0, "{name}: the triangles moved");

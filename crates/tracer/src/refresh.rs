@@ -1,0 +1,86 @@
+//! What frames build anew.
+
+use rasray_ads::{AdsError, Combined, Geometry, GeometryParts, Structure};
+use rasray_gpu::Device;
+
+/// A structure over frames, and what of it a frame builds where triangles have moved.
+pub enum Refresh {
+    /// All triangles.
+    All(Box<dyn Structure>),
+    /// The part that moves. The static part is built where it is stale itself: the first time, where its pools grew, for
+    /// other triangles, and from another view where the structure depends on it.
+    Moving(Box<Combined>),
+}
+
+impl Refresh {
+    /// What rays are traced through.
+    pub fn structure(&self) -> &dyn Structure {
+        match self {
+            Self::All(structure) => structure.as_ref(),
+            Self::Moving(combined) => combined.as_ref(),
+        }
+    }
+
+    /// The same, to be changed as a whole.
+    pub(crate) fn structure_mut(&mut self) -> &mut dyn Structure {
+        match self {
+            Self::All(structure) => structure.as_mut(),
+            Self::Moving(combined) => combined.as_mut(),
+        }
+    }
+
+    /// Parts that are built apart; the last one moves.
+    pub(crate) fn count(&self) -> usize {
+        match self {
+            Self::All(_) => 1,
+            Self::Moving(_) => 2,
+        }
+    }
+
+    pub(crate) fn part(&self, part: usize) -> &dyn Structure {
+        match self {
+            Self::All(structure) => structure.as_ref(),
+            Self::Moving(combined) => combined.parts()[part],
+        }
+    }
+
+    pub(crate) fn change_part<T>(
+        &mut self,
+        part: usize,
+        change: impl FnOnce(&mut dyn Structure) -> Result<T, AdsError>,
+    ) -> Result<T, AdsError> {
+        match self {
+            Self::All(structure) => change(structure.as_mut()),
+            Self::Moving(combined) => combined.change_part(part == 1, change),
+        }
+    }
+
+    pub(crate) fn set_parts(&mut self, device: &Device, parts: &GeometryParts) -> Result<(), AdsError> {
+        match self {
+            Self::All(structure) => structure.set_geometry(device, parts.moving_part().whole()),
+            Self::Moving(combined) => combined.set_parts(device, parts),
+        }
+    }
+
+    pub(crate) fn set_geometry(&mut self, device: &Device, geometry: &Geometry) -> Result<(), AdsError> {
+        self.structure_mut().set_geometry(device, geometry)
+    }
+}
+
+impl From<Box<dyn Structure>> for Refresh {
+    fn from(structure: Box<dyn Structure>) -> Self {
+        Self::All(structure)
+    }
+}
+
+impl<S: Structure + 'static> From<Box<S>> for Refresh {
+    fn from(structure: Box<S>) -> Self {
+        Self::All(structure)
+    }
+}
+
+impl From<Combined> for Refresh {
+    fn from(combined: Combined) -> Self {
+        Self::Moving(Box::new(combined))
+    }
+}

@@ -1,0 +1,241 @@
+//! Triangles in two parts, each with a structure of its own: hits are those of one structure over all, bit for bit.
+
+use std::ops::Range;
+
+use rasray_ads::{
+    AdsError, Combined, Domain, Geometry, GeometryParts, Hit, Ray, RayQueue, Structure, StructureKind,
+    TraceMode,
+};
+use rasray_systems::SystemsError;
+use rasray_tests::harness::{Bench, bits};
+use rasray_tests::invariance::{Subject, first_difference};
+use rasray_tests::random::Random;
+use rasray_tests::shapes::Triangle;
+
+const RAYS: usize = 400;
+
+/// Triangles of which every fourth is there twice.
+fn doubled(random: &mut Random) -> Vec<Triangle> {
+    let mut triangles: Vec<Triangle> = (0..120)
+        .map(|_| {
+            let corner = random.point(-4.0, 4.0);
+            [0, 1, 2].map(|_| {
+                let offset = random.point(-1.0, 1.0);
+                std::array::from_fn(|axis| corner[axis] + offset[axis])
+            })
+        })
+        .collect();
+    // Coplanar ones that overlap, in front of everything else from most sides.
+    triangles.extend([[[-6.0, -6.0, 6.0], [6.0, -6.0, 6.0], [-6.0, 6.0, 6.0]]; 2]);
+    triangles.push([[-6.0, -6.0, 6.0], [6.0, -6.0, 6.0], [6.0, 6.0, 6.0]]);
+    for copied in (0..120).step_by(4) {
+        triangles.push(triangles[copied]);
+    }
+    triangles
+}
+
+fn rays(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
+    (0..RAYS)
+        .map(|number| {
+            let origin = random.point(-8.0, 8.0);
+            if number % 2 == 0 {
+                return Ray::new(origin, random.direction());
+            }
+            // Towards the middle of a triangle.
+            let triangle = triangles[random.bits() as usize % triangles.len()];
+            let middle: [f32; 3] =
+                std::array::from_fn(|axis| triangle.iter().map(|corner| corner[axis]).sum::<f32>() / 3.0);
+            let mut ray = Ray::new(origin, std::array::from_fn(|axis| middle[axis] - origin[axis]));
+            if number % 10 == 1 {
+                ray.exclude_primitive = random.bits() as u32 % triangles.len() as u32;
+            }
+            ray
+        })
+        .collect()
+}
+
+/// Which triangles move: all, none, one run in the middle, and every third one and some more.
+fn divisions(count: u32) -> Vec<(&'static str, Vec<Range<u32>>)> {
+    let scattered =
+        (0..count).filter(|id| id % 3 == 0 || id % 5 == 1 || id % 5 == 3).map(|id| id..id + 1).collect();
+    vec![
+        ("all", vec![0..count]),
+        ("none", Vec::new()),
+        ("a run", vec![20..90]),
+        ("those at the end", vec![100..count]),
+        ("scattered", scattered),
+    ]
+}
+
+fn bounds(triangles: &[Triangle], moving: &[Range<u32>], of_moving: bool) -> [[f32; 3]; 2] {
+    let is_moving = |id: usize| moving.iter().any(|ids| ids.contains(&(id as u32)));
+    let corners: Vec<[f32; 3]> =
+        (0..triangles.len()).filter(|&id| is_moving(id) == of_moving).flat_map(|id| triangles[id]).collect();
+    [f32::min, f32::max].map(|with: fn(f32, f32) -> f32| {
+        std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).reduce(with).unwrap_or(0.0))
+    })
+}
+
+fn parts(bench: &Bench, whole: &Geometry, triangles: &[Triangle], moving: &[Range<u32>]) -> GeometryParts {
+    let bounds = [false, true].map(|of_moving| bounds(triangles, moving, of_moving));
+    whole.parts(bench.device(), moving, bounds).expect("they are parts")
+}
+
+/// Presets that find every triangle, trees of both builders among them.
+pub fn that_find_all() -> Vec<Subject> {
+    let mut subjects: Vec<Subject> =
+        Subject::all().into_iter().filter(|subject| subject.kind == StructureKind::Primitive).collect();
+    let trees: Vec<Subject> = subjects
+        .iter()
+        .filter(|subject| subject.spec.system().name == "bvh")
+        .flat_map(|tree| ["lbvh", "sah"].map(|builder| tree.with(&[("builder", builder)])))
+        .flatten()
+        .collect();
+    subjects.retain(|subject| subject.spec.system().name != "bvh");
+    subjects.extend(trees);
+    subjects
+}
+
+#[test]
+fn hits_in_parts_are_those_of_all_triangles() {
+    let bench = Bench::new();
+    let mut random = Random::new(29);
+    let triangles = doubled(&mut random);
+    let rays = rays(&mut random, &triangles);
+    let whole = bench.geometry(&triangles);
+    let subjects = that_find_all();
+    assert_eq!(subjects.len(), 7, "{subjects:?}");
+    for subject in &subjects {
+        let name = subject.name();
+        let expected = subject.answers(&bench, [0.5; 3], &triangles, &rays);
+        // Rays pause often with so little to spend; brute force keeps what it has.
+        let paused = Subject { spec: subject.spec.clone().with_work_budget(7), kind: subject.kind };
+        for (which, moving) in divisions(triangles.len() as u32) {
+            let parts = parts(&bench, &whole, &triangles, &moving);
+            for subject in [subject, &paused] {
+                let mut structure =
+                    Combined::new(&parts, |part| subject.spec.create(bench.device(), part, None))
+                        .expect("it finds every triangle");
+                let found = subject.answers_of(&bench, [0.5; 3], &mut structure, &rays);
+                let different = first_difference(&found, &expected);
+                assert_eq!(different, None, "{name}, {which} move: {:?}", different.map(|ray| rays[ray]));
+                let (known, sizes) = (structure.parts(), structure.sizes().bytes());
+                assert_eq!(known.map(|part| part.sizes().bytes()).iter().sum::<u64>(), sizes);
+            }
+        }
+        // Nothing of this could go wrong unless rays hit what is there twice, with the lower id in either part.
+        let (_, scattered) = divisions(triangles.len() as u32).pop().expect("there are some");
+        let moves = |id: usize| scattered.iter().any(|ids| ids.contains(&(id as u32)));
+        let mut ties = [0; 2];
+        for hit in &expected.closest {
+            let id = hit[1] as usize;
+            let copy = |other: &usize| *other != id && triangles[*other] == triangles[id];
+            if id < triangles.len()
+                && let Some(other) = (0..triangles.len()).find(copy)
+                && moves(id) != moves(other)
+            {
+                ties[usize::from(moves(id))] += 1;
+            }
+        }
+        assert!(ties.iter().all(|&count| count > 5), "{name}: {ties:?} hits on what is in both parts");
+    }
+}
+
+/// Nothing is answered unless both parts are built.
+#[test]
+fn one_part_alone_gives_no_answer() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let mut random = Random::new(31);
+    let triangles = doubled(&mut random);
+    let rays = rays(&mut random, &triangles);
+    let whole = bench.geometry(&triangles);
+    let parts = parts(&bench, &whole, &triangles, &[20..90]);
+    let subject = that_find_all().into_iter().find(|subject| subject.name() == "bricks robust");
+    let subject = subject.expect("the registry has bricks");
+    let made = || {
+        Combined::new(&parts, |part| subject.spec.create(device, part, None))
+            .expect("it finds every triangle")
+    };
+    for moving in [false, true] {
+        let mut structure = made();
+        // Pools as large as they have to be, and one part not built.
+        let sizes = {
+            let mut built = made();
+            rasray_tracer::build_until_complete(device, &mut built, [0.5; 3], rasray_gpu::Timing::None)
+                .expect("it is built");
+            built.sizes().clone()
+        };
+        structure.resize(device, &sizes).expect("it fits");
+        device
+            .submit(|recorder| {
+                structure.change_part(moving, |part| part.record_build(recorder, 0, [0.5; 3].into()))
+            })
+            .expect("the device works")
+            .value
+            .expect("it is recorded");
+        for mode in [TraceMode::Closest, TraceMode::Occluded] {
+            let queue = RayQueue::new(device, "rays", rays.len() as u32, false).expect("a queue fits");
+            device.submit(|recorder| queue.record_reset(recorder)).expect("the device works");
+            device.upload_slice(queue.rays(), 0, &rays).expect("the device works");
+            let all = Domain::First(rays.len() as u32);
+            device
+                .submit(|recorder| structure.record_trace(recorder, &queue, all, mode, structure.rounds()))
+                .expect("the device works");
+            let hits = device.download_as::<Hit>(queue.hits(), 0, rays.len()).expect("the device works");
+            let counters = queue.download_counters(device).expect("the device works");
+            assert_eq!(counters.not_ready as usize, rays.len(), "{mode:?}, {counters:?}");
+            assert!(hits.iter().all(|hit| !hit.is_hit()), "{mode:?}: no ray has an answer");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_in_parts_is_refused() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let triangles = doubled(&mut Random::new(5));
+    let whole = bench.geometry(&triangles);
+    let count = triangles.len() as u32;
+    let everywhere = [whole.bounds(); 2];
+    let refused = |moving: &[Range<u32>]| {
+        let error = whole.parts(device, moving, everywhere).expect_err("it is refused");
+        assert!(matches!(error, AdsError::Geometry { .. }), "{error}");
+        error.to_string()
+    };
+    assert!(refused(&[0..4, 3..5]).contains("overlap"));
+    assert!(refused(&[7..count + 1]).contains(&count.to_string()));
+    let parts = whole.parts(device, &[7..count, 2..2, 5..7], everywhere).expect("they are parts");
+    assert_eq!(parts.moving(), [5..count]);
+    assert!(parts.moving_part().parts(device, &[], everywhere).is_err(), "a part has no parts");
+    let mut fragments = 0;
+    for subject in Subject::all() {
+        let made = Combined::new(&parts, |part| subject.spec.create(device, part, None));
+        match (subject.kind, made) {
+            (StructureKind::Primitive, made) => drop(made.expect("it finds every triangle")),
+            (_, Err(SystemsError::Ads(AdsError::InParts { structure, reason }))) => {
+                assert_eq!(structure, subject.spec.structure());
+                assert!(!reason.is_empty());
+                fragments += 1;
+            }
+            (kind, made) => panic!("{}: {kind:?} in parts: {:?}", subject.name(), made.err()),
+        }
+    }
+    assert!(fragments > 3, "{fragments} were refused");
+    // Other triangles: as many as before, or the caller says which of them move.
+    let subject = that_find_all().into_iter().find(|subject| subject.name() == "bricks robust");
+    let subject = subject.expect("the registry has bricks");
+    let mut structure = Combined::new(&parts, |part| subject.spec.create(device, part, None))
+        .expect("it finds every triangle");
+    let fewer = &triangles[..60];
+    let geometry = bench.geometry(fewer);
+    let error = structure.set_geometry(device, &geometry).expect_err("another number of triangles");
+    assert!(matches!(error, AdsError::InParts { .. }), "{error}");
+    let mut random = Random::new(6);
+    let rays = rays(&mut random, fewer);
+    let few = geometry.parts(device, &[0..3, 10..40], [geometry.bounds(); 2]).expect("they are parts");
+    structure.set_parts(device, &few).expect("they fit");
+    let found = bench.build_and_trace(&mut structure, [0.5; 3], &rays);
+    let expected = bench.build_and_trace(subject.structure(&bench, &geometry).as_mut(), [0.5; 3], &rays);
+    assert_eq!(found.iter().map(bits).collect::<Vec<_>>(), expected.iter().map(bits).collect::<Vec<_>>());
+}

@@ -1,0 +1,491 @@
+//! Frames that build only what moved: their hits and pictures are those of frames that build everything.
+
+use std::mem::size_of;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use bytemuck::pod_read_unaligned;
+use glam::{DAffine3, DVec3};
+use rasray_ads::{BoundsPass, Combined, Counters, GeometryHeader, Ray, Structure, TraceMode, Viewpoint};
+use rasray_frame::{FrameInput, FrameRenderer, render_in_order};
+use rasray_gpu::{PassCommands, Timing};
+use rasray_gpu_scene::{GpuScene, Parts, PosePass, Sampling, SceneTables, View};
+use rasray_integrators::{Film, IntegratorDesc, Path};
+use rasray_scene::animation::{
+    Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
+};
+use rasray_scene::builtin::builtin;
+use rasray_scene::default_view::default_camera;
+use rasray_scene::{LoadOptions, Moment, Scene};
+use rasray_systems::Spec;
+use rasray_tests::harness::{Bench, bits, processor_seconds};
+use rasray_tests::random::Random;
+use rasray_tests::tier::{first, is_full};
+use rasray_tracer::{BatchTracer, FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
+
+use crate::crowd::{Crowd, Shown};
+use crate::parts::that_find_all;
+
+const RAYS: usize = 600;
+
+fn made(name: &str) -> Scene {
+    builtin(name).expect("it is built in").expect("its parameters are valid")
+}
+
+/// A node that nothing moves.
+fn at_rest(name: String) -> RigNode {
+    let transform =
+        NodeTransform::Parts { translation: DVec3::ZERO, rotation: glam::DQuat::IDENTITY, scale: DVec3::ONE };
+    RigNode { name, parent: None, transform }
+}
+
+/// A scene that moves among the instances of another one that does not: half of these come first.
+fn among(mut moving: Scene, other: &Scene) -> Scene {
+    let (meshes, materials, textures, images) =
+        (moving.meshes.len(), moving.materials.len(), moving.textures.len(), moving.images.len());
+    moving.images.extend(other.images.iter().cloned());
+    moving.textures.extend(other.textures.iter().map(|texture| {
+        let mut texture = *texture;
+        texture.image += images;
+        texture
+    }));
+    moving.materials.extend(other.materials.iter().map(|material| {
+        let mut material = material.clone();
+        let used = [
+            &mut material.base_color_texture,
+            &mut material.metallic_roughness_texture,
+            &mut material.normal_texture,
+            &mut material.emission_texture,
+            &mut material.transmission_texture,
+        ];
+        used.into_iter().flatten().for_each(|texture| texture.texture += textures);
+        material
+    }));
+    moving.meshes.extend(other.meshes.iter().map(|mesh| {
+        let mut mesh = mesh.clone();
+        mesh.material += materials;
+        mesh
+    }));
+    let rig = &mut moving.animation.rig;
+    let node = rig.nodes.len();
+    rig.nodes.push(at_rest("static".to_owned()));
+    for (place, instance) in other.instances.iter().enumerate() {
+        let mut instance = instance.clone();
+        instance.mesh += meshes;
+        let placement = Placement { node, node_from_mesh: instance.world_from_mesh };
+        let at = if place < other.instances.len() / 2 { place } else { moving.instances.len() };
+        moving.instances.insert(at, instance);
+        rig.placements.insert(at, placement);
+    }
+    moving.cameras.clear();
+    moving
+}
+
+/// The hall whose banners and plants are cut out by masks; every third instance swings. With nothing of it, or everything.
+fn swinging_hall(moves: impl Fn(usize) -> bool) -> Scene {
+    let mut scene = made("atrium:detail=0.25");
+    let count = scene.instances.len();
+    let swings: Vec<Channel> = (0..count)
+        .filter(|&node| moves(node))
+        .map(|node| Channel {
+            node,
+            interpolation: Interpolation::Linear,
+            times: vec![0.0, 1.0],
+            values: ChannelValues::Translation(vec![[0.0; 3], [0.4, 0.1, -0.2]]),
+        })
+        .collect();
+    scene.animation.rig = Rig {
+        nodes: (0..count).map(|node| at_rest(format!("node {node}"))).collect(),
+        placements: (0..count)
+            .map(|node| Placement { node, node_from_mesh: scene.instances[node].world_from_mesh })
+            .collect(),
+        clips: vec![Clip { name: "swing".to_owned(), duration: 1.0, channels: swings }],
+        ..Rig::default()
+    };
+    scene.animation.clips = vec!["swing".to_owned()];
+    scene
+}
+
+fn third(node: usize) -> bool {
+    node % 3 == 1
+}
+
+fn view(scene: &Scene, size: [u32; 2], moved: f64) -> View {
+    let mut camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene));
+    camera.world_from_camera *= DAffine3::from_translation(DVec3::X * moved);
+    View { camera, width: size[0], height: size[1], seed: 7 }
+}
+
+/// A scene on the device, with its pass.
+fn stage(bench: &Bench, scene: &Scene, size: [u32; 2]) -> (GpuScene, PosePass) {
+    let tables = SceneTables::new(scene, DVec3::ZERO, &Parts::ALL).expect("the scene is whole");
+    let gpu = GpuScene::upload(bench.device(), &tables, &view(scene, size, 0.0)).expect("it fits");
+    let pass = PosePass::new(bench.device(), scene, &tables, &gpu).expect("it fits");
+    (gpu, pass)
+}
+
+fn moment(seconds: f64) -> Moment {
+    Moment { seconds, clips: vec![0] }
+}
+
+/// What a frame recorded in passes that structures label.
+#[derive(Clone, Copy, Debug, Default)]
+struct Recorded {
+    dispatches: u32,
+    workgroups: u64,
+    vertices: u64,
+}
+
+impl Recorded {
+    fn of(passes: &[PassCommands]) -> Self {
+        let add = |sum: Self, pass: &PassCommands| Self {
+            dispatches: sum.dispatches + pass.dispatches + pass.indirect + pass.draws,
+            workgroups: sum.workgroups + pass.workgroups,
+            vertices: sum.vertices + pass.vertices,
+        };
+        passes.iter().fold(Self::default(), add)
+    }
+}
+
+/// A structure over frames, one at a time.
+struct Kept {
+    frames: FrameStructure,
+}
+
+impl Kept {
+    fn new(bench: &Bench, structure: impl Into<Refresh>) -> Self {
+        let frames = FrameStructure::new(bench.device(), structure, Keeping::default()).expect("it fits");
+        Self { frames }
+    }
+
+    /// A frame until it is complete: what its last try recorded.
+    fn build(&mut self, bench: &Bench, viewpoint: Viewpoint) -> Recorded {
+        let device = bench.device();
+        for _ in 0..6 {
+            self.frames.prepare(device, viewpoint).expect("the device works");
+            let submitted = device.submit(|recorder| {
+                self.frames.record(recorder, 0, viewpoint).map(|_| Recorded::of(recorder.passes()))
+            });
+            let recorded = submitted.expect("the device works").value.expect("it is recorded");
+            if self.frames.finish(device, 0).expect("sizes suffice") == FrameOutcome::Complete {
+                return recorded;
+            }
+        }
+        panic!("the demand does not settle");
+    }
+
+    /// Answers bit for bit, nearest and occluded; and cells visited, entries read and triangles tested for the nearest.
+    fn answers(&self, bench: &Bench, rays: &[Ray]) -> (Vec<[u32; 4]>, Vec<bool>, [u64; 3]) {
+        let structure = self.frames.structure();
+        let traced = bench.trace(structure, rays);
+        let counters = traced.counters;
+        let work = [counters.cells, counters.entries, counters.tests];
+        (traced.hits.iter().map(bits).collect(), bench.occluded(structure, rays), work)
+    }
+
+    /// Processor time of builds of what moved, one after the other, seconds each.
+    fn timed(&mut self, bench: &Bench, viewpoint: Viewpoint) -> Option<f64> {
+        const BUILDS: u32 = 30;
+        let begun = processor_seconds()?;
+        for _ in 0..BUILDS {
+            self.frames.geometry_moved();
+            self.build(bench, viewpoint);
+        }
+        Some((processor_seconds()? - begun) / f64::from(BUILDS))
+    }
+}
+
+fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 2]) -> Vec<Ray> {
+    let within = |random: &mut Random, [lower, upper]: [[f32; 3]; 2]| -> [f32; 3] {
+        std::array::from_fn(|axis| random.between(lower[axis], upper[axis]))
+    };
+    (0..RAYS)
+        .map(|number| {
+            let origin = within(random, [lower, upper]);
+            if number % 2 == 0 {
+                return Ray::new(origin, random.direction());
+            }
+            // Towards what moves.
+            let target = within(random, towards);
+            Ray::new(origin, std::array::from_fn(|axis| target[axis] - origin[axis]))
+        })
+        .collect()
+}
+
+fn header(bench: &Bench, buffer: &rasray_gpu::Buffer) -> GeometryHeader {
+    let bytes = bench.device().download(buffer, 0, size_of::<GeometryHeader>() as u64);
+    pod_read_unaligned(&bytes.expect("the device works"))
+}
+
+fn specs() -> Vec<Spec> {
+    let spec = |system: &str, options: &[(&str, &str)]| {
+        let given = options.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+        Spec::new(system, "robust", given).expect("the options are the system's")
+    };
+    vec![
+        spec("bricks", &[]),
+        spec("bvh", &[("builder", "lbvh")]),
+        spec("bricks", &[("views", "cube")]),
+        spec("bvh", &[("builder", "sah")]),
+        spec("grid", &[]),
+        spec("dirt", &[("resolution", "64")]),
+    ]
+}
+
+/// Hits of frames of a scene at times, of everything built anew and of what moved alone.
+fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec]) {
+    let device = bench.device();
+    let (gpu, mut pass) = stage(bench, scene, [16, 16]);
+    let parts = pass.parts(device).expect("it fits");
+    let (moving, whole) = (parts.moving_part().triangle_count(), gpu.geometry().triangle_count());
+    println!("{name}: {moving} of {whole} triangles move, in {} runs", parts.moving().len());
+    let measured = BoundsPass::new(device).expect("the device works");
+    let mut still = 0;
+    for spec in specs {
+        let spec = spec.clone().with_counters(Counters::Sums);
+        let binding = Some(gpu.binding());
+        let system = format!("{name}, {} {:?}", spec.system().name, spec.options());
+        let all = spec.create(device, gpu.geometry(), binding).expect("the options are valid");
+        let combined =
+            Combined::new(&parts, |part| spec.create(device, part, binding)).expect("it finds all");
+        let (mut all, mut kept) = (Kept::new(bench, all), Kept::new(bench, combined));
+        let mut random = Random::new(17);
+        let mut found = [0; 2];
+        let mut recorded = [Recorded::default(); 2];
+        let mut work = [[0; 3]; 2];
+        let mut viewpoint = Viewpoint::from([0.0; 3]);
+        let mut first = viewpoint;
+        for (frame, &seconds) in times.iter().enumerate() {
+            let posed = pass.frame(scene, &moment(seconds)).expect("it is the same scene");
+            device.submit(|recorder| pass.record(recorder, &posed)).expect("the device works");
+            let bounds = |header: GeometryHeader| [header.lower, header.upper];
+            let [united, of_moving] =
+                [gpu.geometry(), parts.moving_part()].map(|part| bounds(header(bench, part.header())));
+            device.submit(|recorder| measured.record(recorder, gpu.geometry())).expect("the device works");
+            assert_eq!(united, bounds(header(bench, gpu.geometry().header())), "{system}, frame {frame}");
+            viewpoint = gpu.viewpoint_of(&view(scene, [16, 16], 0.01 * frame as f64));
+            first = if frame == 0 { viewpoint } else { first };
+            all.frames.geometry_moved();
+            kept.frames.geometry_moved();
+            recorded = [all.build(bench, viewpoint), kept.build(bench, viewpoint)];
+            let rays = rays(&mut random, united, of_moving);
+            let (expected, answered) = (all.answers(bench, &rays), kept.answers(bench, &rays));
+            let differs = (0..RAYS)
+                .find(|&ray| expected.0[ray] != answered.0[ray] || expected.1[ray] != answered.1[ray]);
+            assert_eq!(differs, None, "{system}, frame {frame}: {:?}", differs.map(|ray| rays[ray]));
+            for (work, counted) in work.iter_mut().zip([expected.2, answered.2]) {
+                work.iter_mut().zip(counted).for_each(|(sum, counted)| *sum += counted);
+            }
+            for hit in &answered.0 {
+                let moves = parts.moving().iter().any(|ids| ids.contains(&hit[1]));
+                found[usize::from(moves)] += usize::from(hit[1] != u32::MAX);
+            }
+        }
+        let counts = kept.frames.counts();
+        println!("{system}: {found:?} hits on static and moving triangles, {counts:?}");
+        println!("  the last build of all, and of what moves: {recorded:?}");
+        let bytes = [&all, &kept].map(|kept| kept.frames.structure().sizes().bytes());
+        let traced = (RAYS * times.len()) as f64;
+        let per_ray = work.map(|work| work.map(|sum| sum as f64 / traced));
+        println!("  bytes {bytes:?}; cells, entries and tests per ray {per_ray:.2?}");
+        if is_full() {
+            let seconds = [all.timed(bench, viewpoint), kept.timed(bench, viewpoint)];
+            println!("  processor time of a build {seconds:.4?} s");
+        }
+        let is_some = |part: u32, hits: usize| (part == 0) == (hits == 0);
+        assert!(is_some(whole - moving, found[0]) && is_some(moving, found[1]), "{system}: {found:?}");
+        // The static part is built until its pools suffice, and not with every frame, unless the eye's move matters to it.
+        let eye_matters = kept.frames.structure().is_stale(first, viewpoint);
+        assert!(eye_matters || counts.static_builds <= 4, "{system}: {counts:?}");
+        still += usize::from(!eye_matters);
+        assert!(counts.builds >= times.len() as u64, "{system}: {counts:?}");
+    }
+    assert!(still > 1, "{name}: {still} systems whose static part is built once");
+}
+
+#[test]
+fn a_figure_walks_on_ground_that_is_built_once() {
+    let bench = Bench::new();
+    let walker = made("walker:30k");
+    let times: Vec<f64> = (0..6).map(|frame| 0.9 * f64::from(frame)).collect();
+    hold(&bench, "walker:30k", &walker, &times, &specs()[..2]);
+    let hall = among(made("walker:8k"), &made("atrium:detail=0.25"));
+    hold(&bench, "walker:8k in atrium", &hall, &times, first(&specs(), 5));
+}
+
+#[test]
+fn parts_of_a_hall_swing_with_masks() {
+    let bench = Bench::new();
+    let times = [0.0, 0.3, 0.3, 0.7, 1.0, 0.1];
+    hold(&bench, "every third", &swinging_hall(third), &times, &specs());
+    hold(&bench, "everything", &swinging_hall(|_| true), &times, &specs()[..2]);
+    hold(&bench, "nothing", &swinging_hall(|_| false), &times, &specs()[..2]);
+}
+
+#[test]
+fn a_real_figure_moves_in_a_hall() {
+    let Some(folder) = std::env::var_os("RASRAY_SCENES").map(PathBuf::from) else {
+        eprintln!("skipped: RASRAY_SCENES is not set");
+        return;
+    };
+    let bench = Bench::new();
+    let file = folder.join("skinned/CesiumMan/CesiumMan.glb");
+    let figure = rasray_scene::load(&file, &LoadOptions::default()).expect("it is read");
+    let hall = among(figure, &made("atrium:detail=0.25"));
+    let times: Vec<f64> = (0..5).map(|frame| 0.4 * f64::from(frame)).collect();
+    hold(&bench, "CesiumMan in atrium", &hall, &times, &specs()[..2]);
+}
+
+/// Pictures of frames in flight, with shadows and light that is scattered.
+#[test]
+fn pictures_are_the_same() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging_hall(third));
+    let size = [20, 12];
+    let pictures = |spec: &Spec, in_parts: bool| {
+        let (gpu, mut pass) = stage(&bench, &scene, size);
+        let binding = Some(gpu.binding());
+        let structure: Refresh = if in_parts {
+            let parts = pass.parts(device).expect("it fits");
+            Combined::new(&parts, |part| spec.create(device, part, binding)).expect("it finds all").into()
+        } else {
+            spec.create(device, gpu.geometry(), binding).expect("the options are valid").into()
+        };
+        let film = Film::new(device, size[0], size[1]).expect("it fits");
+        let path = Path::new(&IntegratorDesc::new(device, &gpu, &film), 2).expect("it fits");
+        // The last three frames have one pose, and the camera moves.
+        let input = |frame: u32| {
+            let posed = pass.frame(&scene, &moment(0.2 * f64::from(frame.min(4)))).expect("the same scene");
+            let view = view(&scene, size, 0.02 * f64::from(frame));
+            let sampling = Sampling { samples: 2, ..Sampling::default() };
+            FrameInput { view, sampling, pose: Some(posed), samples: 0..2, continues: false }
+        };
+        let inputs: Vec<FrameInput> = (0..7).map(input).collect();
+        let keeping = Keeping { slots: 3, ..Keeping::default() };
+        let rest = (keeping, Timing::None, true);
+        let mut renderer = FrameRenderer::new(device, (gpu, Some(pass)), structure, Box::new(path), rest)
+            .expect("the device works");
+        let mut found = Vec::new();
+        let done = render_in_order(&mut renderer, inputs, |picture| {
+            found.push((picture.film.means(), picture.built));
+            ControlFlow::Continue(())
+        });
+        let done = done.expect("all frames have pictures");
+        (found, done.repeated, renderer.structure().counts())
+    };
+    for spec in &specs()[..2] {
+        let name = spec.system().name;
+        let (expected, _, all) = pictures(spec, false);
+        let (found, repeated, counts) = pictures(spec, true);
+        println!("{name}: all {all:?}, in parts {counts:?}, {repeated} repeated");
+        for (frame, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            assert_eq!(found.0, expected.0, "{name}, frame {frame}");
+        }
+        let distinct = found.windows(2).filter(|pair| pair[0].0 != pair[1].0).count();
+        assert_eq!(distinct, 6, "{name}: frames differ, or nothing could go wrong");
+        // Neither the camera nor a pose that stays makes anything be built.
+        let built: Vec<bool> = found.iter().map(|picture| picture.1).collect();
+        assert_eq!(built, [true, true, true, true, true, false, false], "{name}");
+        if name == "bvh" {
+            assert_eq!(repeated, 0, "a tree knows what it takes");
+            assert_eq!((counts.builds, counts.static_builds), (5, 1));
+            assert_eq!((all.builds, all.static_builds), (5, 5));
+        } else {
+            assert!(counts.static_builds <= 4 && counts.static_builds < counts.builds, "{name}: {counts:?}");
+        }
+    }
+}
+
+/// What moves grows from frame to frame, and its pools with it; those of the static part stay, with what is in them.
+#[test]
+fn what_moves_outgrows_its_pools() {
+    let bench = Bench::new();
+    let device = bench.device();
+    for subject in that_find_all() {
+        let name = subject.name();
+        let keeping = Keeping { slots: 2, headroom: 0 };
+        let crowd = Crowd::new(device, keeping.slots, 200, 64);
+        let mut shown = Shown::random(&mut Random::new(23), 200, 64);
+        // Every other ten move.
+        let moving: Vec<_> = (10..200).step_by(20).map(|first| first..first + 10).collect();
+        let small = shown.clone();
+        let whole = crowd.geometry(&shown);
+        let everywhere = [shown.bounds(); 2];
+        let parts = whole.parts(device, &moving, everywhere).expect("they are parts");
+        let combined =
+            Combined::new(&parts, |part| subject.spec.create(device, part, None)).expect("it finds all");
+        let mut frames = Frames::new(device, combined, keeping, Timing::None).expect("the device works");
+        let mut static_builds = None;
+        let mut static_bytes = None;
+        for factor in [1.0_f32, 1.0, 2.0, 4.0, 8.0] {
+            for ids in &moving {
+                for id in ids.clone() {
+                    shown.triangles[id as usize] = small.triangles[id as usize].map(|corner| {
+                        std::array::from_fn(|axis| {
+                            let first = small.triangles[id as usize][0][axis];
+                            first + factor * (corner[axis] - first)
+                        })
+                    });
+                }
+            }
+            frames.geometry_moved();
+            let hits = loop {
+                let slot = frames.free_slot().expect("none is in flight");
+                crowd.write(slot, &shown);
+                frames
+                    .submit::<TracerError>(
+                        shown.eye.into(),
+                        |recorder, slot| crowd.record_move_parts(recorder, slot, &parts),
+                        |recorder, slot, structure: &dyn Structure| {
+                            crowd.record_trace(recorder, slot, structure);
+                            Ok(())
+                        },
+                    )
+                    .expect("the frame is recorded");
+                let ended = frames.take().expect("the device works").expect("one is in flight");
+                if ended.outcome == FrameOutcome::Complete {
+                    break crowd.read(ended.slot).0;
+                }
+            };
+            let mut fresh = subject.structure(&bench, &bench.geometry(&shown.triangles));
+            let expected = bench.build_and_trace(fresh.as_mut(), shown.eye, &shown.rays);
+            let key = |hits: &[rasray_ads::Hit]| hits.iter().map(bits).collect::<Vec<_>>();
+            assert_eq!(key(&hits), key(&expected), "{name}, {factor} times as large");
+            let counts = frames.structure().counts();
+            let built = *static_builds.get_or_insert(counts.static_builds);
+            assert_eq!(counts.static_builds, built, "{name}: the static part stays");
+            let bytes = frames.structure().structure().sizes().bytes();
+            static_bytes.get_or_insert(bytes);
+        }
+        println!("{name}: {:?}, {static_bytes:?} bytes at first", frames.structure().counts());
+    }
+}
+
+/// Masks are looked up by id in either part, and a replay says which part a step is in.
+#[test]
+fn a_replay_goes_through_both_parts() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let (gpu, mut pass) = stage(&bench, &swinging_hall(third), [16, 16]);
+    let parts = pass.parts(device).expect("it fits");
+    let spec = specs().remove(0).with_counters(Counters::Steps);
+    let mut combined =
+        Combined::new(&parts, |part| spec.create(device, part, Some(gpu.binding()))).expect("it finds all");
+    let [lower, upper] = gpu.geometry().bounds();
+    let middle: [f32; 3] = std::array::from_fn(|axis| 0.5 * (lower[axis] + upper[axis]));
+    rasray_tracer::build_until_complete(device, &mut combined, middle, Timing::None).expect("it is built");
+    let mut random = Random::new(3);
+    let tracer = BatchTracer::new(device, 64).expect("a queue fits");
+    for _ in 0..12 {
+        let ray = Ray::new(middle, random.direction());
+        let traced = tracer.trace(&combined, &[ray], TraceMode::Closest, Timing::None).expect("it finishes");
+        let replay = tracer.replay(&combined, &ray, TraceMode::Closest).expect("it is logged");
+        assert_eq!(replay.hit.as_ref().map(bits), Some(bits(&traced.hits[0])));
+        assert_eq!(replay.logged_work(), replay.work);
+        assert_eq!(replay.work, traced.work[0]);
+        let sums = (traced.counters.cells, traced.counters.entries, traced.counters.tests);
+        let rasray_ads::RayWork { cells, entries, tests, .. } = replay.work;
+        assert_eq!(sums, (cells.into(), entries.into(), tests.into()));
+        assert!(replay.to_string().contains("round 0 of the next part"), "{replay}");
+    }
+}
