@@ -46,7 +46,7 @@ pub use error::GpuSceneError;
 pub use origin::{frame_origin_spacing, snap_frame_origin};
 pub use parts::{Parts, TextureKind};
 pub use pose::{LARGEST_COORDINATE, Posed};
-pub use pose_pass::{FramePose, PosePass};
+pub use pose_pass::{FramePose, PosePass, cameras_at};
 pub use smaller_images::{SmallerImage, TexelDemand};
 pub use table_bytes::left_out_bytes;
 pub use tables::SceneTables;

@@ -1,9 +1,11 @@
 //! The host's part of a pose: what the device is told of a frame.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
-use rasray_scene::Scene;
 use rasray_scene::animation::Rig;
 use rasray_scene::pose::{Pose, rigid};
+use rasray_scene::{Moment, Scene};
 use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
 
@@ -17,6 +19,8 @@ pub struct FramePose {
     pub(super) placements: Vec<PosePlacement>,
     pub(super) joints: Vec<PoseMatrix>,
     pub(super) targets: Vec<PoseTarget>,
+    /// What the host deformed; see `FrameShapes`.
+    pub(super) shapes: Arc<[f32]>,
     pub(super) lights: Vec<Light>,
     pub(super) emissive: Vec<EmissiveTriangle>,
     /// W, by luminance.
@@ -31,6 +35,7 @@ impl FramePose {
     }
 
     /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer than 100.
+    /// Shapes are not among them: see [`FramePose::shape_bytes`].
     pub fn bytes(&self) -> u64 {
         let bytes = size_of_val(&self.placements[..])
             + size_of_val(&self.joints[..])
@@ -39,10 +44,19 @@ impl FramePose {
             + size_of_val(&self.emissive[..]);
         bytes as u64
     }
+
+    /// Bytes that [`PosePass::record`](super::PosePass::record) writes to memory of the slot: positions and normals that a
+    /// simulation or a file has.
+    pub fn shape_bytes(&self) -> u64 {
+        size_of_val(&self.shapes[..]) as u64
+    }
 }
 
 /// What places draws in a frame.
 pub(super) struct Placer<'a> {
+    pub scene: &'a Scene,
+    /// Whether its rig places its instances.
+    pub is_placed: bool,
     pub rig: &'a Rig,
     pub pose: &'a Pose,
     /// World, metres.
@@ -71,8 +85,13 @@ impl Placer<'_> {
         anchor
     }
 
-    /// The placement of a draw; `anchors` are those of the skins. Targets that count are appended.
-    pub fn draw(&self, place: &DrawPlace, anchors: &[DVec3], targets: &mut Vec<PoseTarget>) -> PosePlacement {
+    /// The placement of a draw; `anchors` are those of the skins, `pivots` of the shapes. Targets that count are appended.
+    pub fn draw(
+        &self,
+        place: &DrawPlace,
+        (anchors, pivots): (&[DVec3], &[DVec3]),
+        targets: &mut Vec<PoseTarget>,
+    ) -> PosePlacement {
         let first_target = targets.len() as u32;
         targets.extend(
             place.targets.iter().zip(self.weights(place)).filter(|(_, weight)| *weight != 0.0).map(
@@ -92,7 +111,8 @@ impl Placer<'_> {
         }
         let world_from_mesh = self.world_from_mesh(place.instance);
         let linear = world_from_mesh.matrix3;
-        let offset = world_from_mesh.transform_point3(place.pivot) - self.frame_origin;
+        let pivot = place.shape.map_or(place.pivot, |shape| pivots[shape]);
+        let offset = world_from_mesh.transform_point3(pivot) - self.frame_origin;
         let normals = matrix(of_largest_one(normal_matrix(linear)), DVec3::ZERO);
         PosePlacement {
             place: matrix(linear, offset),
@@ -106,6 +126,9 @@ impl Placer<'_> {
 
     /// Where an instance without joints is.
     pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
+        if !self.is_placed {
+            return self.scene.instances[instance].world_from_mesh;
+        }
         let placement = self.rig.placements[instance];
         self.world(placement.node) * placement.node_from_mesh
     }
@@ -119,26 +142,34 @@ impl Placer<'_> {
             .unwrap_or_else(|| self.rig.deformed[deformed].weights.iter().copied().map(f64::from).collect())
     }
 
-    /// Where the cameras of `scene` are.
-    pub fn cameras(&self, scene: &Scene) -> Vec<DAffine3> {
-        let nodes = self.rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
-        let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
-        scene
-            .cameras
-            .iter()
-            .zip(nodes)
-            .map(|(camera, node)| placed(node).unwrap_or(camera.world_from_camera))
-            .collect()
+    /// Where the cameras of the scene are.
+    pub fn cameras(&self) -> Vec<DAffine3> {
+        posed_cameras(self.scene, self.pose)
     }
 
-    /// The lights of `scene` where they are.
-    pub fn lights(&self, scene: &Scene) -> Vec<rasray_scene::Light> {
-        let mut lights = scene.lights.clone();
+    /// The lights of the scene where they are.
+    pub fn lights(&self) -> Vec<rasray_scene::Light> {
+        let mut lights = self.scene.lights.clone();
         for (light, &node) in lights.iter_mut().zip(&self.rig.lights) {
             rasray_scene::pose::move_light(light, self.world(node));
         }
         lights
     }
+}
+
+/// Where the cameras of a scene are at a moment, in their order: world, metres, rigid. What [`FramePose::cameras`] says, for
+/// those who have no pass.
+pub fn cameras_at(scene: &Scene, moment: &Moment) -> Vec<DAffine3> {
+    posed_cameras(scene, &Pose::new(&scene.animation.rig, moment))
+}
+
+/// A camera whose node degenerates stays where it was at rest.
+fn posed_cameras(scene: &Scene, pose: &Pose) -> Vec<DAffine3> {
+    let nodes = scene.animation.rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
+    let world = |node: usize| pose.world_from_node.get(node).copied().unwrap_or(DAffine3::IDENTITY);
+    let placed = |node: Option<usize>| node.and_then(|node| rigid(world(node)));
+    let cameras = scene.cameras.iter().zip(nodes);
+    cameras.map(|(camera, node)| placed(node).unwrap_or(camera.world_from_camera)).collect()
 }
 
 fn matrix(linear: DMat3, translation: DVec3) -> PoseMatrix {
