@@ -176,7 +176,7 @@ impl Setting<'_> {
         let at = pose.frame(&loaded.scene, &moment)?;
         let host = started.elapsed().as_secs_f64() * 1.0e3;
         let posed = device.submit_passes(timing, |recorder| {
-            pose.record(recorder, &at);
+            pose.record(recorder, 0, &at);
             scene.record_frame(recorder, view, Sampling::default());
         })?;
         let build = self.build(structure)?;

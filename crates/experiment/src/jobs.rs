@@ -9,7 +9,7 @@ use rasray_ray_files::{HitsFile, RaysFile, TrueHit};
 use rasray_report::figures::Figures;
 use rasray_report::{Counters, Memory, Pass, Run, Spread, Times};
 use rasray_scene::needs::Needs;
-use rasray_scene::{Camera, Scene};
+use rasray_scene::{Camera, Moment, Scene};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -29,6 +29,11 @@ pub struct AovSelection {
 pub struct RenderJob<'a> {
     /// What is rendered; lit, and possibly without triangles.
     pub scene: &'a Scene,
+    /// When it is shown, where the scene is at rest: the device poses it. Absent: as it is.
+    pub moment: Option<&'a Moment>,
+    /// Whether scene, size, seed and needs are those of the job before, which was at another moment: what the device has of
+    /// the scene is kept.
+    pub is_next: bool,
     /// From where.
     pub camera: Camera,
     /// Through which structure.

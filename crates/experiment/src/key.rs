@@ -35,7 +35,19 @@ impl KeyHash {
 /// is made: all shares of a picture have the key of the whole.
 pub fn picture_key(program: &str, loaded: &LoadedScene, job: &RenderJob<'_>) -> String {
     // Whoever adds a field decides here whether it changes the picture.
-    let RenderJob { scene: _, camera, system, frame, shard: _, aovs, needs: _, repetitions: _ } = job;
+    // The scene and its moment are those of `loaded`.
+    let RenderJob {
+        scene: _,
+        moment: _,
+        is_next: _,
+        camera,
+        system,
+        frame,
+        shard: _,
+        aovs,
+        needs: _,
+        repetitions: _,
+    } = job;
     let Camera { name: _, world_from_camera, projection } = camera;
     let options: Vec<_> = system.options.texts().collect();
     // Numbers are written so that each reads back as the same.
@@ -90,6 +102,8 @@ mod tests {
         let system = one_system(&SYSTEMS[0], Preset::Robust, &StructureOptions::default());
         RenderJob {
             scene: &loaded.scene,
+            moment: None,
+            is_next: false,
             camera: default_view(&loaded.scene).camera,
             system: system.expect("the default"),
             frame: FRAME,

@@ -31,6 +31,7 @@ mod jobs;
 mod kept_files;
 mod key;
 mod measured;
+mod moving_stage;
 mod pass_list;
 mod passes;
 mod placed;

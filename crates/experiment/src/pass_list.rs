@@ -13,10 +13,8 @@ const RAYS: u32 = 1;
 /// Builds until complete, so that sizes are those of the scene, and says what one more build records, then traces of both
 /// kinds and the lookup of surfaces.
 pub(super) fn pass_list(device: &Device, job: &RenderJob<'_>) -> Result<Vec<PassCommands>, ExperimentError> {
-    let frame = job.frame;
     let spec = job.system.spec()?;
-    let size = [frame.width, frame.height];
-    let stage = Stage::new(device, job.scene, &job.camera, size, frame.seed, &job.needs)?;
+    let stage = Stage::of_job(device, job)?;
     let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
     let queue = RayQueue::new(device, "listed", RAYS, true).map_err(device_error)?;
     let viewpoint = stage.scene.viewpoint().at(stage.scene.eye());

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use rasray_gpu::Device;
+use rasray_gpu_scene::{SceneTables, View};
 use rasray_integrators::{AovPass, Traced, Wave, waves};
 use rasray_scene::needs::Needs;
 
@@ -104,18 +105,31 @@ pub(super) fn visible_ms(passes: &Passes, frame: &Frame) -> Option<f64> {
     (frame.primary == Primary::Raster).then(|| passes.total(|label| label.contains("/visibility")))
 }
 
-/// Renders an image with all requested additional images.
+/// The scene of a job: that of the job before at this moment, where it is the next of it and its eye is not far from that.
+fn stage_of(device: &Device, job: &RenderJob<'_>, before: Option<Stage>) -> Result<Stage, ExperimentError> {
+    let origin = SceneTables::default_frame_origin(job.scene, job.camera.world_from_camera.translation);
+    let is_kept = |stage: &Stage| job.is_next && stage.is_moving() && stage.scene.frame_origin() == origin;
+    let (Some(moment), Some(mut stage)) = (job.moment, before.filter(is_kept)) else {
+        return Stage::of_job(device, job);
+    };
+    let Frame { width, height, seed, .. } = job.frame;
+    stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
+    stage.pose(device, job.scene, moment)?;
+    Ok(stage)
+}
+
+/// Renders an image with all requested additional images. `kept` is the scene of the job before, and then of this one.
 pub(super) fn render(
     device: &Device,
     job: &RenderJob<'_>,
+    kept: &mut Option<Stage>,
     progress: &mut OnProgress<'_>,
 ) -> Result<RenderOutput, ExperimentError> {
     let started = Instant::now();
     let frame = job.frame;
     let spec = job.system.spec()?;
     _ = progress(Progress { task: "scene", done: 0, total: 0, unit: "to the device" });
-    let mut stage =
-        Stage::new(device, job.scene, &job.camera, [frame.width, frame.height], frame.seed, &job.needs)?;
+    let mut stage = stage_of(device, job, kept.take())?;
     stage.sample_as(&frame)?;
     _ = progress(Progress { task: "build", done: 0, total: 0, unit: "first build" });
     let mut built = Built::new(device, &spec, &stage.scene, stage.scene.eye())?;
@@ -164,6 +178,7 @@ pub(super) fn render(
         add_aovs(device, &stage, &built, job, &mut output)?;
     }
     output.times.frame_ms = Some(started.elapsed().as_secs_f64() * 1.0e3);
+    *kept = Some(stage).filter(Stage::is_moving);
     Ok(output)
 }
 

@@ -6,11 +6,14 @@ use crate::backend::{Backend, DeviceChoice, DeviceDescription, OnProgress, Texel
 use crate::describe::requirements;
 use crate::error::ExperimentError;
 use crate::jobs::{CompareJob, Comparison, HardJob, RenderJob, RenderOutput};
+use crate::stage::Stage;
 use rasray_report::Device;
 
-/// A device and nothing else: everything made for a job goes with the job.
+/// A device; everything made for a job goes with the job, but for the scene of a render that moves.
 struct Renderer {
     device: GpuDevice,
+    /// Of the last render.
+    stage: Option<Stage>,
     validation: bool,
 }
 
@@ -18,7 +21,7 @@ impl Renderer {
     /// Opens the wanted device.
     fn open(choice: &DeviceChoice) -> Result<Self, ExperimentError> {
         let device = open_device(choice)?;
-        Ok(Self { device, validation: choice.validation })
+        Ok(Self { device, stage: None, validation: choice.validation })
     }
 
     /// Messages of the validation layer are errors.
@@ -51,7 +54,7 @@ impl Backend for Renderer {
         job: &RenderJob<'_>,
         progress: &mut OnProgress<'_>,
     ) -> Result<RenderOutput, ExperimentError> {
-        let output = crate::render::render(&self.device, job, progress)?;
+        let output = crate::render::render(&self.device, job, &mut self.stage, progress)?;
         self.check_validation()?;
         Ok(output)
     }

@@ -1,12 +1,17 @@
 //! From a name to a scene that can be rendered.
 
+use crate::camera::{Chosen, default_view, named_view};
 use crate::error::ExperimentError;
 use crate::key::KeyHash;
-use rasray_gpu_scene::{Parts, SceneTables, left_out_bytes};
+use rasray_gpu_scene::{Parts, PosePass, SceneTables, left_out_bytes};
 use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::needs::Needs;
-use rasray_scene::{AlphaMode, Camera, Environment, LoadOptions, Moment, Scene, builtin, default_view};
+use rasray_scene::pose::Pose;
+use rasray_scene::{
+    AlphaMode, Camera, Environment, LoadOptions, Moment, Scene, builtin, default_view as view,
+};
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::Read;
@@ -15,8 +20,10 @@ use std::path::Path;
 /// A scene with what reports say of it.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {
-    /// The scene.
+    /// The scene: as it is shown, or at rest where there is a moment.
     pub scene: Scene,
+    /// When it is shown, where the device poses it ([`Self::show`]).
+    pub moment: Option<Moment>,
     /// Triangles over all instances.
     pub triangles: u64,
     /// SHA-256 of the scene file, of a sequence of the one that is shown, in hexadecimal; absent for built-in scenes.
@@ -97,6 +104,7 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
     LoadedScene {
         triangles: triangles(&scene),
         scene,
+        moment: None,
         sha256,
         content: content.finish(),
         not_uploaded_bytes: None,
@@ -107,7 +115,7 @@ fn loaded(scene: Scene, sha256: Option<String>, content: KeyHash) -> LoadedScene
 
 impl LoadedScene {
     /// Lights the scene. An environment that is given takes the place of the scene's and stays as it is, a black one
-    /// too; else a scene that nothing lights gets [`default_view::default_light`], with a warning.
+    /// too; else a scene that nothing lights gets [`view::default_light`], with a warning.
     pub fn light(&mut self, environment: Option<Environment>) {
         if let Some(environment) = environment {
             let values = match &environment {
@@ -121,7 +129,7 @@ impl LoadedScene {
                 KeyHash::default().with("scene", &self.content).with("environment", values).finish();
             self.scene.environment = environment;
         } else {
-            default_view::ensure_lit(&mut self.scene);
+            view::ensure_lit(&mut self.scene);
         }
     }
 
@@ -132,6 +140,75 @@ impl LoadedScene {
         self.not_uploaded_bytes = left_out_bytes(&self.scene, origin, &Parts::from(needs)).ok();
     }
 
+    /// Says that the scene is shown at a time, as [`Self::pose`] does, and leaves it at rest: whoever puts it on a device poses
+    /// it there ([`crate::Stage::pose`]). A scene whose triangles may be others at every time, as in numbered files, is posed
+    /// here.
+    ///
+    /// # Errors
+    /// Those of [`Self::pose`].
+    pub fn show(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
+        if !PosePass::always_poses(&self.scene) {
+            return self.pose(seconds, clip);
+        }
+        let clips = self.clips(clip)?;
+        self.pose = Some(self.record_of(seconds, &clips, None));
+        self.moment = Some(Moment { seconds, clips });
+        Ok(())
+    }
+
+    /// The scene as it is shown, without images where it is posed for this.
+    ///
+    /// # Errors
+    /// Those of its deformer.
+    pub fn shown(&mut self) -> Result<Cow<'_, Scene>, ExperimentError> {
+        let Some(moment) = &self.moment else { return Ok(Cow::Borrowed(&self.scene)) };
+        // They do not change, and may be most of the memory.
+        let images = std::mem::take(&mut self.scene.images);
+        let posed = self.scene.at(moment);
+        self.scene.images = images;
+        Ok(Cow::Owned(posed?))
+    }
+
+    /// A camera of the scene as it is shown.
+    pub fn camera(&self, index: usize) -> Option<Camera> {
+        let camera = self.scene.cameras.get(index)?.clone();
+        let Some(moment) = &self.moment else { return Some(camera) };
+        let rig = &self.scene.animation.rig;
+        let world_from_camera = Pose::new(rig, moment).cameras(rig, &self.scene.cameras)[index];
+        Some(Camera { world_from_camera, ..camera })
+    }
+
+    fn moved(&self, chosen: Chosen) -> Chosen {
+        let camera = chosen.index.and_then(|index| self.camera(index));
+        Chosen { camera: camera.unwrap_or(chosen.camera), ..chosen }
+    }
+
+    /// As [`default_view()`], of the scene as it is shown.
+    ///
+    /// # Errors
+    /// Those of the deformer, where the scene has no camera.
+    pub fn default_view(&mut self) -> Result<Chosen, ExperimentError> {
+        if self.scene.cameras.is_empty() {
+            return Ok(default_view(self.shown()?.as_ref()));
+        }
+        Ok(self.moved(default_view(&self.scene)))
+    }
+
+    /// As [`named_view()`], of the scene as it is shown.
+    ///
+    /// # Errors
+    /// The scene has no such camera.
+    pub fn named_view(&self, name: &str) -> Result<Chosen, ExperimentError> {
+        Ok(self.moved(named_view(&self.scene, name)?))
+    }
+
+    /// What reports say of a time.
+    fn record_of(&self, seconds: f64, clips: &[usize], file: Option<&Path>) -> PoseRecord {
+        let clips = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
+        let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
+        PoseRecord { time_s: seconds, clips, frame: None, file }
+    }
+
     /// Shows the scene at a time of its animation, seconds: moved by the clip of that name, or else at that position from 0,
     /// or without one by all that can be played at once; or deformed by what it is simulated with, or as the file has it that
     /// is shown then.
@@ -140,18 +217,19 @@ impl LoadedScene {
     /// Nothing moves the scene, it has no such clip, or the file of that time cannot be read.
     pub fn pose(&mut self, seconds: f64, clip: Option<&str>) -> Result<(), ExperimentError> {
         let clips = self.clips(clip)?;
-        let shown = clips.iter().map(|clip| self.scene.animation.clips[*clip].clone()).collect();
         // They do not change, and may be most of the memory.
         let images = std::mem::take(&mut self.scene.images);
-        let posed = self.scene.at(&Moment { seconds, clips })?;
+        let moment = Moment { seconds, clips };
+        let posed = self.scene.at(&moment)?;
         self.scene = Scene { images, ..posed };
         self.triangles = triangles(&self.scene);
-        let file = self.scene.animation.deformer.as_ref().and_then(|deformer| deformer.file(seconds));
+        let deformer = self.scene.animation.deformer.clone();
+        let file = deformer.as_ref().and_then(|deformer| deformer.file(seconds));
         if let Some(file) = file {
             self.sha256 = Some(digest(file)?);
         }
-        let file = file.and_then(Path::file_name).map(|name| name.to_string_lossy().into_owned());
-        self.pose = Some(PoseRecord { time_s: seconds, clips: shown, frame: None, file });
+        self.pose = Some(self.record_of(seconds, &moment.clips, file));
+        self.moment = None;
         Ok(())
     }
 

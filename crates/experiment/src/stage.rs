@@ -6,7 +6,7 @@ use std::time::Instant;
 use glam::DVec3;
 use rasray_ads::{AdsError, Structure, Viewpoint};
 use rasray_gpu::{Device, Feature, GpuError, Timing};
-use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, Sampling, SceneTables, View};
+use rasray_gpu_scene::{GpuScene, GpuSceneError, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Scene};
 use rasray_systems::{Spec, SystemsError};
@@ -24,7 +24,11 @@ pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
 }
 
 /// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
-fn scene_error(error: GpuSceneError) -> ExperimentError {
+pub(super) fn scene_error(error: GpuSceneError) -> ExperimentError {
+    let error = match error {
+        GpuSceneError::Scene(error) => return error.into(),
+        other => other,
+    };
     let message = match &error {
         GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
@@ -32,6 +36,8 @@ fn scene_error(error: GpuSceneError) -> ExperimentError {
         }
         GpuSceneError::TooManyVertices { .. }
         | GpuSceneError::TooManyTexels { .. }
+        | GpuSceneError::OtherTriangles { .. }
+        | GpuSceneError::DeformedTwice { .. }
         | GpuSceneError::Gpu(GpuError::OutOfDeviceMemory { .. })
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::OutOfDeviceMemory { .. })) => error.to_string(),
         _ => return device_error(error),
@@ -63,6 +69,8 @@ pub struct Stage {
     pub scene: GpuScene,
     /// Triangles that were left out: their coordinates are not finite, or beyond what can be squared.
     pub dropped_triangles: u64,
+    /// What moves, where it is posed on the device.
+    pub(super) pose: Option<PosePass>,
 }
 
 impl Stage {
@@ -93,10 +101,23 @@ impl Stage {
         scene: &Scene,
         origin: DVec3,
         camera: &Camera,
-        [width, height]: [u32; 2],
+        size: [u32; 2],
         seed: u32,
         needs: &Needs,
     ) -> Result<Self, ExperimentError> {
+        Ok(Self::uploaded(device, scene, origin, camera, size, seed, needs)?.0)
+    }
+
+    /// With the tables that it was made from.
+    pub(super) fn uploaded(
+        device: &Device,
+        scene: &Scene,
+        origin: DVec3,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<(Self, SceneTables), ExperimentError> {
         let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
         let view = View { camera: camera.clone(), width, height, seed };
         let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
@@ -106,11 +127,9 @@ impl Stage {
                 "{dropped_triangles} triangles have coordinates that are not finite or beyond 1.8e18 m and are left out"
             );
         }
-        Ok(Self { scene: gpu_scene, dropped_triangles })
+        Ok((Self { scene: gpu_scene, dropped_triangles, pose: None }, tables))
     }
-}
 
-impl Stage {
     /// Positions (metres, relative to the frame origin) and indices as the device has them.
     ///
     /// # Errors
@@ -278,7 +297,7 @@ impl Built {
         Ok(())
     }
 
-    /// Whether the scene's camera has moved so that the build is none for it.
+    /// Whether the scene's camera has moved so that the build is none for it. What else has moved only the caller knows.
     pub fn is_stale(&self, scene: &GpuScene) -> bool {
         self.structure.is_stale(self.viewpoint, scene.viewpoint().at(scene.eye()))
     }

@@ -2,6 +2,7 @@
 
 use rasray_ads::AdsError;
 use rasray_gpu::GpuError;
+use rasray_gpu_scene::GpuSceneError;
 use rasray_integrators::IntegratorError;
 use rasray_tracer::TracerError;
 
@@ -18,6 +19,9 @@ pub enum FrameError {
     /// The Vulkan layer failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// What moves the scene failed.
+    #[error(transparent)]
+    Scene(#[from] GpuSceneError),
     /// The structure failed.
     #[error(transparent)]
     Ads(#[from] AdsError),

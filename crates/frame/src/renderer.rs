@@ -89,6 +89,10 @@ impl FrameRenderer {
         (keeping, timing, reads_films): (Keeping, Timing, bool),
     ) -> Result<Self, FrameError> {
         let frames = Frames::new(device, structure, keeping, timing)?;
+        let mut pose = pose;
+        if let Some(pose) = &mut pose {
+            pose.set_slots(device, frames.slots())?;
+        }
         let readback = |_| Readback::new(device, integrator.as_ref(), reads_films);
         let readbacks = (0..frames.slots()).map(readback).collect::<Result<_, _>>()?;
         Ok(Self {
@@ -150,9 +154,9 @@ impl FrameRenderer {
         if moved.is_some() && pass.is_some_and(|pass| !pass.moving_triangles().is_empty()) {
             frames.geometry_moved();
         }
-        let before = |recorder: &mut Recorder<'_>, _slot: u32| {
+        let before = |recorder: &mut Recorder<'_>, slot: u32| {
             if let (Some(pass), Some(moved)) = (pass, moved) {
-                pass.record(recorder, moved);
+                pass.record(recorder, slot, moved);
             }
             scene.record_frame(recorder, &input.view, input.sampling);
         };

@@ -38,10 +38,29 @@ pub enum GpuSceneError {
     /// The geometry could not be bound.
     #[error(transparent)]
     Ads(#[from] rasray_ads::AdsError),
-    /// What deforms the scene is no clip: only the host knows its shapes.
-    #[error("{scene} is simulated, or in numbered files: pose it on the host (Scene::at) and upload it anew")]
-    DeformedByHost {
+    /// A mesh has other triangles, coordinates of textures or colours than those on the device.
+    #[error(
+        "mesh {mesh} of {scene} has other triangles at {seconds} s than those on the device, which a pose cannot change"
+    )]
+    OtherTriangles {
         /// Name of the scene.
         scene: String,
+        /// Index into its meshes.
+        mesh: usize,
+        /// When.
+        seconds: f64,
     },
+    /// A rig deforms a mesh, and so does a simulation or a numbered file.
+    #[error(
+        "mesh {mesh} of {scene} is deformed by a rig and by a deformer, and one of both can be posed on the device"
+    )]
+    DeformedTwice {
+        /// Name of the scene.
+        scene: String,
+        /// Name of the mesh.
+        mesh: String,
+    },
+    /// What the scene deforms by failed.
+    #[error(transparent)]
+    Scene(#[from] rasray_scene::SceneError),
 }

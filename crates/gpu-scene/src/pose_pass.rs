@@ -5,6 +5,7 @@ mod far_lights;
 mod frame_pose;
 mod moving;
 mod moving_triangles;
+mod shapes;
 mod sources;
 
 use std::mem::offset_of;
@@ -17,6 +18,7 @@ use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
     MemoryLocation, Recorder,
 };
+use rasray_scene::deforming::Topology;
 use rasray_scene::{Moment, Scene, pose::Pose};
 use rasray_shaders_glsl::SCENE_POSE_VERTICES;
 use rasray_shaders_glsl::records::{PoseMatrix, PosePlacement, PoseTarget};
@@ -28,6 +30,7 @@ use self::far_lights::FarLights;
 use self::frame_pose::Placer;
 use self::moving::Moving;
 use self::moving_triangles::MovingTriangles;
+use self::shapes::Shapes;
 use self::sources::{DrawPlace, SkinPlace, Sources};
 use crate::layout::{EmissiveTriangle, Frame};
 use crate::lights::pack_lights;
@@ -40,7 +43,8 @@ const UPDATE_BYTES: usize = 65_536;
 /// What moves in a scene, on the device: shapes at rest, and the pass that writes positions, normals, tangents, lights and
 /// bounds of a [`GpuScene`] as they are in a frame.
 ///
-/// Draws that no clip can move are left as the tables have them. `docs/motion.md` says what is evaluated where.
+/// Draws that no clip can move and no deformer changes are left as the tables have them. `docs/motion.md` says what is
+/// evaluated where.
 #[derive(Debug)]
 pub struct PosePass {
     /// One per draw of the geometry.
@@ -48,7 +52,10 @@ pub struct PosePass {
     moving_triangles: MovingTriangles,
     places: Vec<DrawPlace>,
     skins: Vec<SkinPlace>,
+    shapes: Shapes,
     instance_count: usize,
+    /// Whether the rig of the scene places its instances.
+    is_placed: bool,
     joint_count: usize,
     group_count: u64,
     frame_origin: DVec3,
@@ -71,12 +78,11 @@ pub struct PosePass {
 }
 
 impl PosePass {
-    /// Uploads the shapes of what moves and makes the pipelines. `tables` were made from `scene`, `gpu` from `tables`; the
-    /// images of the scene are not looked at.
+    /// Uploads the shapes of what moves and makes the pipelines; for one frame at a time ([`PosePass::set_slots`]). `tables`
+    /// were made from `scene`, `gpu` from `tables`; the images of the scene are not looked at.
     ///
     /// # Errors
-    /// [`GpuSceneError::DeformedByHost`] for a scene that is simulated or in numbered files, `Malformed` where the tables are
-    /// of a scene with other instances, out of memory, more words than 32 bits number, a
+    /// `Malformed` where the tables are of a scene with other instances, [`GpuSceneError::DeformedTwice`], out of memory, more words than 32 bits number, a
     /// table larger than one binding can hold (the error names it), or a lost device.
     pub fn new(
         device: &Device,
@@ -108,6 +114,13 @@ impl PosePass {
         let (punctual_power, _) = pack_lights(&scene.lights, tables.frame_origin, 0.0);
 
         let mut parts = Parts { device, bytes_by_part: Vec::new() };
+        let shaped = !sources.shapes.is_empty();
+        let rest_positions =
+            parts.shape_table("rest positions", &sources.rest_positions.into_vec(), shaped)?;
+        let rest_attributes =
+            parts.shape_table("rest attributes", &sources.rest_attributes.into_vec(), shaped)?;
+        let rest = [rest_positions.clone(), rest_attributes.clone()];
+        let shapes = Shapes::new(device, scene, sources.shapes, rest)?;
         let placements = parts.frame_buffer::<PosePlacement>("pose placements", sources.draws.len())?;
         let joints = parts.frame_buffer::<PoseMatrix>("pose joints", sources.joint_count)?;
         let targets = parts.frame_buffer::<PoseTarget>("pose targets", sources.target_count)?;
@@ -117,8 +130,8 @@ impl PosePass {
             placements.clone(),
             joints.clone(),
             targets.clone(),
-            parts.table("rest positions", &sources.rest_positions.into_vec())?,
-            parts.table("rest attributes", &sources.rest_attributes.into_vec())?,
+            rest_positions,
+            rest_attributes,
             parts.table("pose skins", &sources.skin_words)?,
             parts.table("pose displacements", &sources.displacements.into_vec())?,
             geometry.desc().positions.buffer.clone(),
@@ -141,6 +154,8 @@ impl PosePass {
             moving_triangles,
             places: sources.places,
             skins: sources.skins,
+            shapes,
+            is_placed,
             instance_count: scene.instances.len(),
             joint_count: sources.joint_count,
             group_count: sources.groups.len() as u64,
@@ -162,24 +177,49 @@ impl PosePass {
         })
     }
 
-    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, and in the triangles of
-    /// those that emit. No device call. `scene` is the one that this was made from, or that at another moment.
+    /// Whether a scene can be posed at any time without its tables changing in anything else: not where vertices and
+    /// triangles may be others at every time, as in numbered files, nor where a deformer changes what a rig deforms as well.
+    pub fn always_poses(scene: &Scene) -> bool {
+        let Some(deformer) = &scene.animation.deformer else { return true };
+        let by_rig = |mesh: &usize| scene.animation.rig.deformed.iter().any(|shape| shape.mesh == *mesh);
+        deformer.topology() == Topology::Fixed && !deformer.meshes().iter().any(by_rig)
+    }
+
+    /// Memory for shapes of that many frames in flight, at least 1: what a simulation or a file has of a frame is written
+    /// there. Nothing recorded before may be pending.
     ///
     /// # Errors
-    /// `Malformed` where the scene has fewer instances.
+    /// Out of memory.
+    pub fn set_slots(&mut self, device: &Device, slots: u32) -> Result<(), GpuSceneError> {
+        Ok(self.shapes.set_slots(device, slots)?)
+    }
+
+    /// The host's part of a frame, in f64: linear in nodes, channels, joints and moving draws, in the triangles of
+    /// those that emit, and in the vertices that the scene's deformer changes, whose simulation it runs or whose file it
+    /// reads. No device call. `scene` is the one that this was made from, or that at another moment.
+    ///
+    /// # Errors
+    /// `Malformed` where the scene has fewer instances, [`GpuSceneError::OtherTriangles`] where a deformer changes more than
+    /// positions and normals, or it fails.
     pub fn frame(&self, scene: &Scene, moment: &Moment) -> Result<FramePose, GpuSceneError> {
         let rig = &scene.animation.rig;
         let is_placed = rig.placements.len() == scene.instances.len();
-        let is_same = scene.instances.len() == self.instance_count && (is_placed || self.places.is_empty());
+        let is_same = scene.instances.len() == self.instance_count
+            && (is_placed == self.is_placed || self.places.is_empty());
         if !is_same {
             let what = format!("a pose of {} instances was asked for", self.instance_count);
             return Err(GpuSceneError::Malformed { what, limit: scene.instances.len() });
         }
         let pose = Pose::new(rig, moment);
-        let placer = Placer { rig, pose: &pose, frame_origin: self.frame_origin };
+        let placer = Placer { scene, is_placed, rig, pose: &pose, frame_origin: self.frame_origin };
+        let shapes = self.shapes.at(moment.seconds)?;
         let (mut joints, mut targets) = (Vec::with_capacity(self.joint_count), Vec::new());
         let anchors: Vec<DVec3> = self.skins.iter().map(|skin| placer.joints(skin, &mut joints)).collect();
-        let placements = self.places.iter().map(|place| placer.draw(place, &anchors, &mut targets)).collect();
+        let placements = self
+            .places
+            .iter()
+            .map(|place| placer.draw(place, (&anchors, &shapes.pivots), &mut targets))
+            .collect();
         let lights = if self.lights_move {
             let disk = crate::kinds::disk_of(self.geometry.bounds()[0], self.geometry.bounds()[1]);
             pack_lights(&pose.lights(rig, &scene.lights), self.frame_origin, disk).1
@@ -187,18 +227,21 @@ impl PosePass {
             Vec::new()
         };
         let (emissive_power, emissive) = match self.emitters.moves() {
-            true => self.emitters.at(scene, &pose, &placer),
+            true => self.emitters.at(&pose, &placer, &shapes),
             false => (self.emitters.power_at_rest(), Vec::new()),
         };
-        let cameras = pose.cameras(rig, &scene.cameras);
-        Ok(FramePose { placements, joints, targets, lights, emissive, emissive_power, cameras })
+        let (cameras, shapes) = (pose.cameras(rig, &scene.cameras), shapes.words);
+        Ok(FramePose { placements, joints, targets, shapes, lights, emissive, emissive_power, cameras })
     }
 
     /// Records a frame: what `pose` holds is stored in the command buffer, so that several recordings may be pending, and
-    /// written to the device in order; one dispatch poses all vertices that move, [`BoundsPass`] measures the bounds. All
+    /// written to the device in order. Shapes are written to memory of `slot`, whose last recording has ended; where
+    /// nothing is deformed by the host, any slot will do. One dispatch poses all vertices that move, [`BoundsPass`] measures the bounds. All
     /// that follows sees the results. Nothing where nothing moves.
-    pub fn record(&self, recorder: &mut Recorder<'_>, pose: &FramePose) {
-        let is_own = pose.placements.len() == self.places.len() && pose.joints.len() == self.joint_count;
+    pub fn record(&self, recorder: &mut Recorder<'_>, slot: u32, pose: &FramePose) {
+        let is_own = pose.placements.len() == self.places.len()
+            && pose.joints.len() == self.joint_count
+            && pose.shapes.len() == self.shapes.word_count();
         if !is_own {
             return recorder.refuse("the pose of a frame was made for another scene");
         }
@@ -210,6 +253,7 @@ impl PosePass {
         update(recorder, &self.placements, 0, cast_slice(&pose.placements));
         update(recorder, &self.joints, 0, cast_slice(&pose.joints));
         update(recorder, &self.targets, 0, cast_slice(&pose.targets));
+        self.shapes.record(recorder, slot, &pose.shapes);
         self.update_lights(recorder, pose);
         recorder.barrier(Access::TRANSFER_WRITE, Access::ALL);
         if let Some(groups) = folded(self.group_count) {
@@ -253,12 +297,12 @@ impl PosePass {
         self.lights_move || !self.places.is_empty()
     }
 
-    /// Ids of the triangles that any clip can move: in order, no range empty, none that touch.
+    /// Ids of the triangles that any clip can move or a deformer changes: in order, no range empty, none that touch.
     pub fn moving_triangles(&self) -> &[Range<u32>] {
         &self.moving_triangles.ids
     }
 
-    /// The geometry of the scene in two parts, what any clip can move and all else, each with bounds of its own. From then on
+    /// The geometry of the scene in two parts, what moves and all else, each with bounds of its own. From then on
     /// each frame measures the bounds of what moves, and with them those of the whole, without reading the static triangles.
     ///
     /// # Errors
@@ -272,14 +316,16 @@ impl PosePass {
         Ok(self.parts.insert(parts).clone())
     }
 
-    /// For each draw of the geometry whether any clip can move it. All others stay where the tables have them.
+    /// For each draw of the geometry whether any clip can move it or a deformer changes it. All others stay where the tables
+    /// have them.
     pub fn moving_draws(&self) -> &[bool] {
         &self.moving_draws
     }
 
     /// Bytes of every buffer by its name.
-    pub fn bytes_by_part(&self) -> &[(&'static str, u64)] {
-        &self.bytes_by_part
+    pub fn bytes_by_part(&self) -> Vec<(&'static str, u64)> {
+        let shapes = Some(self.shapes.bytes()).filter(|(_, bytes)| *bytes > 0);
+        self.bytes_by_part.iter().copied().chain(shapes).collect()
     }
 }
 
@@ -298,7 +344,27 @@ struct Parts<'a> {
 
 impl Parts<'_> {
     fn table<T: NoUninit>(&mut self, name: &'static str, records: &[T]) -> Result<Buffer, GpuSceneError> {
-        let buffer = self.device.create_buffer_with(name, BufferUsage::STORAGE, records)?;
+        self.filled(name, records, BufferUsage::STORAGE)
+    }
+
+    /// A table into which shapes of frames are copied, where there are any.
+    fn shape_table(
+        &mut self,
+        name: &'static str,
+        words: &[f32],
+        is_shaped: bool,
+    ) -> Result<Buffer, GpuSceneError> {
+        let more = if is_shaped { BufferUsage::TRANSFER_DST } else { BufferUsage::STORAGE };
+        self.filled(name, words, BufferUsage::STORAGE | more)
+    }
+
+    fn filled<T: NoUninit>(
+        &mut self,
+        name: &'static str,
+        records: &[T],
+        usage: BufferUsage,
+    ) -> Result<Buffer, GpuSceneError> {
+        let buffer = self.device.create_buffer_with(name, usage, records)?;
         self.bytes_by_part.push((name, buffer.size()));
         Ok(buffer)
     }

@@ -2,10 +2,10 @@
 //! saved as .ppm, and how `rasray render` makes them is printed.
 
 use rasray_experiment::{
-    DeviceChoice, Frame, Integrator, Primary, Sampler, StructureOptions, SystemConfig, default_view, load,
+    DeviceChoice, Frame, Integrator, LoadedScene, Primary, Sampler, StructureOptions, SystemConfig, load,
     open_device,
 };
-use rasray_scene::{Scene, default_view as view};
+use rasray_scene::default_view as view;
 use rasray_systems::{Preset, SYSTEMS};
 use rasray_viewer::{
     Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing, run,
@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let session = Session::new(Opening {
         scene: name,
         camera_words: Vec::new(),
+        camera_is_default: loaded.scene.cameras.is_empty(),
         time_words: Vec::new(),
         other_words: Vec::new(),
         settings: settings.clone(),
@@ -42,12 +43,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         output: "window.###.ppm".into(),
     });
     let device = open_device(&DeviceChoice { device: None, validation })?;
-    let source = SceneSource {
-        loaded,
-        clip: None,
-        needs_all: false,
-        camera: Box::new(|scene: &Scene| Ok(default_view(scene))),
-    };
+    let source =
+        SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) };
     let end = run(Viewing {
         device: device.name().to_owned(),
         engine: Box::new(move || Engine::new(device, validation, source, settings)),

@@ -9,8 +9,8 @@ use rasray_experiment::{
 use rasray_gpu::Device;
 use rasray_gpu_scene::{SceneTables, View};
 use rasray_report::Pass;
+use rasray_scene::Camera;
 use rasray_scene::needs::Needs;
-use rasray_scene::{Camera, Scene};
 
 use crate::picture::{Picture, Pixels};
 use crate::preview_size::PreviewSize;
@@ -19,11 +19,11 @@ use crate::settings::{Redo, Settings, Shown, Standpoint};
 use crate::traced::{Traced, exact_config, follow};
 
 /// Chooses the camera of a scene as the command line said.
-pub type ChooseCamera = dyn Fn(&Scene) -> Result<Chosen, ExperimentError> + Send;
+pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, ExperimentError> + Send;
 
 /// What is looked at.
 pub struct SceneSource {
-    /// As it was read: lit, and at rest or at a time.
+    /// As it was read: lit, and at rest.
     pub loaded: LoadedScene,
     /// The clip that moves it; absent: all that can be played at once.
     pub clip: Option<String>,
@@ -53,6 +53,8 @@ pub struct Engine {
     choose: Box<ChooseCamera>,
     settings: Settings,
     stage: Option<(Stage, Needs)>,
+    /// The time at which the stage is, seconds; absent at rest.
+    posed: Option<f64>,
     traced: Option<Traced>,
     exact: Option<Traced>,
     /// Of the whole picture.
@@ -80,6 +82,7 @@ impl Engine {
             choose: camera,
             settings,
             stage: None,
+            posed: None,
             traced: None,
             exact: None,
             film: None,
@@ -142,7 +145,7 @@ impl Engine {
         let size = self.picture_size();
         self.look(&camera, size)?;
         let config = self.config(&camera);
-        follow(&self.device, self.stage.as_ref(), &mut self.traced, &config, say)?;
+        follow(&self.device, self.stage.as_ref(), self.posed, &mut self.traced, &config, say)?;
         if self.stale {
             for film in [&mut self.film, &mut self.exact_film].into_iter().flatten() {
                 film.clear(&self.device)?;
@@ -162,17 +165,20 @@ impl Engine {
 
     /// The scene on the device at its time, and the camera there.
     fn prepare_scene(&mut self, say: &mut dyn FnMut(&str)) -> Result<Camera, ExperimentError> {
-        if self.stage.is_none() {
-            self.scene.show(self.settings.seconds)?;
-        }
+        let seconds = self.settings.seconds;
+        self.scene.show(seconds)?;
         let camera = match &self.settings.standpoint {
-            Standpoint::AsGiven => (self.choose)(&self.scene.loaded().scene)?.camera,
+            Standpoint::AsGiven => self.scene.camera(&*self.choose)?,
             Standpoint::Placed(rounded) => rounded.camera()?,
         };
         let eye = camera.world_from_camera.translation;
         let origin = SceneTables::default_frame_origin(&self.scene.loaded().scene, eye);
-        if self.stage.as_ref().is_some_and(|(stage, _)| stage.scene.frame_origin() != origin) {
-            // Positions so far from the eye have too few digits left.
+        let is_posed = self.scene.loaded().moment.is_some();
+        let is_kept = |(stage, _): &(Stage, Needs)| {
+            // Positions far from the eye have too few digits left.
+            stage.scene.frame_origin() == origin && (self.posed == seconds || (stage.is_moving() && is_posed))
+        };
+        if self.stage.as_ref().is_some_and(|stage| !is_kept(stage)) {
             self.drop_for(Redo::ALL);
         }
         if self.stage.is_none() {
@@ -188,8 +194,16 @@ impl Engine {
                 tracing::warn!("{text} (smaller-images)");
             }
             let scene = &self.scene.loaded().scene;
-            let stage = Stage::new(&self.device, scene, &camera, [width, height], seed, &needs)?;
+            let make = if is_posed { Stage::moving } else { Stage::new };
+            let stage = make(&self.device, scene, &camera, [width, height], seed, &needs)?;
             self.stage = Some((stage, needs));
+            self.posed = if is_posed { None } else { seconds };
+        }
+        if self.posed != seconds
+            && let (Some((stage, _)), Some(moment)) = (&mut self.stage, &self.scene.loaded().moment)
+        {
+            stage.pose(&self.device, &self.scene.loaded().scene, moment)?;
+            self.posed = seconds;
         }
         Ok(camera)
     }
@@ -257,7 +271,7 @@ impl Engine {
     /// One wave of the picture or of the same through a structure that is exact, whichever has fewer samples.
     fn difference(&mut self, camera: Camera, say: &mut dyn FnMut(&str)) -> Result<Step, ExperimentError> {
         let config = exact_config(&self.settings.system);
-        follow(&self.device, self.stage.as_ref(), &mut self.exact, &config, say)?;
+        follow(&self.device, self.stage.as_ref(), self.posed, &mut self.exact, &config, say)?;
         let Self { device, stage, traced, exact, film, exact_film, settings, .. } = self;
         let (Some((stage, needs)), Some(traced), Some(exact)) = (stage, traced, exact) else {
             return Ok(Step::Working);

@@ -3,19 +3,33 @@
 use crate::settings::Settings;
 use rasray_experiment::Resolved;
 use rasray_metrics::tone_map;
-use rasray_report::colour_scale::{MAGMA, VIRIDIS, colour, place};
-use rasray_report::{Memory, Pass};
+use rasray_report::colour_scale::{MAGMA, Scale, VIRIDIS, colour, place};
+use rasray_report::{Memory, Pass, grouped};
 use rasray_scene::Camera;
 
 /// What the colours of a map mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// The brightest colour.
+    /// Colours from 0 to the greatest value.
+    pub colours: &'static Scale,
+    /// The greatest value, which has the brightest colour.
     pub most: f64,
     /// The mean over all pixels.
     pub mean: f64,
     /// What is counted or measured.
     pub unit: String,
+}
+
+impl Legend {
+    /// The greatest value in words.
+    pub fn most_shown(&self) -> String {
+        if self.most.fract() == 0.0 { grouped(self.most as u64) } else { format!("{:.4}", self.most) }
+    }
+
+    /// The scale in a sentence.
+    pub fn described(&self) -> String {
+        format!("{}: 0 (dark) to {} (bright), mean {:.4}", self.unit, self.most_shown(), self.mean)
+    }
 }
 
 /// Pixels, rows from the top.
@@ -41,7 +55,7 @@ impl Pixels {
         let most = counts.iter().copied().max().unwrap_or(0);
         let mean = counts.iter().map(|count| f64::from(*count)).sum::<f64>() / counts.len().max(1) as f64;
         let colours = counts.iter().map(|count| colour(VIRIDIS, place(*count, most))).collect();
-        Self::Map(colours, Legend { most: most.into(), mean, unit: unit.to_owned() })
+        Self::Map(colours, Legend { colours: VIRIDIS, most: most.into(), mean, unit: unit.to_owned() })
     }
 
     /// A map of absolute differences: the greatest of a pixel's channels; black is none.
@@ -54,7 +68,8 @@ impl Pixels {
         let mean = differences.iter().sum::<f64>() / differences.len().max(1) as f64;
         let scale = if most > 0.0 { 1.0 / most } else { 0.0 };
         let colours = differences.iter().map(|difference| colour(MAGMA, difference * scale)).collect();
-        Self::Map(colours, Legend { most, mean, unit: format!("from {exact}, W/(sr m^2)") })
+        let unit = format!("difference from {exact}, W/(sr m^2)");
+        Self::Map(colours, Legend { colours: MAGMA, most, mean, unit })
     }
 }
 

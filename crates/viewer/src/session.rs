@@ -24,6 +24,8 @@ pub struct Opening {
     pub scene: OsString,
     /// Words of the command line that put the camera where it is at first.
     pub camera_words: Vec<String>,
+    /// Whether the camera is placed by where everything is at first: it stays there when the time changes.
+    pub camera_is_default: bool,
     /// Words that say when the scene is shown are followed by these, such as those of a clip.
     pub time_words: Vec<String>,
     /// Words of the command line that stay as they are.
@@ -119,6 +121,13 @@ impl Session {
 
     /// The camera, to be moved at `now` (seconds); nothing before the first picture says where it is.
     pub fn move_camera(&mut self, now: f64) -> Option<&mut CameraControl> {
+        self.take_camera()?;
+        self.moving_until = now + REST;
+        self.control.as_mut()
+    }
+
+    /// Takes the camera from where the last picture was seen.
+    fn take_camera(&mut self) -> Option<()> {
         if self.control.is_none() {
             let camera = &self.picture.as_ref()?.camera;
             let frame = &camera.world_from_camera;
@@ -129,8 +138,7 @@ impl Session {
             let distance = ahead.max(0.2 * self.radius());
             self.control = Some(CameraControl::from_camera(camera, distance));
         }
-        self.moving_until = now + REST;
-        self.control.as_mut()
+        Some(())
     }
 
     /// Puts the camera back to where the command line had it.
@@ -160,13 +168,19 @@ impl Session {
                 self.invalid = Some(Failure { message: error.to_string(), help });
             }
         }
+        let seconds = self.playback.shown();
+        let is_elsewhen = self.asked.as_ref().is_some_and(|asked| asked.seconds != seconds);
+        if self.opening.camera_is_default && is_elsewhen {
+            // Else it would jump about with what moves. Without a picture so far there is nothing to stay at.
+            _ = self.take_camera();
+        }
         let standpoint = match &self.control {
             None => Standpoint::AsGiven,
             Some(control) => Standpoint::Placed(control.rounded()),
         };
         let settings = Settings {
             standpoint,
-            seconds: self.playback.shown(),
+            seconds,
             system: self.config.clone(),
             frame: self.frame,
             shown: self.shown,
@@ -260,6 +274,7 @@ mod tests {
         Session::new(Opening {
             scene: "a b.glb".into(),
             camera_words: vec!["--camera".to_owned(), "door".to_owned()],
+            camera_is_default: false,
             time_words: vec!["--clip".to_owned(), "walk".to_owned()],
             other_words: vec!["--alpha".to_owned(), "off".to_owned()],
             settings: some(),
@@ -311,6 +326,23 @@ mod tests {
         assert!(line.contains(" --eye 0,0,3.6 --target 0,0,0 --fov "), "{line}");
         session.reset_camera();
         assert_eq!(session.changed_settings(2.0), Some(some()));
+    }
+
+    #[test]
+    fn a_camera_that_was_placed_by_where_everything_is_stays_when_the_time_changes() {
+        for follows in [false, true] {
+            let mut session = session();
+            session.opening.camera_is_default = follows;
+            session.changed_settings(0.0);
+            picture(&mut session);
+            assert!(session.changed_settings(0.1).is_none() && !session.is_camera_moved());
+            session.seek(0.5, 0.2);
+            let later = session.changed_settings(0.2).expect("changed");
+            assert_eq!(matches!(later.standpoint, Standpoint::Placed(_)), follows);
+            session.reset_camera();
+            session.changed_settings(0.3);
+            assert!(!session.is_camera_moved(), "as the command line has it at that time");
+        }
     }
 
     #[test]

@@ -82,7 +82,7 @@ pub struct Settings {
 /// What must be made anew. What is made from something that is made anew is made anew as well.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Redo {
-    /// The scene on the device: posed and uploaded.
+    /// The scene on the device. What moves in it is posed, and structures are built for it, where the time has changed.
     pub scene: bool,
     /// The structure.
     pub structure: bool,
@@ -102,7 +102,7 @@ impl Redo {
             return Self::default();
         }
         // The scene on the device holds what its pictures can show, and no more.
-        let scene = old.seconds != new.seconds || old.frame.workload() != new.frame.workload();
+        let scene = old.frame.workload() != new.frame.workload();
         let structure = scene || old.system != new.system;
         let size = |frame: &Frame| [frame.width, frame.height];
         let film =
@@ -151,13 +151,14 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_camera_costs_samples_alone() {
+    fn a_camera_and_a_time_cost_samples_alone() {
         let samples = Redo { samples: true, ..Redo::default() };
         let from = |eye: &str| {
             Standpoint::Placed(Rounded { eye: eye.into(), target: "0,0,0".into(), fov: "45".into() })
         };
         assert_eq!(redo(|new| new.standpoint = from("1,0,0")), samples);
         assert_eq!(redo(|new| new.moving = true), samples);
+        assert_eq!(redo(|new| new.seconds = Some(0.5)), samples);
         assert_eq!(redo(|new| new.frame.seed = 2), samples);
         assert_eq!(redo(|new| new.frame.spp = 8), samples);
         assert_eq!(redo(|new| new.shown = Shown::Cells), samples);
@@ -184,8 +185,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_time_and_another_light_cost_everything() {
-        assert_eq!(redo(|new| new.seconds = Some(0.5)), Redo::ALL);
+    fn another_light_costs_everything() {
         assert_eq!(redo(|new| new.frame.integrator = Integrator::Raycast), Redo::ALL);
     }
 }

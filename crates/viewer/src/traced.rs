@@ -10,6 +10,8 @@ use rasray_systems::{Preset, SYSTEMS};
 pub(crate) struct Traced {
     pub(crate) config: SystemConfig,
     pub(crate) built: Built,
+    /// Seconds at which the scene was when it was built; absent at rest.
+    seconds: Option<f64>,
 }
 
 /// A system whose hits are exact, and not the one that is shown.
@@ -30,11 +32,12 @@ pub(crate) fn exact_config(shown: &SystemConfig) -> SystemConfig {
     others.into_iter().find(is_exact).unwrap_or_else(|| shown.clone())
 }
 
-/// Makes the structure of a configuration for the scene and its camera, where there is none or another; builds it anew
-/// where the camera has moved and it depends on that. One whose build fails is dropped.
+/// Makes the structure of a configuration for the scene at a time and its camera, where there is none or another; builds it
+/// anew where the scene has moved, or the camera has and it depends on that. One whose build fails is dropped.
 pub(crate) fn follow(
     device: &Device,
     stage: Option<&(Stage, Needs)>,
+    seconds: Option<f64>,
     traced: &mut Option<Traced>,
     config: &SystemConfig,
     say: &mut dyn FnMut(&str),
@@ -42,15 +45,16 @@ pub(crate) fn follow(
     let Some((stage, _)) = stage else { return Ok(()) };
     match traced.take() {
         Some(mut kept) if kept.config == *config => {
-            if kept.built.is_stale(&stage.scene) {
+            if kept.seconds != seconds || kept.built.is_stale(&stage.scene) {
                 kept.built.follow_camera(device, &stage.scene)?;
+                kept.seconds = seconds;
             }
             *traced = Some(kept);
         }
         _ => {
             say("building the structure");
             let built = Built::new(device, &config.spec()?, &stage.scene, stage.scene.eye())?;
-            *traced = Some(Traced { config: config.clone(), built });
+            *traced = Some(Traced { config: config.clone(), built, seconds });
         }
     }
     Ok(())

@@ -5,10 +5,9 @@ use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use rasray_experiment::{
-    AovSelection, Backend, DeviceChoice, Frame, Integrator, Primary, RenderJob, Sampler, StructureOptions,
-    SystemConfig, default_view, load, open, open_device,
+    AovSelection, Backend, DeviceChoice, Frame, Integrator, LoadedScene, Primary, RenderJob, Sampler,
+    StructureOptions, SystemConfig, load, open, open_device,
 };
-use rasray_scene::Scene;
 use rasray_scene::needs::Needs;
 use rasray_systems::{Preset, System};
 use rasray_viewer::{
@@ -44,26 +43,31 @@ fn settings() -> Settings {
 }
 
 fn engine(settings: &Settings) -> Engine {
-    let mut loaded = load(OsStr::new("cornell")).expect("built in");
+    engine_of(OsStr::new("cornell"), settings)
+}
+
+fn engine_of(scene: &OsStr, settings: &Settings) -> Engine {
+    let mut loaded = load(scene).expect("a scene");
     loaded.light(None);
-    let source = SceneSource {
-        loaded,
-        clip: None,
-        needs_all: false,
-        camera: Box::new(|scene: &Scene| Ok(default_view(scene))),
-    };
+    let source =
+        SceneSource { loaded, clip: None, needs_all: false, camera: Box::new(LoadedScene::default_view) };
     let device = open_device(&VALIDATED).expect("a device");
     Engine::new(device, true, source, settings.clone())
 }
 
 /// The picture that refinement ends at.
 fn finished(engine: &mut Engine) -> Picture {
-    let mut last = None;
+    told(engine).0
+}
+
+/// The same, with what took long.
+fn told(engine: &mut Engine) -> (Picture, Vec<String>) {
+    let (mut last, mut told) = (None, Vec::new());
     for _ in 0..1000 {
-        match engine.step(&mut |_| ()).expect("a step") {
+        match engine.step(&mut |text| told.push(text.to_owned())).expect("a step") {
             Step::Working => (),
             Step::Picture(picture) => last = Some(*picture),
-            Step::Done => return last.expect("a picture before the end"),
+            Step::Done => return (last.expect("a picture before the end"), told),
         }
     }
     panic!("it does not end");
@@ -89,15 +93,24 @@ fn radiance(picture: &Picture) -> &[[f32; 3]] {
 
 /// What a render of the same settings gives.
 fn rendered(backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
-    let mut loaded = load(OsStr::new("cornell")).expect("built in");
+    rendered_of(OsStr::new("cornell"), backend, settings)
+}
+
+fn rendered_of(scene: &OsStr, backend: &mut dyn Backend, settings: &Settings) -> Vec<[f32; 3]> {
+    let mut loaded = load(scene).expect("a scene");
     loaded.light(None);
+    if let Some(seconds) = settings.seconds {
+        loaded.show(seconds, None).expect("it moves");
+    }
     let camera = match &settings.standpoint {
-        Standpoint::AsGiven => default_view(&loaded.scene).camera,
+        Standpoint::AsGiven => loaded.default_view().expect("a view").camera,
         Standpoint::Placed(rounded) => rounded.camera().expect("a camera"),
     };
     let job = RenderJob {
         shard: None,
         scene: &loaded.scene,
+        moment: loaded.moment.as_ref(),
+        is_next: false,
         camera,
         system: settings.system.clone(),
         frame: settings.frame,
@@ -147,6 +160,70 @@ fn pictures_are_those_of_a_render_after_every_change() {
     check(&mut engine, &settings, "after something moved");
     assert!(seen[0] != seen[1] && seen[1] != seen[2] && seen[3] != seen[4], "changes that can be seen");
     assert!(seen[2] == seen[3] && seen[4] == seen[5], "and such that cannot");
+}
+
+/// A rig and a simulation, through an exact system and one that is not, at times and at rest in between.
+#[test]
+fn a_scene_that_moves_is_posed_on_the_device_and_is_that_of_a_render_at_any_time() {
+    let mut backend = open(&VALIDATED).expect("a device");
+    for (scene, last) in [("walker:8k", "mmrt"), ("cloth-ball:1k", "bvh")] {
+        let scene = OsStr::new(scene);
+        let mut settings = settings();
+        settings.frame.spp = 1;
+        settings.system = system("bvh");
+        let mut engine = engine_of(scene, &settings);
+        let mut seen: Vec<Vec<[f32; 3]>> = Vec::new();
+        for (step, seconds) in
+            [None, Some(0.7), Some(0.25), Some(0.7), None, Some(0.25)].into_iter().enumerate()
+        {
+            settings.seconds = seconds;
+            if step == 3 {
+                settings.system = system(last);
+            }
+            engine.apply(settings.clone());
+            let (picture, told) = told(&mut engine);
+            let expected = rendered_of(scene, backend.as_mut(), &settings);
+            assert!(
+                radiance(&picture) == expected,
+                "{scene:?} at {seconds:?}: another picture than a render"
+            );
+            let is_uploaded = told.iter().any(|text| text == "scene to the device");
+            // From one time to the next everything stays but what moves.
+            assert_eq!(is_uploaded, !matches!(step, 2 | 3), "{scene:?} at {seconds:?}: {told:?}");
+            assert!(step != 2 || told.is_empty(), "{scene:?} at {seconds:?}: {told:?}");
+            seen.push(expected);
+        }
+        assert!(seen[0] != seen[1] && seen[1] != seen[2] && seen[2] != seen[0], "{scene:?}: it moves");
+        assert!(
+            last != "bvh" || (seen[1] == seen[3] && seen[0] == seen[4] && seen[2] == seen[5]),
+            "{scene:?}"
+        );
+    }
+}
+
+/// Triangles of numbered files are others at every time: these are posed and uploaded anew.
+#[test]
+fn numbered_files_are_those_of_a_render_at_any_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for number in 0..3 {
+        let corners =
+            |index: usize| format!("v {} 0 0\nv {} 1 0\nv {} 0 1\n", index, index + number, index + 1);
+        let faces = |index: usize| format!("f {} {} {}\n", 3 * index + 1, 3 * index + 2, 3 * index + 3);
+        let text: String = (0..1 + number).map(corners).chain((0..1 + number).map(faces)).collect();
+        std::fs::write(folder.path().join(format!("s.{number}.obj")), text).expect("a file");
+    }
+    let scene = folder.path().join("s.#.obj");
+    let mut backend = open(&VALIDATED).expect("a device");
+    let mut settings = settings();
+    settings.system = system("bvh");
+    let mut engine = engine_of(scene.as_os_str(), &settings);
+    for frame in [None, Some(2.0), Some(1.0), None, Some(2.0)] {
+        settings.seconds = frame.map(|frame: f64| frame / 24.0);
+        engine.apply(settings.clone());
+        let picture = finished(&mut engine);
+        let expected = rendered_of(scene.as_os_str(), backend.as_mut(), &settings);
+        assert!(radiance(&picture) == expected, "at {frame:?}");
+    }
 }
 
 #[test]

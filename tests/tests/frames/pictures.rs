@@ -115,7 +115,7 @@ fn still(
     device
         .submit(|recorder| {
             if let Some(at) = &input.pose {
-                pose.record(recorder, at);
+                pose.record(recorder, 0, at);
             }
             gpu.record_frame(recorder, &input.view, input.sampling);
             path.record_reset(recorder);

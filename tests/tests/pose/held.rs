@@ -82,7 +82,7 @@ impl<'a> Stage<'a> {
             .map(|camera| camera.world_from_camera)
             .collect();
         assert_eq!(frame.cameras(), cameras);
-        let submitted = self.bench.device().submit(|recorder| self.pass.record(recorder, &frame));
+        let submitted = self.bench.device().submit(|recorder| self.pass.record(recorder, 0, &frame));
         submitted.expect("the device works");
     }
 

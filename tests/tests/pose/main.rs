@@ -1,5 +1,6 @@
 //! What moves in a scene, posed on the device: held against the same scene posed on the host.
 
+mod deformed;
 mod far_away;
 mod held;
 mod lit;

@@ -14,10 +14,11 @@ use rasray_tests::invariance::Subject;
 use rasray_tests::random::Random;
 use rasray_tracer::build_until_complete;
 
+use crate::deformed::deforming;
 use crate::held::{Stage, view};
 use crate::shapes::{at, binding, cloud, linear, node, scene, shape, skin};
 
-/// A turning and a skinned mesh beside one that stays.
+/// A turning and a skinned mesh beside one that stays, and one that the host deforms.
 fn moving() -> Scene {
     let mesh = cloud(40, [0.0; 3], 52);
     let (joint_nodes, skin, mut channels) = skin(5, 3, DVec3::X, DVec3::ZERO);
@@ -31,7 +32,8 @@ fn moving() -> Scene {
         ..Rig::default()
     };
     channels.push(linear(0, ChannelValues::Translation(vec![[0.0; 3], [0.0, 4.0, 1.0]])));
-    scene(vec![cloud(40, [0.0; 3], 51), mesh, cloud(40, [0.0; 3], 54)], rig, channels)
+    let meshes = vec![cloud(40, [0.0; 3], 51), mesh, cloud(40, [0.0; 3], 54), cloud(30, [0.0; 3], 55)];
+    deforming(scene(meshes, rig, channels), 3)
 }
 
 /// Two command buffers are recorded before either is submitted; each copies what it posed, and its frame.
@@ -39,7 +41,8 @@ fn moving() -> Scene {
 fn pending_recordings_have_poses_and_views_of_their_own() {
     let bench = Bench::new();
     let device = bench.device();
-    let stage = Stage::new(&bench, moving(), DVec3::ZERO);
+    let mut stage = Stage::new(&bench, moving(), DVec3::ZERO);
+    stage.pass.set_slots(device, 2).expect("it fits");
     let positions = &stage.gpu.geometry().desc().positions.buffer;
     let moments = [at(&stage.scene, 0.25), at(&stage.scene, 0.8)];
     let expected = moments.each_ref().map(|moment| {
@@ -71,7 +74,7 @@ fn pending_recordings_have_poses_and_views_of_their_own() {
                 raw.begin_command_buffer(command, &vk::CommandBufferBeginInfo::default()).expect("begun");
                 let mut recorder = Recorder::from_raw(device, command);
                 let pose = stage.pass.frame(&stage.scene, &moments[number]).expect("it is whole");
-                stage.pass.record(&mut recorder, &pose);
+                stage.pass.record(&mut recorder, number as u32, &pose);
                 let sampling = Sampling { sampler: Sampler::Pcg, samples: 1 + number as u32 };
                 let frame = stage.gpu.record_frame(&mut recorder, &views[number], sampling);
                 assert_eq!(frame.camera_position, views[number].eye().as_vec3().to_array());
@@ -110,7 +113,7 @@ fn what_was_made_for_another_scene_is_refused() {
     let (stage, other) = (Stage::new(&bench, moving(), DVec3::ZERO), Stage::new(&bench, other, DVec3::ZERO));
     let moment = at(&other.scene, 0.5);
     let pose = other.pass.frame(&other.scene, &moment).expect("it is of this scene");
-    let submitted = device.submit(|recorder| stage.pass.record(recorder, &pose));
+    let submitted = device.submit(|recorder| stage.pass.record(recorder, 0, &pose));
     assert!(matches!(submitted, Err(GpuError::InvalidUse { .. })), "{submitted:?}");
     let frame = stage.pass.frame(&other.scene, &moment);
     assert!(matches!(frame, Err(GpuSceneError::Malformed { limit: 1, .. })), "{frame:?}");

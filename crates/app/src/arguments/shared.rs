@@ -5,8 +5,7 @@ use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
 use rasray_experiment::{
-    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, Primary, Sampler, default_view, named_view,
-    placed_view,
+    Chosen, DeviceChoice, ExperimentError, Frame, Integrator, LoadedScene, Primary, Sampler, placed_view,
 };
 use rasray_scene::needs::{Needs, Workload};
 use rasray_scene::{Environment, LoadOptions, Scene, SceneError, load_environment};
@@ -138,15 +137,15 @@ pub struct ViewArguments {
 }
 
 impl ViewArguments {
-    /// The camera that was asked for; else [`default_view`].
+    /// The camera that was asked for; else [`LoadedScene::default_view`].
     ///
     /// # Errors
     /// A camera that the scene lacks, and an eye at its own target.
-    pub fn choose(&self, scene: &Scene) -> Result<Chosen, ExperimentError> {
+    pub fn choose(&self, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
         match (self.eye, self.target, &self.camera) {
             (Some(eye), Some(target), _) => placed_view(eye, target, self.fov),
-            (_, _, Some(name)) => named_view(scene, name),
-            _ => Ok(default_view(scene)),
+            (_, _, Some(name)) => loaded.named_view(name),
+            _ => loaded.default_view(),
         }
     }
 }

@@ -53,13 +53,13 @@ impl Pictures<'_> {
         }
         let reading = &self.given.reading;
         let said = self.loaded.scene.animation.deformer_warnings.clone();
-        self.loaded.pose(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;
+        self.loaded.show(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;
         terminal::warn_of_frame(&self.loaded.scene, &said);
         if let Some(pose) = &mut self.loaded.pose {
             pose.frame = Some(number);
         }
-        if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.scene.cameras.get(index)) {
-            self.chosen.camera = camera.clone();
+        if let Some(camera) = self.chosen.index.and_then(|index| self.loaded.camera(index)) {
+            self.chosen.camera = camera;
         }
         let key = self.key();
         let mut found = Standing::Missing;
@@ -73,6 +73,7 @@ impl Pictures<'_> {
             }
         }
         self.render(&targets, key, false)?;
+        self.is_next = true;
         Ok(found)
     }
 }

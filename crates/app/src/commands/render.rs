@@ -3,7 +3,7 @@
 use super::frames::{dealt, seconds};
 use super::images::{named, write_image};
 use super::picture_targets::{Targets, rows, samples_shard};
-use super::steps::{fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::steps::{Posing, fit_images, open_device, read_scene, stop_if_requested, with_progress};
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
@@ -38,7 +38,8 @@ pub(crate) fn render(
     let rows = rows(given)?;
     let fps = given.reading.frames_per_second();
     let time = first.map_or(given.reading.time, |first| Some(seconds(first, fps)));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, time, &given.view)?;
+    let shown = time.map(|time| (time, Posing::Device));
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, shown, &given.view)?;
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let backend = open_device(open, &given.device)?;
@@ -46,8 +47,20 @@ pub(crate) fn render(
     // Images stay as they are at all times.
     let needs = given.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
-    let mut pictures =
-        Pictures { given, line, interrupt, frame, shard, aovs, system, rows, loaded, chosen, backend };
+    let mut pictures = Pictures {
+        given,
+        line,
+        interrupt,
+        frame,
+        shard,
+        aovs,
+        system,
+        rows,
+        loaded,
+        chosen,
+        backend,
+        is_next: false,
+    };
     match numbers {
         None => pictures.render_one(&targets),
         Some(numbers) => pictures.render_frames(&numbers),
@@ -69,6 +82,8 @@ pub(super) struct Pictures<'a> {
     pub(super) loaded: LoadedScene,
     pub(super) chosen: Chosen,
     backend: Box<dyn Backend>,
+    /// Whether a picture of the scene at another time was made before.
+    pub(super) is_next: bool,
 }
 
 impl Pictures<'_> {
@@ -94,6 +109,8 @@ impl Pictures<'_> {
         let Self { given, frame, aovs, shard, chosen, .. } = self;
         RenderJob {
             scene: &loaded.scene,
+            moment: loaded.moment.as_ref(),
+            is_next: self.is_next,
             camera: chosen.camera.clone(),
             system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
             frame: *frame,

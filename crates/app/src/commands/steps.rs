@@ -55,21 +55,30 @@ pub(super) fn open_device(
     during("device", "opening", || Ok(open(&given.choice())?))
 }
 
+/// Who poses a scene that is shown at a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Posing {
+    /// The device: pictures. The scene stays at rest.
+    Device,
+    /// The processor: what is compared with a reference that reads the scene.
+    Host,
+}
+
 /// Reads a scene as the command line asks, shown at a time or at rest, and chooses the camera; warns of what was left out of it.
 pub(super) fn read_scene(
     name: &OsStr,
     reading: &SceneArguments,
-    time: Option<f64>,
+    shown: Option<(f64, Posing)>,
     view: &ViewArguments,
 ) -> Result<(LoadedScene, Chosen), AppError> {
-    if time.is_none() && reading.clip.is_some() {
+    if shown.is_none() && reading.clip.is_some() {
         return Err(AppError::usage(
             "--clip says what moves the scene, and nothing says when",
             "say --time SECONDS, or to `rasray render` --frames FIRST-LAST",
         ));
     }
-    let loaded = during("scene", "reading", || prepare(name, reading, time))?;
-    let chosen = during("scene", "looking for a view", || view.choose(&loaded.scene))?;
+    let mut loaded = during("scene", "reading", || prepare(name, reading, shown))?;
+    let chosen = during("scene", "looking for a view", || view.choose(&mut loaded))?;
     terminal::warn_of_scene(&loaded.scene, loaded.triangles);
     Ok((loaded, chosen))
 }
@@ -93,21 +102,25 @@ pub(super) fn load_scene(name: &OsStr, fps: Option<f64>, has_frames: bool) -> Re
 pub(super) fn prepare(
     name: &OsStr,
     reading: &SceneArguments,
-    time: Option<f64>,
+    shown: Option<(f64, Posing)>,
 ) -> Result<LoadedScene, AppError> {
     // Cheap to refuse, so before the scene is read.
     let environment = reading.environment()?;
     // A time that is not that of --time is that of a frame.
-    let mut loaded = load_scene(name, reading.fps, time.is_some() && reading.time.is_none())?;
-    if let Some(seconds) = time {
-        loaded.pose(seconds, reading.clip.as_deref())?;
-    }
+    let mut loaded = load_scene(name, reading.fps, shown.is_some() && reading.time.is_none())?;
+    // Whether anything lights the scene is decided at rest, once for all times.
     loaded.light(environment);
     if reading.alpha == Switch::Off {
         loaded.close_holes();
     }
+    match shown {
+        Some((seconds, Posing::Device)) => loaded.show(seconds, reading.clip.as_deref())?,
+        Some((seconds, Posing::Host)) => loaded.pose(seconds, reading.clip.as_deref())?,
+        None => {}
+    }
     Ok(loaded)
 }
+
 /// Makes images smaller where the device does not hold all of them, and warns of it.
 pub(super) fn fit_images(
     loaded: &mut LoadedScene,

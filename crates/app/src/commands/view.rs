@@ -38,7 +38,7 @@ mod with_window {
     use crate::progress::during;
     use crate::terminal;
     use rasray_experiment::{Chosen, ExperimentError, LoadedScene, one_system, open_device};
-    use rasray_scene::{Scene, default_view};
+    use rasray_scene::default_view;
     use rasray_viewer::{
         End, Engine, Opening, SavedPicture, SceneSource, Session, Settings, Shown, Standpoint, Viewing,
         check_display, run,
@@ -58,8 +58,8 @@ mod with_window {
             return Err(AppError::input(&output, "the window saves 8-bit pictures", "name a .png"));
         }
         keep_inputs("--output", Some(&Destination::check(&output)?), &given.scene)?;
-        let loaded = during("scene", "reading", || prepare(&given.scene, &given.reading, None))?;
-        check_view(given, &loaded)?;
+        let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.reading, None))?;
+        let chosen = check_view(given, &mut loaded)?;
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
 
         let seconds = given.reading.time;
@@ -75,6 +75,7 @@ mod with_window {
         let session = Session::new(Opening {
             scene: given.scene.clone(),
             camera_words: camera_words(&given.view),
+            camera_is_default: chosen.index.is_none() && given.view.eye.is_none(),
             time_words: words("--clip", given.reading.clip.clone()),
             other_words: other_words(given),
             settings: settings.clone(),
@@ -93,7 +94,7 @@ mod with_window {
             loaded,
             clip: given.reading.clip.clone(),
             needs_all: given.reading.needs == NeedsName::All,
-            camera: Box::new(move |scene: &Scene| choice.choose(scene)),
+            camera: Box::new(move |loaded: &mut LoadedScene| choice.choose(loaded)),
         };
         let end = run(Viewing {
             device: device.name().to_owned(),
@@ -110,14 +111,14 @@ mod with_window {
     }
 
     /// Refuses a camera, a time or a clip that the scene does not have before a window is opened.
-    fn check_view(given: &ViewerArguments, loaded: &LoadedScene) -> Result<Chosen, ExperimentError> {
+    fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
         let SceneArguments { time, clip, .. } = &given.reading;
         if time.is_none() && clip.is_none() {
-            return given.view.choose(&loaded.scene);
+            return given.view.choose(loaded);
         }
-        let mut posed = loaded.clone();
-        posed.pose(time.unwrap_or(0.0), clip.as_deref())?;
-        given.view.choose(&posed.scene)
+        let mut shown = loaded.clone();
+        shown.show(time.unwrap_or(0.0), clip.as_deref())?;
+        given.view.choose(&mut shown)
     }
 
     /// Writes a picture and says how to make it again.
@@ -125,6 +126,9 @@ mod with_window {
         let png = output::encode_png_bytes(saved.pixels, saved.size, None)
             .map_err(|error| AppError::refused(format!("the picture could not be encoded: {error}"), ""))?;
         Destination::check(saved.place)?.write(&png, interrupt)?;
+        if let Some(scale) = &saved.scale {
+            terminal::note(scale);
+        }
         if let Some(line) = saved.command_line {
             let what =
                 if saved.is_finished { "it is made by" } else { "when refined to its end it is made by" };

@@ -100,6 +100,26 @@ fn frames_are_images_of_their_times_and_go_on_where_they_stopped() {
     says("4 frames were rendered (4 of something else), 0 were there already");
 }
 
+/// What the device has of a scene is kept from frame to frame; a picture alone has it anew.
+#[test]
+fn frames_are_the_pictures_of_their_times() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |line: &str| {
+        let output = rasray(folder.path(), line);
+        assert_eq!(output.status.code(), Some(0), "{line}: {}", stderr(&output));
+    };
+    let pixels = |name: &str| image::open(folder.path().join(name)).expect("an image").to_rgb8().into_raw();
+    for (scene, system) in [("cloth-ball:1k", "bvh"), ("walker:8k", "mmrt")] {
+        let of = format!("render {scene} --system {system} --size 40x30 --spp 1 --integrator ao");
+        run(&format!("{of} --frames 2-4 --fps 4 --output f#.png"));
+        for frame in 2..=4 {
+            run(&format!("{of} --time {} --output t.png", f64::from(frame) / 4.0));
+            assert!(pixels(&format!("f{frame}.png")) == pixels("t.png"), "{scene}, frame {frame}");
+        }
+        assert!(pixels("f2.png") != pixels("f3.png") && pixels("f3.png") != pixels("f4.png"), "{scene}");
+    }
+}
+
 /// A triangle at a height, as an ASCII PLY; `more` of them with the same corners.
 fn sheet(height: f64, more: usize) -> String {
     let faces = "3 0 1 2\n".repeat(1 + more);

@@ -1,9 +1,9 @@
 //! Emissive triangles that move: their power follows their area.
 
-use rasray_scene::Scene;
 use rasray_scene::pose::{Pose, posed_mesh};
 
 use super::frame_pose::Placer;
+use super::shapes::FrameShapes;
 use super::sources::DrawPlace;
 use crate::emissive::{EmissiveSources, area};
 use crate::layout::EmissiveTriangle;
@@ -51,16 +51,18 @@ impl Emitters {
     }
 
     /// The table and the power of all, W, with moving draws posed as for fresh tables: on the host, in f64.
-    pub fn at(&self, scene: &Scene, pose: &Pose, placer: &Placer<'_>) -> (f64, Vec<EmissiveTriangle>) {
+    pub fn at(&self, pose: &Pose, placer: &Placer<'_>, shapes: &FrameShapes) -> (f64, Vec<EmissiveTriangle>) {
+        let scene = placer.scene;
         let mut areas = self.areas.clone();
         for (place, first) in &self.moving {
             let mesh = &scene.meshes[scene.instances[place.instance].mesh];
             let deformed = place.deformed.map(|deformed| &placer.rig.deformed[deformed]);
             let shown =
                 deformed.map(|deformed| posed_mesh(mesh, deformed, &placer.weights(place), placer.rig, pose));
-            let (positions, world) = match &shown {
-                Some((mesh, world)) => (&mesh.positions, *world),
-                None => (&mesh.positions, None),
+            let (positions, world) = match (&shown, place.shape) {
+                (Some((mesh, world)), _) => (&mesh.positions, *world),
+                (None, Some(shape)) => (&shapes.positions[shape].1, None),
+                (None, None) => (&mesh.positions, None),
             };
             let world = world.unwrap_or_else(|| placer.world_from_mesh(place.instance));
             let corners: Vec<_> = placed(positions, world, placer.frame_origin).collect();

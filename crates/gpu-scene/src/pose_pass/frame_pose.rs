@@ -1,6 +1,9 @@
 //! The host's part of a pose: what the device is told of a frame.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
+use rasray_scene::Scene;
 use rasray_scene::animation::Rig;
 use rasray_scene::pose::Pose;
 use rasray_shaders_glsl::constants::scene::DRAW_MIRRORED;
@@ -16,6 +19,8 @@ pub struct FramePose {
     pub(super) placements: Vec<PosePlacement>,
     pub(super) joints: Vec<PoseMatrix>,
     pub(super) targets: Vec<PoseTarget>,
+    /// What the host deformed; see `FrameShapes`.
+    pub(super) shapes: Arc<[f32]>,
     pub(super) lights: Vec<Light>,
     pub(super) emissive: Vec<EmissiveTriangle>,
     /// W, by luminance.
@@ -30,6 +35,7 @@ impl FramePose {
     }
 
     /// Bytes that [`PosePass::record`](super::PosePass::record) stores in the command buffer, but for fewer than 100.
+    /// Shapes are not among them: see [`FramePose::shape_bytes`].
     pub fn bytes(&self) -> u64 {
         let bytes = size_of_val(&self.placements[..])
             + size_of_val(&self.joints[..])
@@ -38,10 +44,19 @@ impl FramePose {
             + size_of_val(&self.emissive[..]);
         bytes as u64
     }
+
+    /// Bytes that [`PosePass::record`](super::PosePass::record) writes to memory of the slot: positions and normals that a
+    /// simulation or a file has.
+    pub fn shape_bytes(&self) -> u64 {
+        size_of_val(&self.shapes[..]) as u64
+    }
 }
 
 /// What places draws in a frame.
 pub(super) struct Placer<'a> {
+    pub scene: &'a Scene,
+    /// Whether its rig places its instances.
+    pub is_placed: bool,
     pub rig: &'a Rig,
     pub pose: &'a Pose,
     /// World, metres.
@@ -66,8 +81,13 @@ impl Placer<'_> {
         anchor
     }
 
-    /// The placement of a draw; `anchors` are those of the skins. Targets that count are appended.
-    pub fn draw(&self, place: &DrawPlace, anchors: &[DVec3], targets: &mut Vec<PoseTarget>) -> PosePlacement {
+    /// The placement of a draw; `anchors` are those of the skins, `pivots` of the shapes. Targets that count are appended.
+    pub fn draw(
+        &self,
+        place: &DrawPlace,
+        (anchors, pivots): (&[DVec3], &[DVec3]),
+        targets: &mut Vec<PoseTarget>,
+    ) -> PosePlacement {
         let first_target = targets.len() as u32;
         targets.extend(
             place.targets.iter().zip(self.weights(place)).filter(|(_, weight)| *weight != 0.0).map(
@@ -87,7 +107,8 @@ impl Placer<'_> {
         }
         let world_from_mesh = self.world_from_mesh(place.instance);
         let linear = world_from_mesh.matrix3;
-        let offset = world_from_mesh.transform_point3(place.pivot) - self.frame_origin;
+        let pivot = place.shape.map_or(place.pivot, |shape| pivots[shape]);
+        let offset = world_from_mesh.transform_point3(pivot) - self.frame_origin;
         let normals = matrix(of_largest_one(normal_matrix(linear)), DVec3::ZERO);
         PosePlacement {
             place: matrix(linear, offset),
@@ -101,6 +122,9 @@ impl Placer<'_> {
 
     /// Where an instance without joints is.
     pub fn world_from_mesh(&self, instance: usize) -> DAffine3 {
+        if !self.is_placed {
+            return self.scene.instances[instance].world_from_mesh;
+        }
         let placement = self.rig.placements[instance];
         self.pose.world(placement.node) * placement.node_from_mesh
     }

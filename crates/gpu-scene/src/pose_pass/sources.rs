@@ -9,6 +9,7 @@ use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
 use rasray_shaders_glsl::records::{PoseDraw, PoseGroup};
 
 use super::moving::Moving;
+use super::shapes::ShapePlace;
 use crate::{GpuSceneError, SceneTables, words::Words};
 
 /// Threads of a workgroup of `scene/pose_vertices`.
@@ -24,6 +25,8 @@ pub struct Sources {
     pub groups: Vec<PoseGroup>,
     /// Skins with joints that move.
     pub skins: Vec<SkinPlace>,
+    /// Meshes that a deformer changes.
+    pub shapes: Vec<ShapePlace>,
     /// Joint matrices of a frame.
     pub joint_count: usize,
     /// Most morph targets that a frame can show.
@@ -46,6 +49,8 @@ pub struct DrawPlace {
     pub skin: Option<usize>,
     /// Index into the deformed meshes of the rig.
     pub deformed: Option<usize>,
+    /// Index into the shapes of the sources; the pivot is that of the frame's shape then.
+    pub shape: Option<usize>,
     /// Words of the displacements of each morph target: positions, normals, tangents.
     pub targets: Vec<[u32; 3]>,
 }
@@ -75,7 +80,7 @@ impl Sources {
     /// Packs what can move of the draws of `tables`, which were made from `scene`.
     ///
     /// # Errors
-    /// `TooManyVertices` where 32-bit word offsets do not reach.
+    /// `TooManyVertices` where 32-bit word offsets do not reach, `DeformedTwice`.
     pub fn new(scene: &Scene, tables: &SceneTables, moving: &Moving) -> Result<Self, GpuSceneError> {
         let rig = &scene.animation.rig;
         let mut sources = Self {
@@ -83,6 +88,7 @@ impl Sources {
             places: Vec::new(),
             groups: Vec::new(),
             skins: Vec::new(),
+            shapes: Vec::new(),
             joint_count: 0,
             target_count: 0,
             rest_positions: Words::stored(),
@@ -95,13 +101,22 @@ impl Sources {
             deformed_of[deformed.mesh] = Some(index);
         }
         let mut packed: HashMap<usize, MeshWords> = HashMap::new();
+        let given = scene.animation.deformer.iter().flat_map(|deformer| deformer.meshes());
+        let shape_meshes: Vec<usize> = given.copied().filter(|&mesh| mesh < scene.meshes.len()).collect();
+        if let Some(mesh) = shape_meshes.iter().find(|&&mesh| deformed_of[mesh].is_some()) {
+            let mesh = scene.meshes[*mesh].name.clone();
+            return Err(GpuSceneError::DeformedTwice { scene: scene.name.clone(), mesh });
+        }
+        let mut shape_words = vec![[ATTRIBUTE_NONE; 2]; shape_meshes.len()];
         for (draw, record) in tables.posed.draws.iter().enumerate() {
             let instance = record.instance as usize;
-            let Some(placement) = rig.placements.get(instance) else { continue };
             let mesh_index = scene.instances[instance].mesh;
+            let own_shape = shape_meshes.iter().position(|&mesh| mesh == mesh_index);
             let (mesh, deformed) = (&scene.meshes[mesh_index], deformed_of[mesh_index]);
             let shape = deformed.map(|deformed| &rig.deformed[deformed]);
-            if !moving.instance(rig, placement.node, shape) {
+            let placement = rig.placements.get(instance);
+            let is_moved = placement.is_some_and(|placement| moving.instance(rig, placement.node, shape));
+            if !is_moved && own_shape.is_none() {
                 continue;
             }
             let binding = shape.and_then(|shape| shape.skin.as_ref());
@@ -116,7 +131,10 @@ impl Sources {
             let words = match packed.get(&mesh_index) {
                 Some(words) => words.clone(),
                 None => {
-                    let words = sources.mesh(mesh, shape, skin, pivot, is_shaded)?;
+                    let words = sources.mesh(mesh, shape, skin, pivot, (is_shaded, own_shape.is_some()))?;
+                    if let Some(own) = own_shape {
+                        shape_words[own] = [words.rest_positions, words.rest_normals];
+                    }
                     packed.insert(mesh_index, words.clone());
                     words
                 }
@@ -146,9 +164,12 @@ impl Sources {
                 pivot,
                 skin: skin_index,
                 deformed,
+                shape: own_shape,
                 targets: words.targets,
             });
         }
+        let shapes = shape_meshes.into_iter().zip(shape_words);
+        sources.shapes = shapes.map(|(mesh, words)| ShapePlace::new(scene, mesh, words)).collect();
         Ok(sources)
     }
 
@@ -164,27 +185,30 @@ impl Sources {
         self.skins.len() - 1
     }
 
-    /// Packs a mesh; normals and tangents where `is_shaded` asks for them.
+    /// Packs a mesh; normals and tangents where `is_shaded` asks for them. Tangents of a mesh that a deformer changes would
+    /// lie in the surface that was: without a direction, shading derives one.
     fn mesh(
         &mut self,
         mesh: &Mesh,
         shape: Option<&DeformedMesh>,
         skin: Option<&SkinBinding>,
         pivot: DVec3,
-        is_shaded: [bool; 2],
+        (is_shaded, is_deforming): ([bool; 2], bool),
     ) -> Result<MeshWords, GpuSceneError> {
         let (positions, normals, tangents) = match shape {
             Some(shape) => (&shape.positions, &shape.normals, &shape.tangents),
             None => (&mesh.positions, &mesh.normals, &mesh.tangents),
         };
-        let relative =
-            |position: &[f32; 3]| (DVec3::from(position.map(f64::from)) - pivot).as_vec3().to_array();
-        let rest_positions = append(&mut self.rest_positions, Some(positions.iter().map(relative)))?;
+        let from_pivot = positions.iter().map(|position| relative(position, pivot));
+        let rest_positions = append(&mut self.rest_positions, Some(from_pivot))?;
         let rest = &mut self.rest_attributes;
         let normals = normals.as_ref().filter(|_| is_shaded[0]);
         let rest_normals = append(rest, normals.map(|list| list.iter().copied()))?;
         let tangents = tangents.as_ref().filter(|_| is_shaded[1]);
-        let signed = |&[x, y, z, w]: &[f32; 4]| [x, y, z, if w < 0.0 { -1.0 } else { 1.0 }];
+        let signed = |&[x, y, z, w]: &[f32; 4]| {
+            let [x, y, z] = if is_deforming { [0.0; 3] } else { [x, y, z] };
+            [x, y, z, if w < 0.0 { -1.0 } else { 1.0 }]
+        };
         let rest_tangents = append(rest, tangents.map(|list| list.iter().map(signed)))?;
         let mut targets = Vec::new();
         for target in shape.iter().flat_map(|shape| &shape.targets) {
@@ -228,8 +252,13 @@ fn append<const N: usize>(
     table.append(values.len() * N, || values.flatten())
 }
 
+/// A position relative to a pivot, rounded once.
+pub fn relative(position: &[f32; 3], pivot: DVec3) -> [f32; 3] {
+    (DVec3::from(position.map(f64::from)) - pivot).as_vec3().to_array()
+}
+
 /// The centre of the box around positions, metres; zero where there are none.
-fn centre<'a>(lists: impl IntoIterator<Item = &'a [[f32; 3]]>) -> DVec3 {
+pub fn centre<'a>(lists: impl IntoIterator<Item = &'a [[f32; 3]]>) -> DVec3 {
     let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for position in lists.into_iter().flatten() {
         let position = DVec3::from(position.map(f64::from));

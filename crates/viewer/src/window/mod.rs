@@ -38,7 +38,7 @@ const PLAYING: Duration = Duration::from_millis(16);
 const LEAST: PhysicalSize<u32> = PhysicalSize::new(480, 320);
 
 /// A picture to be saved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SavedPicture<'a> {
     /// Where.
     pub place: &'a Path,
@@ -48,6 +48,8 @@ pub struct SavedPicture<'a> {
     pub pixels: &'a [u8],
     /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
     pub command_line: Option<&'a str>,
+    /// What the colours of a map mean, in a sentence; absent for pictures.
+    pub scale: Option<String>,
     /// Whether its refinement has ended.
     pub is_finished: bool,
 }

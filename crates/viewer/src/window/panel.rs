@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use egui::{Color32, DragValue, Key, Modifiers, RichText, Slider};
 use rasray_experiment::Integrator;
-use rasray_report::grouped;
+use rasray_report::colour_scale::{Scale, colour};
 
 use super::options_panel::show_system;
 use super::stage::Stage;
@@ -177,6 +177,10 @@ impl Panel {
             size: [picture.width, picture.height],
             pixels: &picture.pixels.bytes(session.exposure),
             command_line: line.as_deref(),
+            scale: match &picture.pixels {
+                Pixels::Map(_, legend) => Some(legend.described()),
+                Pixels::Radiance(_) => None,
+            },
             is_finished: picture.is_finished(),
         };
         self.said = Some(match save(&saved) {
@@ -274,16 +278,28 @@ fn show_view(ui: &mut egui::Ui, session: &mut Session) {
 fn show_legend(ui: &mut egui::Ui, session: &Session) {
     let Some(picture) = &session.picture else { return };
     if let Pixels::Map(_, legend) = &picture.pixels {
-        let number =
-            |value: f64| if value.fract() == 0.0 { grouped(value as u64) } else { format!("{value:.4}") };
         ui.weak("Scale");
-        ui.weak(format!(
-            "0 (dark) to {} (bright)\nmean {:.4}\n{}",
-            number(legend.most),
-            legend.mean,
-            legend.unit
-        ));
+        ui.vertical(|ui| {
+            ui.horizontal(|ui| {
+                ui.label("0");
+                show_colours(ui, legend.colours);
+                ui.label(legend.most_shown());
+            });
+            ui.weak(format!("mean {:.4}\n{}", legend.mean, legend.unit));
+        });
         ui.end_row();
+    }
+}
+
+/// A bar of the colours of a scale, the darkest left.
+fn show_colours(ui: &mut egui::Ui, scale: &Scale) {
+    let (bar, _) = ui.allocate_exact_size(egui::vec2(120.0, 12.0), egui::Sense::hover());
+    let count = (bar.width() as usize).max(1);
+    for column in 0..count {
+        let [red, green, blue] = colour(scale, column as f64 / (count - 1).max(1) as f64);
+        let left = bar.left_top() + egui::vec2(column as f32, 0.0);
+        let column = egui::Rect::from_min_size(left, egui::vec2(1.0, bar.height()));
+        ui.painter().rect_filled(column, 0.0, Color32::from_rgb(red, green, blue));
     }
 }
 

@@ -53,6 +53,8 @@ pub(crate) fn info(given: &InfoArguments, open: &mut OpenBackend<'_>) -> Result<
             let needs = Needs::of(&loaded.scene, frame.workload());
             fit_images(&mut loaded, &needs, backend.as_ref())?;
             let job = RenderJob {
+                moment: None,
+                is_next: false,
                 scene: &loaded.scene,
                 camera: view.camera,
                 system,

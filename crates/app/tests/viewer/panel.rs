@@ -1,0 +1,66 @@
+//! The panel: systems, options and maps, chosen with the mouse. Places are those in a window for a small picture.
+
+use crate::window::{Display, Window, is_there, made_by, pixels};
+
+/// The left and right end of the way of the slider of the time, and how far down it is.
+pub const TIME_SLIDER: [i32; 3] = [335, 453, 247];
+
+/// The list of what is shown, of a scene with or without clips.
+const SHOWN: [i32; 2] = [438, 75];
+
+/// The list of systems, what opens the options of `bvh`, and its list of builders, of a scene that does not move.
+const SYSTEM: [i32; 2] = [430, 224];
+const OPTIONS: [i32; 2] = [390, 270];
+const BUILDER: [i32; 2] = [470, 293];
+
+/// An entry of an open list, from 0.
+fn entry([x, y]: [i32; 2], position: i32) -> [i32; 2] {
+    [x, y + 25 + 23 * position]
+}
+
+fn choose(window: &Window<'_>, list: [i32; 2], position: i32) {
+    window.click(list);
+    // Frames of a software driver may be slow, and a list opens in several.
+    std::thread::sleep(std::time::Duration::from_secs(2));
+    window.click(entry(list, position));
+}
+
+#[test]
+fn systems_options_and_maps_are_chosen_with_the_mouse() {
+    if !is_there("Xvfb") || !is_there("xdotool") {
+        eprintln!("skipped: systems_options_and_maps_are_chosen_with_the_mouse needs Xvfb and xdotool");
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let display = Display::start();
+    let line = "view cornell --size 60x40 --spp 1 --bounces 1 --system bvh --validation";
+    let mut window = Window::open(&display, folder.path(), line);
+    let (first, _) = window.save();
+    let first = pixels(&first);
+
+    window.click(OPTIONS);
+    choose(&window, BUILDER, 1);
+    let (built, line) = window.save_when(|line| line.contains(" --builder="));
+    let built = pixels(&built);
+    assert!(made_by(folder.path(), &line) == built && built == first, "a tree is exact: {line}");
+
+    choose(&window, SYSTEM, 1);
+    let (coarse, line) = window.save_when(|line| line.contains(" --system mmrt "));
+    let coarse = pixels(&coarse);
+    assert!(made_by(folder.path(), &line) == coarse && coarse != first, "fragments are not: {line}");
+
+    choose(&window, SHOWN, 1);
+    let (difference, scale) = window.save_map("difference from bricks");
+    let difference = pixels(&difference);
+    assert!(!scale.contains("0 (dark) to 0 (bright)"), "{scale}");
+    let (low, high) = (difference.iter().min(), difference.iter().max());
+    assert!(low == Some(&0) && high >= Some(&0xfc), "from no difference to the greatest: {low:?} {high:?}");
+
+    choose(&window, SHOWN, 2);
+    let (cells, _) = window.save_map("cells per ray");
+    let cells = pixels(&cells);
+    assert!(cells != difference && cells.chunks_exact(3).any(|colour| colour != &cells[..3]));
+
+    display.xdotool("key ctrl+q");
+    assert_eq!(window.end().code(), Some(0), "a message of the validation layers is an error");
+}

@@ -1,0 +1,64 @@
+//! Scenes on a device that moves them.
+
+use rasray_gpu::Device;
+use rasray_gpu_scene::{PosePass, SceneTables};
+use rasray_scene::needs::Needs;
+use rasray_scene::{Camera, Moment, Scene};
+
+use crate::error::ExperimentError;
+use crate::jobs::{Frame, RenderJob};
+use crate::stage::{Stage, device_error, scene_error};
+
+impl Stage {
+    /// As [`Stage::new`], of a scene at rest that [`Stage::pose`] shows at any moment.
+    ///
+    /// # Errors
+    /// As [`Stage::new`], and where a scene cannot be posed on the device ([`PosePass::always_poses`]).
+    pub fn moving(
+        device: &Device,
+        scene: &Scene,
+        camera: &Camera,
+        size: [u32; 2],
+        seed: u32,
+        needs: &Needs,
+    ) -> Result<Self, ExperimentError> {
+        let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
+        let (mut stage, tables) = Self::uploaded(device, scene, origin, camera, size, seed, needs)?;
+        stage.pose = Some(PosePass::new(device, scene, &tables, &stage.scene).map_err(scene_error)?);
+        Ok(stage)
+    }
+
+    /// The scene of a job as it is shown.
+    ///
+    /// # Errors
+    /// As [`Stage::moving`] and [`Stage::pose`].
+    pub(super) fn of_job(device: &Device, job: &RenderJob<'_>) -> Result<Self, ExperimentError> {
+        let Frame { width, height, seed, .. } = job.frame;
+        let Some(moment) = job.moment else {
+            return Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs);
+        };
+        let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
+        stage.pose(device, job.scene, moment)?;
+        Ok(stage)
+    }
+
+    /// Whether [`Stage::pose`] can show the scene at any moment.
+    pub fn is_moving(&self) -> bool {
+        self.pose.is_some()
+    }
+
+    /// Shows the scene, which is the one that this was made from ([`Stage::moving`]), at a moment: what moves is posed on the
+    /// device. Structures and pictures of the moment before are stale then. What is on the device does not depend on the
+    /// moments that were shown before.
+    ///
+    /// # Errors
+    /// Its deformer or the device fails, or nothing here moves.
+    pub fn pose(&mut self, device: &Device, scene: &Scene, moment: &Moment) -> Result<(), ExperimentError> {
+        let Some(pass) = &self.pose else {
+            return Err(device_error("a scene is to be posed that was not made to move"));
+        };
+        let pose = pass.frame(scene, moment).map_err(scene_error)?;
+        device.submit(|recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
+        Ok(())
+    }
+}
