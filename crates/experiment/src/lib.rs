@@ -31,6 +31,7 @@ mod jobs;
 mod kept_files;
 mod key;
 mod measured;
+mod moving;
 mod pass_list;
 mod passes;
 mod placed;
@@ -67,6 +68,7 @@ pub use jobs::{
 pub use kept_files::NamedBytes;
 pub use key::{KeyHash, picture_key};
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
+pub use moving::{MovingStage, Shown};
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};

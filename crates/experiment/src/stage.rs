@@ -24,7 +24,7 @@ pub(super) fn device_error(error: impl std::fmt::Display) -> ExperimentError {
 }
 
 /// What an error about the scene's own tables is about: no option of structures or images makes them smaller.
-fn scene_error(error: GpuSceneError) -> ExperimentError {
+pub(super) fn scene_error(error: GpuSceneError) -> ExperimentError {
     let message = match &error {
         GpuSceneError::Gpu(GpuError::TooLarge { name, size, limit })
         | GpuSceneError::Ads(AdsError::Gpu(GpuError::TooLarge { name, size, limit })) => {
@@ -97,16 +97,27 @@ impl Stage {
         seed: u32,
         needs: &Needs,
     ) -> Result<Self, ExperimentError> {
-        let tables = SceneTables::new(scene, origin, &Parts::from(needs)).map_err(scene_error)?;
         let view = View { camera: camera.clone(), width, height, seed };
-        let gpu_scene = GpuScene::upload(device, &tables, &view).map_err(scene_error)?;
+        Ok(Self::with_tables(device, scene, origin, &view, &Parts::from(needs))?.0)
+    }
+
+    /// Uploads parts of a scene, and answers the tables that they were uploaded from as well.
+    pub(super) fn with_tables(
+        device: &Device,
+        scene: &Scene,
+        origin: DVec3,
+        view: &View,
+        parts: &Parts,
+    ) -> Result<(Self, SceneTables), ExperimentError> {
+        let tables = SceneTables::new(scene, origin, parts).map_err(scene_error)?;
+        let gpu_scene = GpuScene::upload(device, &tables, view).map_err(scene_error)?;
         let dropped_triangles = tables.posed.dropped_triangles;
         if dropped_triangles > 0 {
             tracing::warn!(
                 "{dropped_triangles} triangles have coordinates that are not finite or beyond 1.8e18 m and are left out"
             );
         }
-        Ok(Self { scene: gpu_scene, dropped_triangles })
+        Ok((Self { scene: gpu_scene, dropped_triangles }, tables))
     }
 }
 
