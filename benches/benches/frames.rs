@@ -3,26 +3,28 @@
 //! Per system the medians over frames of pose, build, trace, surfaces and shade, each timed by itself, and from these
 //! the time of a frame at 1, 4 and 16 rays per pixel, divided by that of a tree rebuilt by Morton codes. `crossover` is the
 //! number of rays per pixel up to which the system is faster than that tree, or from which on. Rays are those of the
-//! camera. Times of software devices are for ratios on that device.
+//! camera; `cells`, `entries` and `tests` are what one of them reads on average, counted in a trace that is not timed. Times
+//! of software devices are for ratios on that device.
 
 use std::error::Error;
 use std::ffi::OsStr;
 
-use rasray_ads::{Check, Structure};
-use rasray_experiment::{LoadedScene, load, requirements};
+use rasray_ads::{Counters, QueueCounters, Structure};
+use rasray_experiment::{LoadedScene, Stage, load, requirements};
 use rasray_gpu::{Device, DeviceDesc, PassTiming};
-use rasray_gpu_scene::{GpuScene, Parts, PosePass, Sampling, SceneTables, View};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast, waves};
 use rasray_metrics::median;
 use rasray_scene::needs::{self, Needs, Workload};
 use rasray_scene::{Camera, Moment, default_view};
 use rasray_systems::Spec;
+use rasray_tracer::build_with_headroom;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Systems with an option each; the first is what the others are divided by.
-const SYSTEMS: [(&str, Option<(&str, &str)>); 8] = [
+const SYSTEMS: [(&str, Option<(&str, &str)>); 9] = [
     ("bvh", Some(("builder", "lbvh"))),
+    ("bvh", Some(("builder", "refit"))),
     ("bvh", Some(("builder", "sah"))),
     ("bricks", None),
     ("dirt", None),
@@ -35,9 +37,6 @@ const SYSTEMS: [(&str, Option<(&str, &str)>); 8] = [
 /// Rays per pixel of the frames in the table.
 const RAYS: [u32; 3] = [1, 4, 16];
 
-/// Builds that a frame may take until its pools suffice.
-const BUILDS: u32 = 8;
-
 /// Percent that pools grow beyond a demand.
 const HEADROOM: u32 = 50;
 
@@ -49,6 +48,21 @@ struct Frame {
     trace: f64,
     surfaces: f64,
     shade: f64,
+}
+
+/// What a ray reads on average.
+#[derive(Clone, Copy)]
+struct Work {
+    cells: f64,
+    entries: f64,
+    tests: f64,
+}
+
+/// What is said of a system.
+struct Measured {
+    title: String,
+    frame: Frame,
+    work: Work,
 }
 
 impl Frame {
@@ -85,26 +99,32 @@ fn main() -> Result<()> {
         let given = option.map(|(name, value)| (name.to_owned(), value.to_owned()));
         let spec = Spec::new(system, "robust", given)?;
         let title = option.map_or_else(|| system.to_owned(), |(_, value)| format!("{system} {value}"));
-        measured.push((title, frames(&device, &loaded, &spec, size, count)?));
+        let (frame, work) = frames(&device, &loaded, &spec, size, count)?;
+        measured.push(Measured { title, frame, work });
     }
     print(&measured);
     Ok(())
 }
 
-fn print(measured: &[(String, Frame)]) {
-    let baseline = measured[0].1;
-    println!("| system | pose | build | trace | surfaces | shade | 1 ray | 4 rays | 16 rays | crossover |");
-    println!("|---|---|---|---|---|---|---|---|---|---|");
-    for (title, frame) in measured {
+fn print(measured: &[Measured]) {
+    let baseline = measured[0].frame;
+    println!(
+        "| system | pose | build | trace | surfaces | shade | 1 ray | 4 rays | 16 rays | crossover | cells | entries | tests |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for Measured { title, frame, work } in measured {
         let Frame { pose, build, trace, surfaces, shade } = frame;
         let ratios = RAYS.map(|rays| {
             let time = frame.at(rays.into());
             format!("{time:.1} ({:.2})", baseline.at(rays.into()) / time)
         });
         println!(
-            "| {title} | {pose:.2} | {build:.2} | {trace:.2} | {surfaces:.2} | {shade:.2} | {} | {} |",
+            "| {title} | {pose:.2} | {build:.2} | {trace:.2} | {surfaces:.2} | {shade:.2} | {} | {} | {:.1} | {:.1} | {:.1} |",
             ratios.join(" | "),
-            crossover(frame, &baseline)
+            crossover(frame, &baseline),
+            work.cells,
+            work.entries,
+            work.tests
         );
     }
 }
@@ -124,29 +144,28 @@ fn crossover(frame: &Frame, baseline: &Frame) -> String {
 /// What is measured of one system.
 struct Setting<'a> {
     device: &'a Device,
-    scene: GpuScene,
-    pose: PosePass,
+    stage: Stage,
     integrator: Raycast,
     loaded: &'a LoadedScene,
-    view: View,
 }
 
-fn frames(device: &Device, loaded: &LoadedScene, spec: &Spec, size: [u32; 2], count: u32) -> Result<Frame> {
+fn frames(
+    device: &Device,
+    loaded: &LoadedScene,
+    spec: &Spec,
+    size: [u32; 2],
+    count: u32,
+) -> Result<(Frame, Work)> {
     let [width, height] = size;
     let scene = &loaded.scene;
     let camera: Camera =
         scene.cameras.first().cloned().unwrap_or_else(|| default_view::default_camera(scene));
     let workload = Workload { integrator: needs::Integrator::Raycast, bounces: 0 };
-    let parts = Parts::from(&Needs::of(scene, workload));
-    let origin = SceneTables::default_frame_origin(scene, camera.world_from_camera.translation);
-    let tables = SceneTables::new(scene, origin, &parts)?;
-    let view = View { camera, width, height, seed: 1 };
-    let gpu = GpuScene::upload(device, &tables, &view)?;
-    let pose = PosePass::new(device, scene, &tables, &gpu)?;
+    let stage = Stage::moving(device, scene, &camera, size, 1, &Needs::of(scene, workload))?;
     let film = Film::new(device, width, height)?;
-    let integrator = Raycast::new(&IntegratorDesc::new(device, &gpu, &film))?;
-    let mut structure = spec.create(device, gpu.geometry(), Some(gpu.binding()))?;
-    let setting = Setting { device, scene: gpu, pose, integrator, loaded, view };
+    let integrator = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;
+    let mut setting = Setting { device, stage, integrator, loaded };
+    let mut structure = setting.create(spec)?;
     let mut all = Vec::new();
     // The first compiles kernels and grows pools.
     for number in 0..=count {
@@ -156,69 +175,87 @@ fn frames(device: &Device, loaded: &LoadedScene, spec: &Spec, size: [u32; 2], co
         }
     }
     let middle = |of: fn(&Frame) -> f64| median(&all.iter().map(of).collect::<Vec<_>>()).unwrap_or(f64::NAN);
-    Ok(Frame {
+    let frame = Frame {
         pose: middle(|frame| frame.pose),
         build: middle(|frame| frame.build),
         trace: middle(|frame| frame.trace),
         surfaces: middle(|frame| frame.surfaces),
         shade: middle(|frame| frame.shade),
-    })
+    };
+    // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the one that was
+    // timed did.
+    let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums))?;
+    setting.show(0)?;
+    setting.build(counting.as_mut())?;
+    setting.show(count)?;
+    setting.build(counting.as_mut())?;
+    let (_, counters) = setting.trace(counting.as_ref())?;
+    let rays = f64::from(width) * f64::from(height);
+    let per_ray = |of: fn(&QueueCounters) -> u64| counters.iter().map(of).sum::<u64>() as f64 / rays;
+    let work = Work {
+        cells: per_ray(|counters| counters.cells),
+        entries: per_ray(|counters| counters.entries),
+        tests: per_ray(|counters| counters.tests),
+    };
+    Ok((frame, work))
 }
 
 impl Setting<'_> {
-    /// One frame, each part waited for.
-    fn frame(&self, structure: &mut dyn Structure, number: u32) -> Result<Frame> {
-        let Self { device, scene, pose, integrator, loaded, view } = self;
-        let timing = device.best_timing();
-        let clips = loaded.scene.animation.rig.compatible_clips();
+    fn create(&self, spec: &Spec) -> Result<Box<dyn Structure>> {
+        let scene = &self.stage.scene;
+        Ok(spec.create(self.device, scene.geometry(), Some(scene.binding()))?)
+    }
+
+    /// Poses the scene for a frame: milliseconds.
+    fn show(&mut self, number: u32) -> Result<f64> {
+        let clips = self.loaded.scene.animation.rig.compatible_clips();
         let moment = Moment { seconds: f64::from(number) / 25.0, clips };
-        let started = std::time::Instant::now();
-        let at = pose.frame(&loaded.scene, &moment)?;
-        let host = started.elapsed().as_secs_f64() * 1.0e3;
-        let posed = device.submit_passes(timing, |recorder| {
-            pose.record(recorder, 0, &at);
-            scene.record_frame(recorder, view, Sampling::default());
-        })?;
-        let build = self.build(structure)?;
-        let mut passes = Vec::new();
-        let film = integrator.film();
-        for wave in waves(film.pixel_count(), 1, integrator.wave_capacity()) {
-            let traced = device.submit_passes(timing, |recorder| {
+        let shown = self.stage.pose(self.device, &self.loaded.scene, &moment, self.device.best_timing())?;
+        Ok(shown.host_milliseconds + total(&shown.passes, |_| true))
+    }
+
+    /// The build that is complete, milliseconds; those before it, in which pools grew, are not counted.
+    fn build(&self, structure: &mut dyn Structure) -> Result<f64> {
+        let (device, viewpoint) = (self.device, self.stage.scene.viewpoint());
+        let built = build_with_headroom(device, structure, viewpoint, device.best_timing(), HEADROOM)?;
+        Ok(built.prepare_milliseconds + total(&built.passes, |_| true))
+    }
+
+    /// Traces and shades one ray per pixel: times of the passes, and what each wave counted.
+    fn trace(&self, structure: &dyn Structure) -> Result<(Vec<PassTiming>, Vec<QueueCounters>)> {
+        let Self { device, integrator, .. } = self;
+        let (mut passes, mut counters) = (Vec::new(), Vec::new());
+        for wave in waves(integrator.film().pixel_count(), 1, integrator.wave_capacity()) {
+            let traced = device.submit_passes(device.best_timing(), |recorder| {
                 integrator.record_reset(recorder);
-                integrator.record_wave(recorder, (&*structure).into(), wave)
+                integrator.record_wave(recorder, structure.into(), wave)
             })?;
             traced.value?;
             passes.extend(traced.passes);
+            for queue in integrator.queues() {
+                counters.push(queue.download_counters(device)?);
+            }
         }
+        if counters.iter().any(|wave| wave.unfinished > 0 || wave.not_ready > 0) {
+            return Err(format!("{} left rays without an answer", structure.name()).into());
+        }
+        Ok((passes, counters))
+    }
+
+    /// One frame, each part waited for.
+    fn frame(&mut self, structure: &mut dyn Structure, number: u32) -> Result<Frame> {
+        let pose = self.show(number)?;
+        let build = self.build(structure)?;
+        let (passes, _) = self.trace(structure)?;
         let is_trace = |label: &str| label.contains("/trace_");
         let is_surfaces = |label: &str| label.contains("surface");
         Ok(Frame {
-            pose: host + total(&posed.passes, |_| true),
+            pose,
             build,
             trace: total(&passes, is_trace),
             surfaces: total(&passes, is_surfaces),
             shade: total(&passes, |label| !is_trace(label) && !is_surfaces(label)),
         })
-    }
-
-    /// The build that is complete, milliseconds; those before it, in which pools grew, are not counted.
-    fn build(&self, structure: &mut dyn Structure) -> Result<f64> {
-        let (device, viewpoint) = (self.device, self.scene.viewpoint());
-        for _ in 0..BUILDS {
-            let started = std::time::Instant::now();
-            structure.prepare_build(device)?;
-            let host = started.elapsed().as_secs_f64() * 1.0e3;
-            let built = device.submit_passes(device.best_timing(), |recorder| {
-                structure.record_build(recorder, 0, viewpoint)
-            })?;
-            built.value?;
-            let status = structure.status(0)?;
-            match structure.check(&status, HEADROOM)? {
-                Check::Complete => return Ok(host + total(&built.passes, |_| true)),
-                Check::Grow(sizes) => structure.resize(device, &sizes)?,
-            }
-        }
-        Err(format!("{} is not complete after {BUILDS} builds", structure.name()).into())
     }
 }
 

@@ -77,6 +77,17 @@ void bvh_set_children(BvhRef s, uint node, uint child_0, uint child_1) {
     }
 }
 
+// The other end of the run of records below a node.
+uint bvh_other_end(BvhRef s, uint node) {
+    return node < BVH_HEADER(s).node_capacity ? BVH_NODES(s)[node].other_end : node;
+}
+
+void bvh_set_other_end(BvhRef s, uint node, uint other_end) {
+    if (node < BVH_HEADER(s).node_capacity) {
+        BVH_NODES(s)[node].other_end = other_end;
+    }
+}
+
 void bvh_set_parent(BvhRef s, uint node, uint link) {
     if (node < BVH_HEADER(s).node_capacity) {
         BVH_NODES(s)[node].parent = link;

@@ -62,13 +62,6 @@ void main() {
     if (node == 0) {
         bvh_set_parent(build.structure, 0u, BVH_NONE);
     }
-    uint begin = uint(min(node, other_end));
-    uint middle = uint(last_of_first) + 1u;
-    uint end = uint(max(node, other_end)) + 1u;
-    vec3 lower;
-    vec3 upper;
-    union_of_run(begin, middle, lower, upper);
-    bvh_set_box(build.structure, link, lower, upper);
-    union_of_run(middle, end, lower, upper);
-    bvh_set_box(build.structure, link + 1u, lower, upper);
+    bvh_set_other_end(build.structure, uint(node), uint(other_end));
+    union_boxes(uint(node), uint(node), uint(other_end), uint(last_of_first));
 }

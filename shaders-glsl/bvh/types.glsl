@@ -17,7 +17,7 @@ struct BvhHeader {
     uint order_offset;      // word of the scratch pool with the primitive of the first record
     uint order_stride;      // words from one to the next
     vec3 lower;             // lower corner of the geometry, metres relative to the frame origin; Morton codes only
-    float spare_lower;      // zero
+    uint order;             // number of the order that the triangles are in, which the host counts
     vec3 cells_per_metre;   // cells of the Morton grid per metre, along each axis
     uint corrupted;         // references with an invalid index
     uvec2 nodes_address;    // device address of the nodes; zero with descriptors, as all that follow
@@ -39,7 +39,9 @@ struct BvhNode {
     // root
     uint parent;
     vec3 upper_1;           // upper corner of the second child
-    uint spare;             // zero, or undefined in a tree built on the device
+    // the other end of the run of records below this node, one end of which has the node's number; zero in a tree of the
+    // host
+    uint other_end;
 };
 
 // A triangle in the order of the leaves. 40 bytes.

@@ -1,5 +1,5 @@
 // What: boxes of runs of records, put together from unions of 4, 16, 64 ... of them.
-// Reads: records, scratch (unions). Writes: nothing.
+// Reads: records, scratch (unions). Writes: nodes (boxes).
 #ifndef BVH_UNIONS_GLSL
 #define BVH_UNIONS_GLSL
 
@@ -48,6 +48,18 @@ void union_of_run(uint begin, uint end, out vec3 lower, out vec3 upper) {
         offset = union_offset(level, offset, count);
         count = union_count(count);
     }
+}
+
+// Sets the boxes of a node whose run of records goes from one place to another, both inclusive, in either order; the last
+// record of its first child is `last_of_first`.
+void union_boxes(uint node, uint one_end, uint other_end, uint last_of_first) {
+    uint middle = last_of_first + 1u;
+    vec3 lower;
+    vec3 upper;
+    union_of_run(min(one_end, other_end), middle, lower, upper);
+    bvh_set_box(build.structure, 2u * node, lower, upper);
+    union_of_run(middle, max(one_end, other_end) + 1u, lower, upper);
+    bvh_set_box(build.structure, 2u * node + 1u, lower, upper);
 }
 
 #endif

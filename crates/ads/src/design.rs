@@ -186,6 +186,12 @@ pub trait Design: fmt::Debug + Sized {
     /// Drops what the host keeps of the last build: pools or triangles are others now.
     fn forget(&mut self) {}
 
+    /// The host has read that the build with this header was complete, in the pools that there are.
+    fn completed(&self, _header: &Self::Header) {}
+
+    /// Pools were written from outside: nothing that an earlier build left in them can be relied on.
+    fn overwritten(&self) {}
+
     /// The header that the next build starts from: options, capacities, addresses, eye. What follows from the bounds of the
     /// geometry, which only the device knows, is worked out there: by the structure's `from_bounds.glsl`.
     ///

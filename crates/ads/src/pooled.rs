@@ -127,6 +127,7 @@ impl<D: Design> Pooled<D> {
     /// # Errors
     /// A pool is larger than what was allocated, or the device failed.
     pub fn upload(&self, device: &Device, contents: &D::Contents) -> Result<(), GpuError> {
+        self.design.overwritten();
         let (header, pools) = D::pools_of(contents);
         device.upload(self.parts.pools.header_buffer(), 0, bytes_of(&header))?;
         pools.into_iter().try_for_each(|(pool, bytes)| device.upload(self.parts.pools.pool(pool), 0, bytes))
@@ -251,6 +252,9 @@ impl<D: Design> Structure for Pooled<D> {
         );
         let was_complete = word(0) & STATUS_COMPLETE != 0;
         let is_current = self.parts.pools.are_of(slot);
+        if was_complete && is_current {
+            self.design.completed(&header);
+        }
         Ok(BuildStatus {
             complete: was_complete && is_current,
             was_complete,
@@ -331,6 +335,7 @@ impl<D: Design> Structure for Pooled<D> {
     }
 
     fn upload_pools(&self, device: &Device, pools: &[(&'static str, Vec<u32>)]) -> Result<(), GpuError> {
+        self.design.overwritten();
         let named = |name| D::Pool::ALL.iter().find(|pool| pool.name() == name);
         pools.iter().filter_map(|(name, words)| Some((named(*name)?, words))).try_for_each(|(pool, words)| {
             device.upload(self.parts.pools.pool(*pool), 0, bytemuck::cast_slice(words))

@@ -29,6 +29,8 @@ struct LbvhPipelines {
     scatter: ComputePipeline,
     unions: ComputePipeline,
     topology: ComputePipeline,
+    /// Where later builds keep the order of the first.
+    refit: Option<ComputePipeline>,
 }
 
 impl Build {
@@ -36,16 +38,17 @@ impl Build {
         let compute = |name| pipelines.compute(name);
         let of_builder = match config.builder {
             Builder::Sah => OfBuilder::Sah { boxes: compute("build_1_boxes")? },
-            Builder::Lbvh => OfBuilder::Lbvh(Box::new(LbvhPipelines {
+            builder @ (Builder::Lbvh | Builder::Refit) => OfBuilder::Lbvh(Box::new(LbvhPipelines {
                 codes: compute("build_2_codes")?,
                 counts: compute("build_3_counts")?,
                 scan: Scan::new(pipelines, "build_4_scan")?,
                 scatter: compute("build_5_scatter")?,
                 unions: compute("build_7_unions")?,
                 topology: compute("build_8_topology")?,
+                refit: if builder == Builder::Refit { Some(compute("build_9_refit")?) } else { None },
             })),
         };
-        Ok(Self { of_builder, records: compute("build_6_records")?, status: compute("build_9_status")? })
+        Ok(Self { of_builder, records: compute("build_6_records")?, status: compute("build_10_status")? })
     }
 
     /// Records what the host needs to know of the triangles. The host has written the header.
@@ -58,18 +61,27 @@ impl Build {
         recorder.end_pass();
     }
 
-    /// Records all passes. The host has written the header.
-    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+    /// Records all passes, but for those that order triangles where `keeps_order`. The host has written the header.
+    pub(crate) fn record(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>, keeps_order: bool) {
         record_header(recorder, target);
         let triangles = target.geometry.triangle_count();
-        if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
+        let refit = match &self.of_builder {
+            OfBuilder::Lbvh(pipelines) => pipelines.refit.as_ref().filter(|_| keeps_order),
+            OfBuilder::Sah { .. } => None,
+        };
+        if let (OfBuilder::Lbvh(pipelines), None) = (&self.of_builder, refit) {
             pipelines.record_order(recorder, target);
         }
         pass(recorder, target, "bvh/build_6_records", &self.records, 0, triangles);
         if let OfBuilder::Lbvh(pipelines) = &self.of_builder {
-            pipelines.record_nodes(recorder, target);
+            let (label, nodes) = match refit {
+                Some(refit) => ("bvh/build_9_refit", refit),
+                None => ("bvh/build_8_topology", &pipelines.topology),
+            };
+            pipelines.record_unions(recorder, target);
+            pass(recorder, target, label, nodes, 0, triangles.saturating_sub(1));
         }
-        target.status_pass(recorder, "bvh/build_9_status", &self.status);
+        target.status_pass(recorder, "bvh/build_10_status", &self.status);
     }
 }
 
@@ -88,14 +100,12 @@ impl LbvhPipelines {
         }
     }
 
-    /// Nodes over the records.
-    fn record_nodes(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
+    /// Unions of the records' boxes.
+    fn record_unions(&self, recorder: &mut Recorder<'_>, target: BuildTarget<'_>) {
         let triangles = target.geometry.triangle_count();
         for (level, boxes) in (0..).zip(union_levels(triangles.into())) {
             pass(recorder, target, "bvh/build_7_unions", &self.unions, level, boxes as u32);
         }
-        let nodes = triangles.saturating_sub(1);
-        pass(recorder, target, "bvh/build_8_topology", &self.topology, 0, nodes);
     }
 }
 

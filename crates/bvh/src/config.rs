@@ -10,6 +10,9 @@ pub enum Builder {
     Sah,
     /// The device, by Morton codes: fast to build, slower to trace.
     Lbvh,
+    /// The device: the first tree by Morton codes, after that only its boxes, over the same order of the triangles. Fastest
+    /// to build, and slower to trace the farther the triangles have moved since the first build.
+    Refit,
 }
 
 impl Builder {
@@ -18,6 +21,7 @@ impl Builder {
         match self {
             Self::Sah => "sah",
             Self::Lbvh => "lbvh",
+            Self::Refit => "refit",
         }
     }
 }
@@ -74,7 +78,7 @@ impl Config {
     pub fn paths(&self) -> Vec<(&'static str, String)> {
         let builder = match self.builder {
             Builder::Sah => "host",
-            Builder::Lbvh => "device",
+            Builder::Lbvh | Builder::Refit => "device",
         };
         vec![("builder", builder.to_owned()), ("addressing", self.addressing.name().to_owned())]
     }

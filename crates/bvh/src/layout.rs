@@ -15,7 +15,7 @@ pub(crate) const BOX_WORDS: u64 = 6;
 fn scratch_words(builder: Builder, triangles: u64) -> u64 {
     match builder {
         Builder::Sah => (BOX_WORDS + 1) * triangles,
-        Builder::Lbvh => {
+        Builder::Lbvh | Builder::Refit => {
             let chunks = triangles.div_ceil(BVH_SORT_CHUNK.into());
             let counts = u64::from(BVH_DIGIT_VALUES) * chunks;
             4 * triangles + counts + Scan::sums(counts) + 6 * unions(triangles)
@@ -60,7 +60,7 @@ pub fn plan(config: &Config, triangles: u64) -> Result<Sizes, AdsError> {
 pub struct FormulaBytes {
     /// What traces read: header 96, 64 per node, 40 per triangle.
     pub traced: u64,
-    /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by [`Builder::Lbvh`] 16 per triangle, 1024
+    /// What only the build uses: 28 per triangle by [`Builder::Sah`]; by the others 16 per triangle, 1024
     /// for every 256 of them, 4 for every 1024 of them, and 24 per union of four boxes, unions of unions
     /// included, each rounded up.
     pub scratch: u64,
@@ -77,7 +77,7 @@ impl FormulaBytes {
 pub fn formula_bytes(builder: Builder, nodes: u64, triangles: u64) -> FormulaBytes {
     let scratch = match builder {
         Builder::Sah => 28 * triangles,
-        Builder::Lbvh => {
+        Builder::Lbvh | Builder::Refit => {
             let (mut boxes, mut level) = (0, triangles);
             while level > 1 {
                 level = level.div_ceil(4);
@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn plan_equals_formula() {
-        for builder in [Builder::Sah, Builder::Lbvh] {
+        for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
             for triangles in [1_u64, 2, 255, 256, 257, 12_345, 300_000] {
                 let sizes = plan(&Config::new(builder), triangles).expect("options are in range");
                 let formula = formula_bytes(builder, triangles - 1, triangles);

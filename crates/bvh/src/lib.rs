@@ -1,9 +1,10 @@
 //! Bounding volume hierarchies: the baseline that structures in image space are compared with, behind the
 //! same contract and with the same triangle test, so that hits are identical and only speed differs.
 //!
-//! Two builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected
+//! Builders make trees of one format, which one traversal reads: [`Builder::Sah`] lowers the expected
 //! cost by surface area on the host, [`Builder::Lbvh`] sorts triangles along a Morton curve on the device
-//! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012). See
+//! (Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", HPG 2012), and
+//! [`Builder::Refit`] does so once and then only finds boxes anew. See
 //! `docs/systems/bvh.md` for passes, bytes, options, limits and departures.
 //!
 //! [`Bvh`] implements [`rasray_ads::Structure`]; its contract says who waits and when to resize.
@@ -12,6 +13,7 @@ mod build;
 mod config;
 mod host;
 mod layout;
+mod order;
 mod pool;
 mod structure;
 mod validate;

@@ -8,11 +8,12 @@ use rasray_ads::{
     SceneBinding, Sizes, StructureKind, StructureReport, Viewpoint,
 };
 use rasray_gpu::{BindingSet, Device, Feature, GpuError, Recorder, Requirements};
-use rasray_shaders_glsl::constants::bvh::BVH_NONE;
+use rasray_shaders_glsl::constants::bvh::{BVH_LEAF, BVH_NONE};
 
 use crate::build::Build;
 use crate::host::{self, Box3};
 use crate::layout::{BOX_WORDS, NAME, formula_bytes, plan};
+use crate::order::Order;
 use crate::{Builder, Config, Contents, Header, Node, Pool, Record, well_formed};
 
 /// Rounds that a trace records at first. Each costs two dispatches, also where no ray is left, and only a ray that
@@ -30,6 +31,10 @@ pub struct Tree {
     prepared: Option<Prepared>,
     /// Inner nodes of the last build recorded.
     nodes: u64,
+    /// The order of the triangles that later builds may keep.
+    order: Order,
+    /// Whether the next build recorded keeps it.
+    keeps_order: bool,
 }
 
 /// What a tree takes.
@@ -59,6 +64,16 @@ fn on_device(triangles: u32) -> Prepared {
     Prepared { root: BVH_NONE, nodes: triangles.saturating_sub(1).into(), triangles }
 }
 
+/// The same tree where its order is kept: the number of triangles is the one that it was made for.
+fn refitted(triangles: u32) -> Prepared {
+    let root = match triangles {
+        0 => BVH_NONE,
+        1 => BVH_LEAF,
+        _ => 0,
+    };
+    Prepared { root, ..on_device(triangles) }
+}
+
 /// Whether the capacity suffices for the tree. It has no partial form: unless all of it fits, nothing is built.
 fn has_capacity(parts: &Parts<Config>) -> bool {
     let Parts { config, geometry, pools, .. } = parts;
@@ -75,7 +90,7 @@ fn first_header(parts: &Parts<Config>, Prepared { root, triangles, .. }: Prepare
     // Where the primitive of each record stands: behind the boxes, or in the second word of each key.
     let (order_offset, order_stride) = match config.builder {
         Builder::Sah => (BOX_WORDS as u32 * triangles, 1),
-        Builder::Lbvh => (1, 2),
+        Builder::Lbvh | Builder::Refit => (1, 2),
     };
     Header {
         root,
@@ -163,7 +178,13 @@ impl Design for Tree {
         config: &Config,
         _scene: Option<&SceneBinding>,
     ) -> Result<Self, AdsError> {
-        Ok(Self { build: Build::new(pipelines, config)?, prepared: None, nodes: 0 })
+        Ok(Self {
+            build: Build::new(pipelines, config)?,
+            prepared: None,
+            nodes: 0,
+            order: Order::default(),
+            keeps_order: false,
+        })
     }
 
     fn builds_on_host(config: &Config) -> bool {
@@ -195,20 +216,34 @@ impl Design for Tree {
 
     fn forget(&mut self) {
         self.prepared = None;
+        self.order.forget();
+    }
+
+    fn completed(&self, header: &Header) {
+        self.order.see(header.order);
+    }
+
+    fn overwritten(&self) {
+        self.order.forget();
     }
 
     fn first_header(&mut self, parts: &Parts<Config>, _viewpoint: Viewpoint) -> Result<Header, AdsError> {
+        let triangles = parts.geometry.triangle_count();
+        // A number of triangles that the device counts may be another one in each build.
+        let is_fixed = parts.geometry.desc().count.is_none();
+        self.keeps_order = parts.config.builder == Builder::Refit && is_fixed && self.order.is_kept();
         let prepared = match parts.config.builder {
             // The triangles may have moved since, so a tree serves one build.
             Builder::Sah => self.prepared.take().ok_or(AdsError::NotPrepared { structure: NAME })?,
-            Builder::Lbvh => on_device(parts.geometry.triangle_count()),
+            Builder::Refit if self.keeps_order => refitted(triangles),
+            Builder::Lbvh | Builder::Refit => on_device(triangles),
         };
         self.nodes = prepared.nodes;
-        Ok(first_header(parts, prepared))
+        Ok(Header { order: self.order.number(), ..first_header(parts, prepared) })
     }
 
     fn record_passes(&self, recorder: &mut Recorder<'_>, parts: &Parts<Config>, scene: Option<&BindingSet>) {
-        self.build.record(recorder, parts.target(scene));
+        self.build.record(recorder, parts.target(scene), self.keeps_order);
     }
 
     fn asked(&self, parts: &Parts<Config>, _header: &Header) -> Demand {

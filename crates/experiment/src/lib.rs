@@ -68,6 +68,7 @@ pub use jobs::{
 pub use kept_files::NamedBytes;
 pub use key::{KeyHash, picture_key};
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
+pub use moving_stage::Shown;
 pub use placed::{Placed, case_camera};
 pub use rasray_gpu::PassCommands;
 pub use rays::{RaySource, incoherent_rays, oracle_ray};

@@ -1,6 +1,8 @@
 //! Scenes on a device that moves them.
 
-use rasray_gpu::Device;
+use std::time::Instant;
+
+use rasray_gpu::{Device, PassTiming, Timing};
 use rasray_gpu_scene::{PosePass, SceneTables};
 use rasray_scene::needs::Needs;
 use rasray_scene::{Camera, Moment, Scene};
@@ -38,7 +40,7 @@ impl Stage {
             return Self::new(device, job.scene, &job.camera, [width, height], seed, &job.needs);
         };
         let mut stage = Self::moving(device, job.scene, &job.camera, [width, height], seed, &job.needs)?;
-        stage.pose(device, job.scene, moment)?;
+        stage.pose(device, job.scene, moment, Timing::None)?;
         Ok(stage)
     }
 
@@ -53,12 +55,30 @@ impl Stage {
     ///
     /// # Errors
     /// Its deformer or the device fails, or nothing here moves.
-    pub fn pose(&mut self, device: &Device, scene: &Scene, moment: &Moment) -> Result<(), ExperimentError> {
+    pub fn pose(
+        &mut self,
+        device: &Device,
+        scene: &Scene,
+        moment: &Moment,
+        timing: Timing,
+    ) -> Result<Shown, ExperimentError> {
         let Some(pass) = &self.pose else {
             return Err(device_error("a scene is to be posed that was not made to move"));
         };
+        let started = Instant::now();
         let pose = pass.frame(scene, moment).map_err(scene_error)?;
-        device.submit(|recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
-        Ok(())
+        let host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
+        let submitted =
+            device.submit_passes(timing, |recorder| pass.record(recorder, 0, &pose)).map_err(device_error)?;
+        Ok(Shown { host_milliseconds, passes: submitted.passes })
     }
+}
+
+/// What showing a moment took.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    /// On the host, milliseconds: matrices of a rig, or what a deformer simulated or read.
+    pub host_milliseconds: f64,
+    /// On the device.
+    pub passes: Vec<PassTiming>,
 }

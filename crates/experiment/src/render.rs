@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use rasray_gpu::Device;
+use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
 use rasray_integrators::{AovPass, Traced, Wave, waves};
 use rasray_scene::needs::Needs;
@@ -114,7 +114,7 @@ fn stage_of(device: &Device, job: &RenderJob<'_>, before: Option<Stage>) -> Resu
     };
     let Frame { width, height, seed, .. } = job.frame;
     stage.look(&View { camera: job.camera.clone(), width, height, seed })?;
-    stage.pose(device, job.scene, moment)?;
+    stage.pose(device, job.scene, moment, Timing::None)?;
     Ok(stage)
 }
 

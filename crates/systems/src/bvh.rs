@@ -25,7 +25,8 @@ pub(crate) const SYSTEM: System = System {
 /// Options, each with what it sets.
 const OPTIONS: &[Setter<Config>] = &[
     ("builder", |config, given| {
-        given.choice(&[("sah", Builder::Sah), ("lbvh", Builder::Lbvh)]).map(|value| config.builder = value)
+        let builders = [Builder::Sah, Builder::Lbvh, Builder::Refit].map(|builder| (builder.name(), builder));
+        given.choice(&builders).map(|value| config.builder = value)
     }),
     ("leaf", |config, given| given.number().map(|value| config.leaf = value)),
     ("addressing", |config, given| given.addressing().map(|value| config.addressing = value)),

@@ -320,6 +320,7 @@ pub const OPTIONS: &[OptionRow] = &[
         &[
             ("sah", "A tree by the surface area heuristic, on the host"),
             ("lbvh", "A tree by Morton codes, on the device"),
+            ("refit", "The same, and later builds while the triangles stay find only its boxes anew"),
             ("raster", "Cells, by drawing"),
             ("binning", "Cells, by computing"),
         ],

@@ -38,6 +38,21 @@ pub fn build_until_complete(
     viewpoint: impl Into<Viewpoint>,
     timing: Timing,
 ) -> Result<BuildOutcome, TracerError> {
+    build_with_headroom(device, structure, viewpoint, timing, 0)
+}
+
+/// The same, with pools that grow by `headroom` percent beyond their demand, so that a build with a little more demand is
+/// complete at once.
+///
+/// # Errors
+/// As [`build_until_complete`].
+pub fn build_with_headroom(
+    device: &Device,
+    structure: &mut dyn Structure,
+    viewpoint: impl Into<Viewpoint>,
+    timing: Timing,
+    headroom: u32,
+) -> Result<BuildOutcome, TracerError> {
     let viewpoint = viewpoint.into();
     let mut outcome = BuildOutcome::default();
     loop {
@@ -50,7 +65,7 @@ pub fn build_until_complete(
         outcome.host_milliseconds = started.elapsed().as_secs_f64() * 1.0e3;
         outcome.passes = submitted.passes;
         outcome.status = structure.status(0)?;
-        match structure.check(&outcome.status, 0)? {
+        match structure.check(&outcome.status, headroom)? {
             Check::Complete if outcome.status.complete => return Ok(outcome),
             Check::Grow(sizes) if outcome.regrows < REBUILDS => {
                 tracing::debug!(

@@ -6,7 +6,7 @@ use rasray_experiment::{
     Accumulation, Built, Chosen, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity,
     texels, work_per_pixel,
 };
-use rasray_gpu::Device;
+use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
 use rasray_report::Pass;
 use rasray_scene::Camera;
@@ -202,7 +202,7 @@ impl Engine {
         if self.posed != seconds
             && let (Some((stage, _)), Some(moment)) = (&mut self.stage, &self.scene.loaded().moment)
         {
-            stage.pose(&self.device, &self.scene.loaded().scene, moment)?;
+            stage.pose(&self.device, &self.scene.loaded().scene, moment, Timing::None)?;
             self.posed = seconds;
         }
         Ok(camera)

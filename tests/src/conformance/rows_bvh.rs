@@ -6,6 +6,8 @@ use super::row::{Cases, Row, Tier};
 pub(super) const ROWS: &[Row] = &[
     Row::exact("bvh-sah", "bvh", &[("builder", "sah")], Tier::Quick, Cases::All),
     Row::exact("bvh-lbvh", "bvh", &[("builder", "lbvh")], Tier::Quick, Cases::All),
+    // On cases its first build is that by Morton codes; scenes that move have the others.
+    Row::exact("bvh-refit", "bvh", &[("builder", "refit")], Tier::Full, Cases::All),
     Row::exact("grid", "grid", &[], Tier::Quick, Cases::All),
     Row::exact("brute-force", "brute-force", &[], Tier::Quick, Cases::All),
 ];

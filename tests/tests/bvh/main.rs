@@ -2,4 +2,5 @@
 
 mod hits;
 mod oracle;
+mod refit;
 mod trees;

@@ -125,7 +125,7 @@ fn trees_by_morton_codes_are_sound() {
 fn a_tree_is_the_same_every_time() {
     let bench = Bench::new();
     let triangles = scattered(3000, 8, 0.2);
-    for builder in [Builder::Sah, Builder::Lbvh] {
+    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
         let config = Config::new(builder);
         let (first, second) = (build(&bench, config, &triangles), build(&bench, config, &triangles));
         assert!(first.records == second.records, "{builder:?}");
@@ -156,7 +156,7 @@ fn surface_area_gives_cheaper_trees_and_leaves_of_the_size_asked_for() {
 fn damaged_trees_are_noticed() {
     let bench = Bench::new();
     let triangles = scattered(300, 10, 0.2);
-    for builder in [Builder::Sah, Builder::Lbvh] {
+    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
         let sound = build(&bench, Config::new(builder), &triangles);
         let damaged = |damage: fn(&mut Contents)| {
             let mut contents = sound.clone();
@@ -210,7 +210,7 @@ fn every_edge_capacity() {
     let geometry = bench.geometry(&triangles);
     let mut random = Random::new(10);
     let rays: Vec<_> = (0..500).map(|_| Ray::new(random.point(-6.0, 6.0), random.direction())).collect();
-    for builder in [Builder::Sah, Builder::Lbvh] {
+    for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
         let config = Config::new(builder);
         let full = plan(&config, triangles.len() as u64).expect("in range");
         let mut bvh = Bvh::new(device, config, &geometry, None).expect("the options are valid");

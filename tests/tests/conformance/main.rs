@@ -3,6 +3,7 @@
 mod evaluate;
 mod hard_counts;
 mod laws;
+mod moving;
 mod oracle_hierarchy;
 mod report;
 mod rows;

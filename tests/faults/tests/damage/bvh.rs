@@ -56,7 +56,7 @@ fn check(config: Config) {
 #[test]
 fn damaged_trees_are_survived_and_told() {
     if in_child("bvh::damaged_trees_are_survived_and_told") {
-        for builder in [Builder::Sah, Builder::Lbvh] {
+        for builder in [Builder::Sah, Builder::Lbvh, Builder::Refit] {
             for addressing in [Addressing::Descriptor, Addressing::Address] {
                 check(Config { addressing, ..Config::new(builder) });
             }
