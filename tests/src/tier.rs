@@ -26,6 +26,12 @@ pub fn first<T>(all: &[T], quick: usize) -> &[T] {
     if is_full() { all } else { &all[..quick] }
 }
 
+/// Whether this run tries a pair of two lists, by the places of both: every pair in the full tier, one of `share` in the
+/// quick one. Each place of either list then occurs in some pair, where the other list has `share` places or more.
+pub fn is_pair(one: usize, other: usize, share: usize) -> bool {
+    is_full() || (one + other).is_multiple_of(share)
+}
+
 /// How often something is done, by tier and kind of device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts<T> {

@@ -38,4 +38,4 @@ pub use prepare::Prepared;
 pub use rasray_experiment::Measured;
 pub use rounds::trace_in_rounds;
 pub use row::{Cases, Curve, DEEP, Demand, Deviation, Law, Row, Tier};
-pub use rows::{ROWS, comparisons};
+pub use rows::{LARGE, ROWS, SHARE, comparisons, is_held};

@@ -1,7 +1,8 @@
 use std::sync::LazyLock;
 
-use super::{Row, rows_bricks, rows_bvh, rows_dirt, rows_ldc, rows_mmrt, rows_voxel};
+use super::{DEEP, Row, rows_bricks, rows_bvh, rows_dirt, rows_ldc, rows_mmrt, rows_voxel};
 use crate::hard_cases;
+use crate::tier::is_pair;
 
 /// All rows, system by system.
 pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
@@ -14,4 +15,29 @@ pub static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
 pub fn comparisons() -> usize {
     let cases = |row: &Row| hard_cases::ids().iter().filter(|id| row.cases.contain(id)).count();
     ROWS.iter().map(|row| 4 * cases(row)).sum()
+}
+
+/// Of the rows and cases that go together, the quick tier holds one pair of so many.
+pub const SHARE: usize = 4;
+
+/// Cases of a hundred thousand triangles and more, which take software drivers far longer than others.
+pub const LARGE: &[&str] = &["E2-400", "E2-400-far", "C3", "C3-random"];
+
+/// What [`SHARE`] is for [`LARGE`] cases: no more than there are rows of either kind.
+const LARGE_SHARE: usize = 10;
+
+/// Whether this run holds a row against a case: in the full tier every pair. In the quick one rows and cases go round
+/// against each other, apart for rows that find triangles without loss and for others, and apart for [`DEEP`], [`LARGE`]
+/// and other cases: each row has some of the deep and some of the other cases that it is held against, each case some
+/// rows of each kind.
+pub fn is_held(row: &Row, case: &str) -> bool {
+    let is_alike = |other: &&Row| {
+        other.is_exact() == row.is_exact() && other.tier == row.tier && other.cases.contain(case)
+    };
+    let row_place = ROWS.iter().filter(is_alike).position(|other| other.name == row.name);
+    let sort = |id: &str| (DEEP.contains(&id), LARGE.contains(&id));
+    let ids = hard_cases::ids();
+    let case_place = ids.iter().filter(|id| sort(id) == sort(case)).position(|id| *id == case);
+    let share = if LARGE.contains(&case) { LARGE_SHARE } else { SHARE };
+    row_place.zip(case_place).is_some_and(|(row, case)| is_pair(row, case, share))
 }

@@ -8,7 +8,8 @@ use std::time::Instant;
 use rasray_report::Run;
 use rasray_systems::SYSTEMS;
 use rasray_tests::conformance::{
-    Demand, Law, Prepared, ROWS, Row, Tier, answers, compare, evaluate, first_other, measure,
+    Demand, LARGE, Law, Prepared, ROWS, Row, SHARE, Tier, answers, compare, evaluate, first_other, is_held,
+    measure,
 };
 use rasray_tests::hard_cases::{self, Scale, Target};
 use rasray_tests::harness::Bench;
@@ -17,10 +18,10 @@ use rasray_tests::tier::{Counts, is_full};
 use crate::report;
 
 /// Rays of a case for rows that find triangles without loss.
-const RAYS: Counts<usize> = Counts { quick: 2000, software: 20_000, full: 150_000 };
+const RAYS: Counts<usize> = Counts { quick: 1000, software: 20_000, full: 150_000 };
 
 /// Maximum product of rays and triangles of a case, for rows that find triangles without loss and build something.
-const TESTS: Counts<usize> = Counts { quick: 1_000_000_000, software: 2_000_000_000, full: 10_000_000_000 };
+const TESTS: Counts<usize> = Counts { quick: 250_000_000, software: 2_000_000_000, full: 10_000_000_000 };
 
 /// The share of that for brute force, which tests every triangle against every ray.
 const BRUTE_FORCE: usize = 20;
@@ -68,7 +69,8 @@ fn progress(what: &str) {
 /// Names the rows to be run.
 const WANTED: &str = "RASRAY_ROWS";
 
-/// The rows to be run: with `RASRAY_ROWS` set only those whose name holds one of its words, which commas part.
+/// The rows to be run: with `RASRAY_ROWS` set only those whose name holds one of its words, which commas part. These go
+/// through all of their cases, in the quick tier as well.
 fn wanted_rows() -> Vec<&'static Row> {
     let words = std::env::var_os(WANTED).map(|words| words.to_string_lossy().into_owned());
     let (wanted, others): (Vec<&Row>, Vec<&Row>) = ROWS.iter().partition(|row| {
@@ -88,8 +90,9 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
     let mut rows = rows.to_vec();
     rows.sort_by_key(|row| (row.is_exact(), row.system == "brute-force"));
     let mut rows: Vec<_> = rows.into_iter().map(|row| (row, row.make(bench, &placeholder))).collect();
+    let is_every_pair = std::env::var_os(WANTED).is_some();
     // Those that are named may all belong to another tier or kind.
-    assert!(!rows.is_empty() || std::env::var_os(WANTED).is_some());
+    assert!(!rows.is_empty() || is_every_pair);
     for (row, structure) in &rows {
         assert_eq!(
             structure.kind(),
@@ -101,7 +104,8 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
     for id in hard_cases::ids() {
         // Ten million triangles have a test of their own.
         let is_huge = scale.full && id.starts_with("C3");
-        if is_huge || !rows.iter().any(|(row, _)| row.cases.contain(id)) {
+        let is_due = |row: &Row| row.cases.contain(id) && (is_every_pair || is_held(row, id));
+        if is_huge || !rows.iter().any(|(row, _)| is_due(row)) {
             continue;
         }
         let mut case = hard_cases::case(id, scale).expect("the id is in the catalogue");
@@ -110,12 +114,12 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
             tests / share / case.triangles.len().max(1)
         };
         let most: Vec<_> = rows.iter().map(|(row, _)| most(row)).collect();
-        if rows.iter().all(|(row, _)| row.is_exact()) {
+        if rows.iter().all(|(row, _)| row.is_exact() || !is_due(row)) {
             case.rays.truncate(most.iter().copied().max().unwrap_or(0));
         }
         let mut prepared = Prepared::new(bench, case);
         for ((row, structure), most) in rows.iter_mut().zip(most) {
-            if !row.cases.contain(id) {
+            if !is_due(row) {
                 continue;
             }
             // Where all triangles are in one place, every structure tests them all.
@@ -158,7 +162,7 @@ fn hold(bench: &Bench, rows: &[&'static Row], scale: Scale, tests: usize, held: 
 fn every_row_keeps_its_demand_on_every_case() {
     let quick: Vec<_> = wanted_rows().into_iter().filter(|row| row.tier == Tier::Quick).collect();
     let mut held = Held::default();
-    hold(&Bench::new(), &quick, Scale::QUICK, TESTS.quick, &mut held);
+    hold(&Bench::new(), &quick, Scale { rays: RAYS.quick, ..Scale::QUICK }, TESTS.quick, &mut held);
     held.check();
 }
 
@@ -178,6 +182,26 @@ fn every_row_keeps_its_demand_at_large_counts() {
     hold(&bench, &evaluated_by_rate, RATES_FULL, 0, &mut held);
     report::write(&bench, std::mem::take(&mut held.runs));
     held.check();
+}
+
+#[test]
+fn every_case_and_row_has_its_share_of_the_quick_tier() {
+    let ids = hard_cases::ids();
+    let quick: Vec<&Row> = ROWS.iter().filter(|row| row.tier == Tier::Quick).collect();
+    for row in &quick {
+        let own = ids.iter().filter(|id| row.cases.contain(id) && !LARGE.contains(id)).count();
+        let held = ids.iter().filter(|id| is_held(row, id)).count();
+        assert!(held >= (own / SHARE).max(1), "{} is held to {held} of {own} cases", row.name);
+        assert!(ids.iter().all(|id| row.cases.contain(id) || !is_held(row, id)), "{}", row.name);
+    }
+    let pairs = |row: &&Row| ids.iter().filter(|id| is_held(row, id)).count();
+    println!("{} pairs of rows and cases", quick.iter().map(pairs).sum::<usize>());
+    for id in &ids {
+        for is_exact in [true, false] {
+            let held = quick.iter().filter(|row| row.is_exact() == is_exact && is_held(row, id)).count();
+            assert!(held >= 1, "no row that finds triangles without loss ({is_exact}) is held to {id}");
+        }
+    }
 }
 
 #[test]

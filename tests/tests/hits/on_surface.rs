@@ -9,7 +9,7 @@ use rasray_tests::random::Random;
 use rasray_tests::shapes::{Triangle, sphere};
 use rasray_tests::tier::Counts;
 
-const RAYS: Counts<usize> = Counts { quick: 20_000, software: 100_000, full: 1_000_000 };
+const RAYS: Counts<usize> = Counts { quick: 5000, software: 100_000, full: 1_000_000 };
 
 /// Maximum number of triangles for brute force: each costs every ray a test.
 const BRUTE_FORCE: usize = 10_000;
