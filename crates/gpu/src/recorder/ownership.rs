@@ -12,14 +12,8 @@ impl Recorder<'_> {
     /// orders the two. No byte is in two ranges. Nothing is recorded where the family is
     /// that of the device.
     pub fn acquire(&mut self, ranges: &[BufferRange<'_>], from_family: u32, to: Access) {
-        let own = self.core().queue_family;
-        let (stages, access) = to.scope(self.core().graphics);
-        // All stages before: whichever the semaphore is waited for in.
-        let half = vk::BufferMemoryBarrier2::default()
-            .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
-            .dst_stage_mask(stages)
-            .dst_access_mask(access);
-        self.transfer(ranges, half.src_queue_family_index(from_family).dst_queue_family_index(own));
+        let half = acquiring(from_family, self.core().queue_family, to, self.core().graphics);
+        self.transfer(ranges, half);
     }
 
     /// Hands ranges of buffers over to another queue family, after accesses `from` to them: the first half of a transfer
@@ -27,13 +21,8 @@ impl Recorder<'_> {
     /// orders the two. No byte is in two ranges. Nothing is recorded where the family is
     /// that of the device.
     pub fn release(&mut self, ranges: &[BufferRange<'_>], to_family: u32, from: Access) {
-        let own = self.core().queue_family;
-        let (stages, access) = from.scope(self.core().graphics);
-        let half = vk::BufferMemoryBarrier2::default()
-            .src_stage_mask(stages)
-            .src_access_mask(access)
-            .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS);
-        self.transfer(ranges, half.src_queue_family_index(own).dst_queue_family_index(to_family));
+        let half = releasing(self.core().queue_family, to_family, from, self.core().graphics);
+        self.transfer(ranges, half);
     }
 
     fn transfer(&mut self, ranges: &[BufferRange<'_>], half: vk::BufferMemoryBarrier2<'_>) {
@@ -58,6 +47,36 @@ impl Recorder<'_> {
     }
 }
 
+/// What a queue of `own` does of a transfer from another family. Accesses before it are those of the other half.
+fn acquiring(from: u32, own: u32, to: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
+    let (stages, access) = scope_of_queue(to, graphics);
+    // All stages before: whichever the semaphore is waited for in.
+    vk::BufferMemoryBarrier2::default()
+        .src_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+        .dst_stage_mask(stages)
+        .dst_access_mask(access)
+        .src_queue_family_index(from)
+        .dst_queue_family_index(own)
+}
+
+/// What a queue of `own` does of a transfer to another family. Accesses after it are those of the other half.
+fn releasing(own: u32, to: u32, from: Access, graphics: bool) -> vk::BufferMemoryBarrier2<'static> {
+    let (stages, access) = scope_of_queue(from, graphics);
+    vk::BufferMemoryBarrier2::default()
+        .src_stage_mask(stages)
+        .src_access_mask(access)
+        .dst_stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)
+        .src_queue_family_index(own)
+        .dst_queue_family_index(to)
+}
+
+/// Stages and accesses without those of the host, which no transfer between families may have.
+fn scope_of_queue(access: Access, graphics: bool) -> (vk::PipelineStageFlags2, vk::AccessFlags2) {
+    let (stages, flags) = access.scope(graphics);
+    let of_host = vk::AccessFlags2::HOST_READ | vk::AccessFlags2::HOST_WRITE;
+    (stages & !vk::PipelineStageFlags2::HOST, flags & !of_host)
+}
+
 /// A barrier for each range that is not empty; none within one family.
 fn barriers<'a>(
     ranges: impl Iterator<Item = (vk::Buffer, u64, u64)>,
@@ -73,34 +92,81 @@ fn barriers<'a>(
 #[cfg(test)]
 mod tests {
     use ash::vk::Handle;
+    use vk::{AccessFlags2 as Flags, PipelineStageFlags2 as Stages};
 
     use super::*;
 
-    fn half(from: u32, to: u32) -> vk::BufferMemoryBarrier2<'static> {
-        vk::BufferMemoryBarrier2::default()
-            .src_queue_family_index(from)
-            .dst_queue_family_index(to)
-            .dst_access_mask(vk::AccessFlags2::SHADER_STORAGE_READ)
+    const READ: Access = Access::COMPUTE_READ.union(Access::VERTEX_READ).union(Access::TRANSFER_READ);
+
+    /// What both halves of a transfer from family 3 to family 1 record, the first of a queue that draws.
+    fn halves(ranges: &[(vk::Buffer, u64, u64)]) -> [Vec<vk::BufferMemoryBarrier2<'static>>; 2] {
+        [releasing(3, 1, Access::COMPUTE_WRITE, true), acquiring(3, 1, READ, false)]
+            .map(|half| barriers(ranges.iter().copied(), half))
     }
 
-    #[test]
-    fn a_transfer_names_the_bytes_and_the_families() {
+    fn ranges() -> [(vk::Buffer, u64, u64); 3] {
         let [first, second] = [1, 2].map(vk::Buffer::from_raw);
-        let ranges = [(second, 64, 12), (first, 100, 50), (second, 0, 0)];
-        let found = barriers(ranges.into_iter(), half(3, 1));
-        let bytes: Vec<_> =
-            found.iter().map(|barrier| (barrier.buffer, barrier.offset, barrier.size)).collect();
-        assert_eq!(bytes, ranges[..2]);
-        for barrier in found {
-            assert_eq!((barrier.src_queue_family_index, barrier.dst_queue_family_index), (3, 1));
-            assert_eq!(barrier.dst_access_mask, vk::AccessFlags2::SHADER_STORAGE_READ);
+        [(second, 64, 12), (first, 100, 50), (second, 0, 0)]
+    }
+
+    /// Both halves of a transfer name the same bytes and the same families, or it is none.
+    #[test]
+    fn halves_of_a_transfer_match() {
+        let [released, acquired] = halves(&ranges());
+        assert_eq!((released.len(), acquired.len()), (2, 2));
+        for ((out, back), range) in released.iter().zip(&acquired).zip(ranges()) {
+            for barrier in [out, back] {
+                assert_eq!((barrier.buffer, barrier.offset, barrier.size), range);
+                assert_eq!((barrier.src_queue_family_index, barrier.dst_queue_family_index), (3, 1));
+            }
+        }
+    }
+
+    /// The first half makes writes available and nothing visible, the second the other way round. All stages of either
+    /// are ordered with the semaphore between them.
+    #[test]
+    fn each_half_has_the_accesses_of_its_side() {
+        let [released, acquired] = halves(&ranges());
+        for barrier in released {
+            assert_eq!(barrier.src_stage_mask, Stages::COMPUTE_SHADER);
+            assert_eq!(barrier.src_access_mask, Flags::SHADER_STORAGE_READ | Flags::SHADER_STORAGE_WRITE);
+            assert_eq!(
+                (barrier.dst_stage_mask, barrier.dst_access_mask),
+                (Stages::ALL_COMMANDS, Flags::NONE)
+            );
+        }
+        for barrier in acquired {
+            assert_eq!(
+                (barrier.src_stage_mask, barrier.src_access_mask),
+                (Stages::ALL_COMMANDS, Flags::NONE)
+            );
+            // That queue does not draw.
+            assert_eq!(barrier.dst_stage_mask, Stages::COMPUTE_SHADER | Stages::ALL_TRANSFER);
+            assert_eq!(barrier.dst_access_mask, Flags::SHADER_STORAGE_READ | Flags::TRANSFER_READ);
+        }
+        let drawn = acquiring(3, 1, READ, true);
+        assert!(drawn.dst_stage_mask.contains(Stages::VERTEX_SHADER));
+    }
+
+    /// VUID-VkBufferMemoryBarrier2-srcStageMask-03851: the host is no part of a transfer.
+    #[test]
+    fn the_host_takes_no_part() {
+        for access in [Access::ALL, READ | Access::HOST_READ | Access::HOST_WRITE] {
+            let (out, back) = (releasing(0, 1, access, true), acquiring(0, 1, access, true));
+            for (stages, flags) in
+                [(out.src_stage_mask, out.src_access_mask), (back.dst_stage_mask, back.dst_access_mask)]
+            {
+                assert!(!stages.contains(Stages::HOST) && !stages.is_empty() && !flags.is_empty());
+                assert!(!flags.intersects(Flags::HOST_READ | Flags::HOST_WRITE));
+            }
         }
     }
 
     #[test]
     fn within_one_family_nothing_is_transferred() {
         let range = (vk::Buffer::from_raw(1), 0, 40);
-        assert!(barriers([range].into_iter(), half(2, 2)).is_empty());
-        assert_eq!(barriers([range].into_iter(), half(2, 1)).len(), 1);
+        assert!(barriers([range].into_iter(), acquiring(2, 2, READ, true)).is_empty());
+        assert!(barriers([range].into_iter(), releasing(2, 2, READ, true)).is_empty());
+        assert_eq!(barriers([range].into_iter(), acquiring(2, 1, READ, true)).len(), 1);
     }
 }
