@@ -10,9 +10,11 @@ use rasray_scene::Camera;
 /// What the colours of a map mean.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Legend {
-    /// Colours from 0 to the greatest value.
+    /// Colours from 0 to `bright`.
     pub colours: &'static Scale,
-    /// The greatest value, which has the brightest colour.
+    /// From this value on pixels have the brightest colour.
+    pub bright: f64,
+    /// The greatest value.
     pub most: f64,
     /// The mean over all pixels.
     pub mean: f64,
@@ -21,14 +23,19 @@ pub struct Legend {
 }
 
 impl Legend {
-    /// The greatest value in words.
-    pub fn most_shown(&self) -> String {
-        if self.most.fract() == 0.0 { grouped(self.most as u64) } else { format!("{:.4}", self.most) }
+    /// A value in words.
+    pub fn shown(value: f64) -> String {
+        if value.fract() == 0.0 { grouped(value as u64) } else { format!("{value:.4}") }
+    }
+
+    /// Mean and greatest value in words.
+    pub fn extent(&self) -> String {
+        format!("mean {:.4}, greatest {}", self.mean, Self::shown(self.most))
     }
 
     /// The scale in a sentence.
     pub fn described(&self) -> String {
-        format!("{}: 0 (dark) to {} (bright), mean {:.4}", self.unit, self.most_shown(), self.mean)
+        format!("{}: 0 (dark) to {} (bright), {}", self.unit, Self::shown(self.bright), self.extent())
     }
 }
 
@@ -55,10 +62,15 @@ impl Pixels {
         let most = counts.iter().copied().max().unwrap_or(0);
         let mean = counts.iter().map(|count| f64::from(*count)).sum::<f64>() / counts.len().max(1) as f64;
         let colours = counts.iter().map(|count| colour(VIRIDIS, place(*count, most))).collect();
-        Self::Map(colours, Legend { colours: VIRIDIS, most: most.into(), mean, unit: unit.to_owned() })
+        let most = f64::from(most);
+        Self::Map(
+            colours,
+            Legend { colours: VIRIDIS, bright: most, most, mean, unit: format!("{unit}, logarithmic") },
+        )
     }
 
-    /// A map of absolute differences: the greatest of a pixel's channels; black is none.
+    /// A map of absolute differences: the greatest of a pixel's channels; black is none. A hundredth of the pixels may be
+    /// beyond the scale: else edges of lamps, which are far brighter than all they light, would leave the rest dark.
     pub(crate) fn of_difference(one: &[[f32; 3]], other: &[[f32; 3]], exact: &str) -> Self {
         let far = |(one, other): (&[f32; 3], &[f32; 3])| {
             (0..3).map(|channel| f64::from((one[channel] - other[channel]).abs())).fold(0.0, f64::max)
@@ -66,10 +78,15 @@ impl Pixels {
         let differences: Vec<f64> = one.iter().zip(other).map(far).collect();
         let most = differences.iter().copied().fold(0.0, f64::max);
         let mean = differences.iter().sum::<f64>() / differences.len().max(1) as f64;
-        let scale = if most > 0.0 { 1.0 / most } else { 0.0 };
+        let mut sorted = differences.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let usual = sorted.len().checked_sub(1 + sorted.len() / 100).map_or(0.0, |place| sorted[place]);
+        // Where fewer pixels than that differ at all, all of them are seen.
+        let bright = if usual > 0.0 { usual } else { most };
+        let scale = if bright > 0.0 { 1.0 / bright } else { 0.0 };
         let colours = differences.iter().map(|difference| colour(MAGMA, difference * scale)).collect();
         let unit = format!("difference from {exact}, W/(sr m^2)");
-        Self::Map(colours, Legend { colours: MAGMA, most, mean, unit })
+        Self::Map(colours, Legend { colours: MAGMA, bright, most, mean, unit })
     }
 }
 
@@ -129,5 +146,28 @@ mod tests {
             panic!("a map")
         };
         assert_eq!((colours, legend.most, legend.mean), (vec![MAGMA[0], MAGMA[9]], 0.25, 0.125));
+    }
+
+    #[test]
+    fn a_lamp_s_edge_does_not_hide_what_differs_elsewhere() {
+        let exact = vec![[0.0; 3]; 200];
+        let with = |usual: f32| {
+            let mut other = vec![[usual, 0.0, 0.0]; 200];
+            other[7] = [0.0, 17.0, 0.0];
+            match Pixels::of_difference(&exact, &other, "bvh") {
+                Pixels::Map(colours, legend) => (colours, legend),
+                Pixels::Radiance(_) => panic!("a map"),
+            }
+        };
+        let (colours, legend) = with(0.25);
+        assert_eq!((legend.bright, legend.most), (0.25, 17.0));
+        assert!(colours.iter().all(|colour| *colour == MAGMA[9]), "beyond the scale is brightest");
+        let (colours, legend) = with(0.0);
+        assert_eq!((legend.bright, legend.most), (17.0, 17.0));
+        assert_eq!((colours[7], colours[8]), (MAGMA[9], MAGMA[0]));
+        assert_eq!(
+            legend.described(),
+            "difference from bvh, W/(sr m^2): 0 (dark) to 17 (bright), mean 0.0850, greatest 17"
+        );
     }
 }

@@ -10,7 +10,7 @@ use super::options_panel::show_system;
 use super::stage::Stage;
 use super::tables::show_tables;
 use super::{SavePicture, SavedPicture};
-use crate::picture::Pixels;
+use crate::picture::{Legend, Pixels};
 use crate::session::Session;
 use crate::settings::Shown;
 
@@ -187,12 +187,10 @@ impl Panel {
             Ok(()) if picture.is_finished() => (format!("saved {}", place.display()), false),
             Ok(()) => {
                 let wanted = picture.settings.frame.spp;
-                let text = format!(
-                    "saved {} with {} of {wanted} samples: the command line makes the finished one",
-                    place.display(),
-                    picture.samples
-                );
-                (text, false)
+                // Of maps there is no command line.
+                let finished = if line.is_some() { ": the command line makes the finished one" } else { "" };
+                let (place, samples) = (place.display(), picture.samples);
+                (format!("saved {place} with {samples} of {wanted} samples{finished}"), false)
             }
             Err(error) => (error, true),
         });
@@ -283,9 +281,9 @@ fn show_legend(ui: &mut egui::Ui, session: &Session) {
             ui.horizontal(|ui| {
                 ui.label("0");
                 show_colours(ui, legend.colours);
-                ui.label(legend.most_shown());
+                ui.label(Legend::shown(legend.bright));
             });
-            ui.weak(format!("mean {:.4}\n{}", legend.mean, legend.unit));
+            ui.weak(format!("{}\n{}", legend.extent(), legend.unit));
         });
         ui.end_row();
     }
