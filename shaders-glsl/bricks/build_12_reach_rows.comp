@@ -36,7 +36,7 @@ void main() {
         lengthen(runs, reaches);
         if (reaches != 0u) {
             if (BRICK_DEPTH != 0u) {
-                BRICK_WORDS(brick_built)[brick_layer_at(brick)] = reaches;
+                BRICK_WORDS(build.structure)[brick_layer_at(brick)] = reaches;
             }
             // Until the pass in the other direction, these are the reaches towards lower rows.
             BRICK_WORDS(build.structure)[brick_at(brick)] = BRICK_EMPTY | reaches_of(runs);

@@ -2,7 +2,7 @@
 
 use std::mem::offset_of;
 
-use bytemuck::{bytes_of, cast_slice, pod_read_unaligned};
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, pod_read_unaligned};
 use rasray_gpu::{
     Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
     Device, GpuError, MemoryLocation, Recorder, SetLayout,

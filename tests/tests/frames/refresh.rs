@@ -257,7 +257,7 @@ fn hold(bench: &Bench, name: &str, scene: &Scene, times: &[f64], specs: &[Spec])
         let mut first = viewpoint;
         for (frame, &seconds) in times.iter().enumerate() {
             let posed = pass.frame(scene, &moment(seconds)).expect("it is the same scene");
-            device.submit(|recorder| pass.record(recorder, &posed)).expect("the device works");
+            device.submit(|recorder| pass.record(recorder, 0, &posed)).expect("the device works");
             let bounds = |header: GeometryHeader| [header.lower, header.upper];
             let [united, of_moving] =
                 [gpu.geometry(), parts.moving_part()].map(|part| bounds(header(bench, part.header())));
