@@ -151,6 +151,7 @@ mod tests {
     fn loaded() -> LoadedScene {
         let scene = builtin::builtin("atrium").expect("a name").expect("no parameters");
         LoadedScene {
+            moment: None,
             scene,
             triangles: 0,
             sha256: None,

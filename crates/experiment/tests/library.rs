@@ -39,8 +39,6 @@ fn job<'a>(loaded: &'a LoadedScene, names: &[&str], ray_sets: &[RaySet]) -> Comp
     };
     CompareJob {
         scene: &loaded.scene,
-        moment: None,
-        is_next: false,
         camera: default_view(&loaded.scene).camera,
         systems: systems(names),
         ray_sets: ray_sets.to_vec(),

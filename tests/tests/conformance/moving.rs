@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rasray_ads::{Geometry, Structure};
-use rasray_experiment::{MovingStage, Stage, device_hits, incoherent_rays, load, oracle_ray};
+use rasray_experiment::{Stage, device_hits, incoherent_rays, load, oracle_ray};
 use rasray_gpu::Timing;
 use rasray_scene::needs::{Integrator, Needs, Workload};
 use rasray_scene::{Camera, Moment, Motion, Scene, default_view};
@@ -231,34 +231,16 @@ fn prepared(bench: &Bench, moving: &Moving, geometry: &Geometry, number: usize) 
     prepared
 }
 
-/// A scene on the device, shown at one time after another.
-enum Shown<'a> {
-    Moved(MovingStage<'a>),
-    Anew(Stage),
-}
-
-impl Shown<'_> {
-    fn geometry(&self) -> &Geometry {
-        match self {
-            Self::Moved(moving) => moving.stage.scene.geometry(),
-            Self::Anew(stage) => stage.scene.geometry(),
-        }
-    }
-}
-
 fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
     let device = bench.device();
     let camera: Camera = default_view::default_camera(scene);
     let needs = Needs::of(scene, Workload { integrator: Integrator::Raycast, bounces: 0 });
     let changes = scene.motion() == Motion::Changing;
-    let mut shown = if changes {
-        Shown::Anew(Stage::new(device, scene, &camera, [16, 16], 1, &needs).expect("it fits"))
-    } else {
-        Shown::Moved(MovingStage::new(device, scene, &camera, [16, 16], 1, &needs).expect("it fits"))
-    };
+    let make = if changes { Stage::new } else { Stage::moving };
+    let mut shown = make(device, scene, &camera, [16, 16], 1, &needs).expect("it fits");
     let mut structures: Vec<(Row, Box<dyn Structure>)> = rows(moving)
         .map(|row| {
-            let structure = row.make(bench, shown.geometry());
+            let structure = row.make(bench, shown.scene.geometry());
             (row, structure)
         })
         .collect();
@@ -271,11 +253,11 @@ fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
             for (_, structure) in &mut structures {
                 structure.set_geometry(device, stage.scene.geometry()).expect("it fits");
             }
-            shown = Shown::Anew(stage);
-        } else if let Shown::Moved(stage) = &mut shown {
-            stage.show(device, &moment, Timing::None).expect("the device works");
+            shown = stage;
+        } else {
+            shown.pose(device, scene, &moment, Timing::None).expect("the device works");
         }
-        let prepared = prepared(bench, moving, shown.geometry(), number);
+        let prepared = prepared(bench, moving, shown.scene.geometry(), number);
         assert_ne!(prepared.case.triangles, before, "{} does not move until {seconds} s", moving.name);
         let hit = prepared.verdicts.iter().filter(|verdict| verdict.outcome.hit().is_some()).count();
         assert!(4 * hit > prepared.rays.len(), "{} at {seconds} s: {hit} hits say little", moving.name);
@@ -293,7 +275,7 @@ fn hold(bench: &Bench, moving: &'static Moving, scene: &Scene) -> Vec<String> {
                 );
             }
             if !row.is_exact() {
-                let mut fresh = row.make(bench, shown.geometry());
+                let mut fresh = row.make(bench, shown.scene.geometry());
                 build_until_complete(device, fresh.as_mut(), prepared.viewpoint, Timing::None)
                     .expect("the build completes");
                 let expected = device_hits(bench.trace(fresh.as_ref(), &prepared.rays).hits);

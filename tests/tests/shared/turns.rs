@@ -8,7 +8,7 @@ const THREADS: usize = 64;
 
 /// Turns that invocations of one workgroup made of those wanted.
 fn made(bench: &Bench, shader: &Shader, wanted: &[u32; THREADS]) -> Vec<u32> {
-    run_kernel(bench.device(), shader, bytemuck::cast_slice(wanted), THREADS, None, THREADS, &[]).0
+    run_kernel(bench.device(), shader, bytemuck::cast_slice(wanted), THREADS, None, THREADS, &()).0
 }
 
 /// Half of a workgroup makes `few` turns, the other half ten.
