@@ -170,6 +170,30 @@ fn frames_in_flight_are_the_pictures_of_single_frames() {
     }
 }
 
+/// A simulation: each frame in flight has memory of its own for the shape.
+#[test]
+fn what_the_host_deforms_is_that_of_its_frame() {
+    let bench = Bench::new();
+    let device = bench.device();
+    let scene = builtin::builtin("cloth-ball:1k").expect("it is built in").expect("a cloth");
+    let spec = spec("bvh", &[("builder", "lbvh")]);
+    let mut renderer = renderer(device, &scene, &spec, 3);
+    let pass = renderer.pose().expect("it was made with one");
+    let inputs: Vec<_> = [0.2, 1.2, 0.6, 1.0, 0.8]
+        .into_iter()
+        .map(|seconds| {
+            let pose = pass.frame(&scene, &Moment { seconds, clips: Vec::new() }).expect("a cloth");
+            input(view(&scene, 0.0), Some(pose), 0..1, false)
+        })
+        .collect();
+    let (found, _) = pictures(&mut renderer, inputs.clone());
+    for (number, (picture, input)) in found.iter().zip(&inputs).enumerate() {
+        let means = picture.film.means();
+        assert!(means == still(device, &scene, &tables(&scene), &spec, input), "frame {number}");
+        assert!(number == 0 || means != found[number - 1].film.means(), "frame {number}: the cloth moved");
+    }
+}
+
 /// Bricks find every triangle, so drawing what the camera sees changes no bit.
 #[test]
 fn first_hits_that_are_drawn_are_those_that_are_traced() {
