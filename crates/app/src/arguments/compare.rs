@@ -1,7 +1,7 @@
 //! Options of `rasray compare`.
 
 use super::ray_files::RayFileArguments;
-use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
+use super::shared::WorkArguments;
 use super::structure::{StructureArguments, preset_parser, ray_set_parser, system_parser};
 use super::values;
 use crate::error::AppError;
@@ -79,21 +79,9 @@ pub struct CompareArguments {
     /// Rays for others and from others.
     #[command(flatten)]
     pub files: RayFileArguments,
-    /// The image and what light does; the size also shapes the camera's rays.
+    /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
-    pub frame: FrameArguments,
-    /// From where.
-    #[command(flatten)]
-    pub view: ViewArguments,
-    /// How the scene is read.
-    #[command(flatten)]
-    pub reading: SceneArguments,
-    /// Options of the structures.
-    #[command(flatten)]
-    pub structure: StructureArguments,
-    /// Where the work is done.
-    #[command(flatten)]
-    pub device: DeviceArguments,
+    pub work: WorkArguments,
     /// Long names of the options that were typed.
     #[arg(skip)]
     pub typed: Vec<String>,
@@ -106,7 +94,7 @@ impl CompareArguments {
     /// # Errors
     /// A preset or an option that none of the systems has, values that are not taken or do not go together.
     pub fn systems(&self) -> Result<Vec<SystemConfig>, AppError> {
-        let (given, read_value) = (&self.structure.0, &StructureArguments::read_value);
+        let (given, read_value) = (&self.work.structure.0, &StructureArguments::read_value);
         Ok(several_systems(&self.systems, &self.presets, given, &self.assignments, read_value)?)
     }
 }

@@ -20,6 +20,7 @@ pub use ray_files::{NamedFile, RayFileArguments};
 pub use render::{Aov, RenderArguments};
 pub use shared::{
     DeviceArguments, FrameArguments, IntegratorName, NeedsName, SceneArguments, TalkArguments, ViewArguments,
+    WorkArguments,
 };
 pub use structure::StructureArguments;
 pub use view::ViewerArguments;

@@ -1,7 +1,7 @@
 //! Options of `rasray render`.
 
-use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
-use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::shared::WorkArguments;
+use super::structure::{preset_parser, system_parser};
 use super::values;
 use crate::error::AppError;
 use crate::output::ImageFormat;
@@ -80,21 +80,9 @@ pub struct RenderArguments {
     /// One of N shares of the work, I from 1 to N: of --frames each Nth; else of the samples, as an .exr for rasray merge
     #[arg(long, value_name = "I/N", value_parser = values::shard, help_heading = FRAMES)]
     pub shard: Option<Shard>,
-    /// The image and what light does.
+    /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
-    pub frame: FrameArguments,
-    /// From where.
-    #[command(flatten)]
-    pub view: ViewArguments,
-    /// How the scene is read.
-    #[command(flatten)]
-    pub reading: SceneArguments,
-    /// Options of the structure.
-    #[command(flatten)]
-    pub structure: StructureArguments,
-    /// Where the work is done.
-    #[command(flatten)]
-    pub device: DeviceArguments,
+    pub work: WorkArguments,
 }
 
 /// Images in addition to the colours.
@@ -114,7 +102,7 @@ impl RenderArguments {
     /// # Errors
     /// A preset or an option that the system does not have, or a value that it does not take.
     pub fn system(&self) -> Result<SystemConfig, AppError> {
-        Ok(one_system(self.system, self.preset, &self.structure.0)?)
+        Ok(one_system(self.system, self.preset, &self.work.structure.0)?)
     }
 
     /// The images wanted in addition to the colours.

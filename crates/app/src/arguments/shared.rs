@@ -1,6 +1,6 @@
 //! Groups of options that several commands take.
 
-use super::structure::{primary_parser, sampler_parser};
+use super::structure::{StructureArguments, primary_parser, sampler_parser};
 use super::values::{self, Size, Switch};
 use crate::error::AppError;
 use clap::{ArgAction, Args, ValueEnum};
@@ -237,6 +237,26 @@ fn unreadable_map(path: &Path, error: &SceneError) -> AppError {
         // Names the file itself.
         other => AppError::usage(other.to_string(), fix),
     }
+}
+
+/// What every command takes that shows a scene: groups of options, in the order of its help.
+#[derive(Debug, Args)]
+pub struct WorkArguments {
+    /// The image and what light does; where rays are compared the size also shapes those of the camera.
+    #[command(flatten)]
+    pub frame: FrameArguments,
+    /// From where.
+    #[command(flatten)]
+    pub view: ViewArguments,
+    /// How the scene is read.
+    #[command(flatten)]
+    pub reading: SceneArguments,
+    /// Options of structures.
+    #[command(flatten)]
+    pub structure: StructureArguments,
+    /// Where the work is done.
+    #[command(flatten)]
+    pub device: DeviceArguments,
 }
 
 /// Where the work is done.

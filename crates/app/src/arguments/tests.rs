@@ -39,19 +39,19 @@ fn the_list_of_commands_is_whole() {
 #[test]
 fn defaults_are_the_documented_ones() {
     let given = render("render cornell --output a.png");
-    let frame = given.frame.frame().expect("defaults fit together");
+    let frame = given.work.frame.frame().expect("defaults fit together");
     let system = given.system().expect("the exact structure");
     assert_eq!((system.system.name, system.preset), ("bricks", Preset::Robust));
     assert_eq!(system.spec().expect("known").structure(), "bricks");
     assert_eq!((frame.width, frame.height, frame.spp, frame.seed), (640, 360, 16, 1));
     assert_eq!(frame.integrator, Integrator::Path { bounces: 8 });
-    assert_eq!(given.structure, StructureArguments::default());
+    assert_eq!(given.work.structure, StructureArguments::default());
 }
 
 #[test]
 fn negative_coordinates_are_values() {
     let given = render("render cornell -o a.png --eye -1,2,-3 --target 0,-1,0 --fov 30 --exposure -1.5");
-    assert_eq!(given.view.eye, Some([-1.0, 2.0, -3.0]));
+    assert_eq!(given.work.view.eye, Some([-1.0, 2.0, -3.0]));
     assert_eq!(given.exposure, Some(-1.5));
 }
 
@@ -72,10 +72,14 @@ fn a_comparison_takes_lists_and_addressed_options() {
 
 #[test]
 fn options_of_another_integrator_are_refused() {
-    let error =
-        render("render cornell -o a.png --integrator ao --bounces 2").frame.frame().expect_err("bounces");
+    let error = render("render cornell -o a.png --integrator ao --bounces 2")
+        .work
+        .frame
+        .frame()
+        .expect_err("bounces");
     assert!(error.help().contains("path"), "{error}");
-    let error = render("render cornell -o a.png --ao-distance 2").frame.frame().expect_err("ao distance");
+    let error =
+        render("render cornell -o a.png --ao-distance 2").work.frame.frame().expect_err("ao distance");
     assert!(error.help().contains("ao"), "{error}");
 }
 
@@ -186,8 +190,9 @@ fn ranges_in_the_help_are_those_of_the_values() {
 
 #[test]
 fn an_environment_is_a_colour_or_a_map() {
-    let read =
-        |value: &str| render(&format!("render cornell -o a.png --environment {value}")).reading.environment();
+    let read = |value: &str| {
+        render(&format!("render cornell -o a.png --environment {value}")).work.reading.environment()
+    };
     match read("1,0.5,0").expect("a colour") {
         Some(Environment::Constant(color)) => assert_eq!(color, [1.0, 0.5, 0.0]),
         other => panic!("{other:?}"),

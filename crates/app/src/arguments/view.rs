@@ -1,7 +1,7 @@
 //! Options of `rasray view`.
 
-use super::shared::{DeviceArguments, FrameArguments, SceneArguments, ViewArguments};
-use super::structure::{StructureArguments, preset_parser, system_parser};
+use super::shared::WorkArguments;
+use super::structure::{preset_parser, system_parser};
 use super::values;
 use clap::Args;
 use rasray_systems::{Preset, SYSTEMS, System};
@@ -42,19 +42,7 @@ pub struct ViewerArguments {
     /// Stops of exposure
     #[arg(long, value_name = "STOPS", value_parser = values::stops, allow_hyphen_values = true, default_value = "0")]
     pub exposure: f32,
-    /// The image and what light does.
+    /// The image, the camera, the scene, the structure and the device.
     #[command(flatten)]
-    pub frame: FrameArguments,
-    /// From where.
-    #[command(flatten)]
-    pub view: ViewArguments,
-    /// How the scene is read.
-    #[command(flatten)]
-    pub reading: SceneArguments,
-    /// Options of the structure.
-    #[command(flatten)]
-    pub structure: StructureArguments,
-    /// Where the work is done.
-    #[command(flatten)]
-    pub device: DeviceArguments,
+    pub work: WorkArguments,
 }

@@ -40,7 +40,7 @@ pub(crate) fn compare(
             "leave it out, or name a hard case such as hard:E5",
         ));
     }
-    let frame = given.frame.frame()?;
+    let frame = given.work.frame.frame()?;
     let systems = given.systems()?;
     let ray_sets = ray_sets(given)?;
     let targets = Targets::check(given, &given.scene)?;
@@ -49,16 +49,21 @@ pub(crate) fn compare(
         given.files.hits_file.iter().map(|file| Ok::<_, AppError>(load_hits(&file.name, &file.path)?));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-    let shown = given.reading.time.map(|time| (time, Posing::Host));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, shown, &given.view)?;
+<<<<<<< HEAD
+    let shown = given.work.reading.time.map(|time| (time, Posing::Host));
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
+=======
+    let (mut loaded, chosen) =
+        read_scene(&given.scene, &given.work.reading, given.work.reading.time, &given.work.view)?;
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     let systems: Vec<_> =
         systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));
     shortcomings.filter(|_| given.image).for_each(|text| terminal::warn(&text));
 
-    let mut backend = open_device(open, &given.device)?;
+    let mut backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
-    let needs = given.reading.needs(&loaded.scene, frame.workload());
+    let needs = given.work.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     loaded.count_not_uploaded(&chosen.camera, &needs);
     let sets = ray_sets.len() + usize::from(rays_file.is_some());

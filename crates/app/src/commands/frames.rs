@@ -51,7 +51,7 @@ impl Pictures<'_> {
         {
             return Err(AppError::usage("--output and --report name the same file", "name two files"));
         }
-        let reading = &self.given.reading;
+        let reading = &self.given.work.reading;
         let said = self.loaded.scene.animation.deformer_warnings.clone();
         self.loaded.show(seconds(number, reading.frames_per_second()), reading.clip.as_deref())?;
         terminal::warn_of_frame(&self.loaded.scene, &said);

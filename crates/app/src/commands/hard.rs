@@ -42,7 +42,7 @@ pub(super) fn compare(
     let systems = given.systems()?;
     let targets = Targets::check(given, &given.scene)?;
     let hits_files = hits_files(given, &ids)?;
-    let mut backend = open_device(open, &given.device)?;
+    let mut backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
 
     let mut whole = Comparison::default();
@@ -179,7 +179,7 @@ fn trace(
     backend: &mut dyn Backend,
     interrupt: &Interrupt,
 ) -> Result<(Comparison, u64), AppError> {
-    let seed = given.frame.seed;
+    let seed = given.work.frame.seed;
     // A ray does not depend on how many there are.
     let fewest = given.replay.map_or(0, |index| index.saturating_add(1));
     let rays = given.rays.unwrap_or(DEFAULT_RAYS.max(fewest)) as usize;

@@ -154,9 +154,9 @@ pub(super) fn check_format(
 /// There are no samples in it.
 pub(super) fn samples_shard(given: &RenderArguments) -> Result<Option<Shard>, AppError> {
     let Some(shard) = given.shard.filter(|_| given.frames.is_none()) else { return Ok(None) };
-    if shard.samples(given.frame.spp).len() == 0 {
+    if shard.samples(given.work.frame.spp).len() == 0 {
         return Err(AppError::usage(
-            format!("--shard {shard} has none of {} samples per pixel", given.frame.spp),
+            format!("--shard {shard} has none of {} samples per pixel", given.work.frame.spp),
             "make no more shares than there are samples",
         ));
     }

@@ -26,7 +26,7 @@ pub(crate) fn render(
     open: &mut OpenBackend<'_>,
     interrupt: &Interrupt,
 ) -> Result<(), AppError> {
-    let frame = given.frame.frame()?;
+    let frame = given.work.frame.frame()?;
     let aovs = given.aovs();
     let system = given.system()?.serving(frame.workload());
     let shard = samples_shard(given)?;
@@ -36,16 +36,22 @@ pub(crate) fn render(
     // Of frames this refuses what is wrong with the first.
     let targets = Targets::of(given, aovs, first)?;
     let rows = rows(given)?;
-    let fps = given.reading.frames_per_second();
-    let time = first.map_or(given.reading.time, |first| Some(seconds(first, fps)));
+<<<<<<< HEAD
+    let fps = given.work.reading.frames_per_second();
+    let time = first.map_or(given.work.reading.time, |first| Some(seconds(first, fps)));
     let shown = time.map(|time| (time, Posing::Device));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.reading, shown, &given.view)?;
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
+=======
+    let fps = given.work.reading.frames_per_second();
+    let time = first.map_or(given.work.reading.time, |first| Some(seconds(first, fps)));
+    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, time, &given.work.view)?;
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
-    let backend = open_device(open, &given.device)?;
+    let backend = open_device(open, &given.work.device)?;
     stop_if_requested(interrupt)?;
     // Images stay as they are at all times.
-    let needs = given.reading.needs(&loaded.scene, frame.workload());
+    let needs = given.work.reading.needs(&loaded.scene, frame.workload());
     fit_images(&mut loaded, &needs, backend.as_ref())?;
     let mut pictures = Pictures {
         given,
@@ -116,7 +122,7 @@ impl Pictures<'_> {
             frame: *frame,
             shard: *shard,
             aovs: *aovs,
-            needs: given.reading.needs(&loaded.scene, frame.workload()),
+            needs: given.work.reading.needs(&loaded.scene, frame.workload()),
             repetitions: given.repetitions.unwrap_or(0),
         }
     }
@@ -135,7 +141,7 @@ impl Pictures<'_> {
         keeps_part: bool,
     ) -> Result<(), AppError> {
         let Self { given, line, interrupt, frame, shard, .. } = *self;
-        let needs = given.reading.needs(&self.loaded.scene, frame.workload());
+        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload());
         self.loaded.count_not_uploaded(&self.chosen.camera, &needs);
         let mut job = self.job(&self.loaded);
         if shard.is_some_and(|shard| !shard.holds(0)) {

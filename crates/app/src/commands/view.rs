@@ -51,18 +51,23 @@ mod with_window {
     /// As of a render, and where there is no display.
     pub(crate) fn view(given: &ViewerArguments, interrupt: &Interrupt) -> Result<(), AppError> {
         check_display()?;
-        let frame = given.frame.frame()?;
-        let system = one_system(given.system, given.preset, &given.structure.0)?;
+        let frame = given.work.frame.frame()?;
+        let system = one_system(given.system, given.preset, &given.work.structure.0)?;
         let output = given.output.clone().unwrap_or_else(|| default_output(&given.scene));
         if ImageFormat::of(&output)? != ImageFormat::Png {
             return Err(AppError::input(&output, "the window saves 8-bit pictures", "name a .png"));
         }
         keep_inputs("--output", Some(&Destination::check(&output)?), &given.scene)?;
-        let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.reading, None))?;
+<<<<<<< HEAD
+        let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
         let chosen = check_view(given, &mut loaded)?;
+=======
+        let loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
+        check_view(given, &loaded)?;
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
 
-        let seconds = given.reading.time;
+        let seconds = given.work.reading.time;
         let settings = Settings {
             standpoint: Standpoint::AsGiven,
             seconds,
@@ -74,9 +79,14 @@ mod with_window {
         let animation = &loaded.scene.animation;
         let session = Session::new(Opening {
             scene: given.scene.clone(),
-            camera_words: camera_words(&given.view),
-            camera_is_default: chosen.index.is_none() && given.view.eye.is_none(),
-            time_words: words("--clip", given.reading.clip.clone()),
+<<<<<<< HEAD
+            camera_words: camera_words(&given.work.view),
+            camera_is_default: chosen.index.is_none() && given.work.view.eye.is_none(),
+            time_words: words("--clip", given.work.reading.clip.clone()),
+=======
+            camera_words: camera_words(&given.work.view),
+            time_words: words("--clip", given.work.reading.clip.clone()),
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
             other_words: other_words(given),
             settings: settings.clone(),
             exposure: given.exposure,
@@ -88,13 +98,19 @@ mod with_window {
             bounds: default_view::bounds(&loaded.scene).unwrap_or_default(),
             output,
         });
-        let device = during("device", "opening", || open_device(&given.device.choice()))?;
-        let (choice, validation) = (given.view.clone(), given.device.validation);
+        let device = during("device", "opening", || open_device(&given.work.device.choice()))?;
+        let (choice, validation) = (given.work.view.clone(), given.work.device.validation);
         let source = SceneSource {
             loaded,
-            clip: given.reading.clip.clone(),
-            needs_all: given.reading.needs == NeedsName::All,
+<<<<<<< HEAD
+            clip: given.work.reading.clip.clone(),
+            needs_all: given.work.reading.needs == NeedsName::All,
             camera: Box::new(move |loaded: &mut LoadedScene| choice.choose(loaded)),
+=======
+            clip: given.work.reading.clip.clone(),
+            needs_all: given.work.reading.needs == NeedsName::All,
+            camera: Box::new(move |scene: &Scene| choice.choose(scene)),
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
         };
         let end = run(Viewing {
             device: device.name().to_owned(),
@@ -111,14 +127,25 @@ mod with_window {
     }
 
     /// Refuses a camera, a time or a clip that the scene does not have before a window is opened.
+<<<<<<< HEAD
     fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
-        let SceneArguments { time, clip, .. } = &given.reading;
+        let SceneArguments { time, clip, .. } = &given.work.reading;
         if time.is_none() && clip.is_none() {
-            return given.view.choose(loaded);
+            return given.work.view.choose(loaded);
         }
         let mut shown = loaded.clone();
         shown.show(time.unwrap_or(0.0), clip.as_deref())?;
-        given.view.choose(&mut shown)
+        given.work.view.choose(&mut shown)
+=======
+    fn check_view(given: &ViewerArguments, loaded: &LoadedScene) -> Result<Chosen, ExperimentError> {
+        let SceneArguments { time, clip, .. } = &given.work.reading;
+        if time.is_none() && clip.is_none() {
+            return given.work.view.choose(&loaded.scene);
+        }
+        let mut posed = loaded.clone();
+        posed.pose(time.unwrap_or(0.0), clip.as_deref())?;
+        given.work.view.choose(&posed.scene)
+>>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     }
 
     /// Writes a picture and says how to make it again.
@@ -161,10 +188,10 @@ mod with_window {
 
     /// What a render is told as well, and the window does not change.
     fn other_words(given: &ViewerArguments) -> Vec<String> {
-        let mut all = words("--environment", given.reading.environment.clone());
-        all.extend(words("--alpha", (given.reading.alpha == Switch::Off).then(|| "off".to_owned())));
-        all.extend(words("--needs", (given.reading.needs == NeedsName::All).then(|| "all".to_owned())));
-        all.extend(words("--device", given.device.device.clone()));
+        let mut all = words("--environment", given.work.reading.environment.clone());
+        all.extend(words("--alpha", (given.work.reading.alpha == Switch::Off).then(|| "off".to_owned())));
+        all.extend(words("--needs", (given.work.reading.needs == NeedsName::All).then(|| "all".to_owned())));
+        all.extend(words("--device", given.work.device.device.clone()));
         all
     }
 
