@@ -86,8 +86,7 @@ impl Pose {
         animated.unwrap_or_else(|| deformed.weights.iter().copied().map(f64::from).collect())
     }
 
-    /// Where cameras of the scene with that rig are, in their order: world, metres, rigid. One without a node, or whose
-    /// node degenerates, stays.
+    /// Where cameras of that rig's scene are: world, metres, rigid. One without a node, or whose node degenerates, stays.
     pub fn cameras(&self, rig: &Rig, at_rest: &[Camera]) -> Vec<DAffine3> {
         let nodes = rig.cameras.iter().map(|&node| Some(node)).chain(std::iter::repeat(None));
         let placed = |node: Option<usize>| node.and_then(|node| rigid(self.world(node)));
