@@ -216,8 +216,8 @@ impl Structure for Combined {
     }
 
     fn allow_more_rounds(&self) -> bool {
-        // Not `any`: each of them allows more.
-        self.parts.iter().fold(false, |more, part| part.allow_more_rounds() || more)
+        // Each of them allows more.
+        self.parts.each_ref().map(|part| part.allow_more_rounds()).contains(&true)
     }
 
     fn record_trace(

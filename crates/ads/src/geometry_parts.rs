@@ -113,8 +113,9 @@ mod tests {
 
     #[test]
     fn what_does_not_move_is_static() {
-        assert_eq!(between(&[], 5), [0..5]);
-        assert_eq!(between(&[0..5], 5), []);
+        let all = std::slice::from_ref(&(0..5));
+        assert_eq!(between(&[], 5), all);
+        assert!(between(all, 5).is_empty());
         assert_eq!(between(&[1..2, 3..5], 7), [0..1, 2..3, 5..7]);
         assert_eq!(between(&[], 0), []);
     }

@@ -64,6 +64,18 @@ impl From<[f32; 3]> for Viewpoint {
     }
 }
 
+/// Whether cells of one box over these bounds (lower, upper, metres) are the same for this eye as for every other one as
+/// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side have wider margins
+/// (`box_placement` in `ads/placement.glsl`).
+pub fn box_ignores_eye([lower, upper]: [[f32; 3]; 2], eye: [f32; 3]) -> bool {
+    let along = |of: fn(f32, f32, f32) -> f32| {
+        (0..3).map(|axis| of(lower[axis], upper[axis], eye[axis])).fold(0.0_f32, f32::max)
+    };
+    let reach = along(|lower, upper, _| 0.5 * (upper - lower));
+    let away = along(|lower, upper, eye| (eye - (0.5 * lower + 0.5 * upper)).abs());
+    away <= PLACEMENT_EYE_LIMIT * reach
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -91,16 +103,4 @@ mod tests {
         }
         assert!(!CameraView { half_width: 0.0, ..view }.is_valid());
     }
-}
-
-/// Whether cells of one box over these bounds (lower, upper, metres) are the same for this eye as for every other one as
-/// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side have wider margins
-/// (`box_placement` in `ads/placement.glsl`).
-pub fn box_ignores_eye([lower, upper]: [[f32; 3]; 2], eye: [f32; 3]) -> bool {
-    let along = |of: fn(f32, f32, f32) -> f32| {
-        (0..3).map(|axis| of(lower[axis], upper[axis], eye[axis])).fold(0.0_f32, f32::max)
-    };
-    let reach = along(|lower, upper, _| 0.5 * (upper - lower));
-    let away = along(|lower, upper, eye| (eye - (0.5 * lower + 0.5 * upper)).abs());
-    away <= PLACEMENT_EYE_LIMIT * reach
 }
