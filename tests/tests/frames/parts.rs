@@ -54,15 +54,20 @@ fn rays(random: &mut Random, triangles: &[Triangle]) -> Vec<Ray> {
         .collect()
 }
 
+/// One run of triangles.
+fn run(ids: Range<u32>) -> Vec<Range<u32>> {
+    std::iter::once(ids).collect()
+}
+
 /// Which triangles move: all, none, one run in the middle, and every third one and some more.
 fn divisions(count: u32) -> Vec<(&'static str, Vec<Range<u32>>)> {
     let scattered =
         (0..count).filter(|id| id % 3 == 0 || id % 5 == 1 || id % 5 == 3).map(|id| id..id + 1).collect();
     vec![
-        ("all", vec![0..count]),
+        ("all", run(0..count)),
         ("none", Vec::new()),
-        ("a run", vec![20..90]),
-        ("those at the end", vec![100..count]),
+        ("a run", run(20..90)),
+        ("those at the end", run(100..count)),
         ("scattered", scattered),
     ]
 }
@@ -150,7 +155,7 @@ fn one_part_alone_gives_no_answer() {
     let triangles = doubled(&mut random);
     let rays = rays(&mut random, &triangles);
     let whole = bench.geometry(&triangles);
-    let parts = parts(&bench, &whole, &triangles, &[20..90]);
+    let parts = parts(&bench, &whole, &triangles, &run(20..90));
     let subject = that_find_all().into_iter().find(|subject| subject.name() == "bricks robust");
     let subject = subject.expect("the registry has bricks");
     let made = || {
@@ -204,9 +209,9 @@ fn what_cannot_be_in_parts_is_refused() {
         error.to_string()
     };
     assert!(refused(&[0..4, 3..5]).contains("overlap"));
-    assert!(refused(&[7..count + 1]).contains(&count.to_string()));
+    assert!(refused(&run(7..count + 1)).contains(&count.to_string()));
     let parts = whole.parts(device, &[7..count, 2..2, 5..7], everywhere).expect("they are parts");
-    assert_eq!(parts.moving(), [5..count]);
+    assert_eq!(parts.moving(), run(5..count));
     assert!(parts.moving_part().parts(device, &[], everywhere).is_err(), "a part has no parts");
     let mut fragments = 0;
     for subject in Subject::all() {

@@ -49,13 +49,8 @@ pub(crate) fn compare(
         given.files.hits_file.iter().map(|file| Ok::<_, AppError>(load_hits(&file.name, &file.path)?));
     let hits_files = hits_files.collect::<Result<Vec<_>, _>>()?;
 
-<<<<<<< HEAD
     let shown = given.work.reading.time.map(|time| (time, Posing::Host));
     let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
-=======
-    let (mut loaded, chosen) =
-        read_scene(&given.scene, &given.work.reading, given.work.reading.time, &given.work.view)?;
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     let systems: Vec<_> =
         systems.into_iter().map(|system| system.seen_by(&chosen.camera, frame.width, frame.height)).collect();
     let shortcomings = systems.iter().filter_map(|system| system.shortcoming(frame.workload()));

@@ -36,16 +36,10 @@ pub(crate) fn render(
     // Of frames this refuses what is wrong with the first.
     let targets = Targets::of(given, aovs, first)?;
     let rows = rows(given)?;
-<<<<<<< HEAD
     let fps = given.work.reading.frames_per_second();
     let time = first.map_or(given.work.reading.time, |first| Some(seconds(first, fps)));
     let shown = time.map(|time| (time, Posing::Device));
     let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, shown, &given.work.view)?;
-=======
-    let fps = given.work.reading.frames_per_second();
-    let time = first.map_or(given.work.reading.time, |first| Some(seconds(first, fps)));
-    let (mut loaded, chosen) = read_scene(&given.scene, &given.work.reading, time, &given.work.view)?;
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     system.shortcoming(frame.workload()).iter().for_each(|text| terminal::warn(text));
 
     let backend = open_device(open, &given.work.device)?;

@@ -58,13 +58,8 @@ mod with_window {
             return Err(AppError::input(&output, "the window saves 8-bit pictures", "name a .png"));
         }
         keep_inputs("--output", Some(&Destination::check(&output)?), &given.scene)?;
-<<<<<<< HEAD
         let mut loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
         let chosen = check_view(given, &mut loaded)?;
-=======
-        let loaded = during("scene", "reading", || prepare(&given.scene, &given.work.reading, None))?;
-        check_view(given, &loaded)?;
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
         terminal::warn_of_scene(&loaded.scene, loaded.triangles);
 
         let seconds = given.work.reading.time;
@@ -79,14 +74,9 @@ mod with_window {
         let animation = &loaded.scene.animation;
         let session = Session::new(Opening {
             scene: given.scene.clone(),
-<<<<<<< HEAD
             camera_words: camera_words(&given.work.view),
             camera_is_default: chosen.index.is_none() && given.work.view.eye.is_none(),
             time_words: words("--clip", given.work.reading.clip.clone()),
-=======
-            camera_words: camera_words(&given.work.view),
-            time_words: words("--clip", given.work.reading.clip.clone()),
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
             other_words: other_words(given),
             settings: settings.clone(),
             exposure: given.exposure,
@@ -102,15 +92,9 @@ mod with_window {
         let (choice, validation) = (given.work.view.clone(), given.work.device.validation);
         let source = SceneSource {
             loaded,
-<<<<<<< HEAD
             clip: given.work.reading.clip.clone(),
             needs_all: given.work.reading.needs == NeedsName::All,
             camera: Box::new(move |loaded: &mut LoadedScene| choice.choose(loaded)),
-=======
-            clip: given.work.reading.clip.clone(),
-            needs_all: given.work.reading.needs == NeedsName::All,
-            camera: Box::new(move |scene: &Scene| choice.choose(scene)),
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
         };
         let end = run(Viewing {
             device: device.name().to_owned(),
@@ -127,7 +111,6 @@ mod with_window {
     }
 
     /// Refuses a camera, a time or a clip that the scene does not have before a window is opened.
-<<<<<<< HEAD
     fn check_view(given: &ViewerArguments, loaded: &mut LoadedScene) -> Result<Chosen, ExperimentError> {
         let SceneArguments { time, clip, .. } = &given.work.reading;
         if time.is_none() && clip.is_none() {
@@ -136,16 +119,6 @@ mod with_window {
         let mut shown = loaded.clone();
         shown.show(time.unwrap_or(0.0), clip.as_deref())?;
         given.work.view.choose(&mut shown)
-=======
-    fn check_view(given: &ViewerArguments, loaded: &LoadedScene) -> Result<Chosen, ExperimentError> {
-        let SceneArguments { time, clip, .. } = &given.work.reading;
-        if time.is_none() && clip.is_none() {
-            return given.work.view.choose(&loaded.scene);
-        }
-        let mut posed = loaded.clone();
-        posed.pose(time.unwrap_or(0.0), clip.as_deref())?;
-        given.work.view.choose(&posed.scene)
->>>>>>> 19f0e35d (Commands that show a scene share one group of arguments)
     }
 
     /// Writes a picture and says how to make it again.
