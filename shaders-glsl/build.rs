@@ -19,8 +19,10 @@ mod compile;
 mod constant_ids;
 #[path = "build/modules.rs"]
 mod modules;
-
-#[path = "build/packed.rs"]
+#[cfg(feature = "compile")]
+#[path = "build/pack.rs"]
+mod pack;
+#[path = "src/packed.rs"]
 mod packed;
 #[path = "build/records.rs"]
 mod records;
@@ -130,7 +132,7 @@ fn code_of_modules(modules: &[Built]) -> String {
         let _ = write!(
             code,
             "/// `{name}`: {entry}.\npub static {constant}: Shader = Shader {{ name: {name:?}, entry: {entry:?}, \
-             bytes: &Aligned(*include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{file}\"))) }};\n",
+             packed: include_bytes!(concat!(env!(\"OUT_DIR\"), \"/{file}\")) }};\n",
             file = file_of(name),
         );
         let _ = write!(all, "&{constant},");

@@ -14,7 +14,7 @@ use rasray_shader_compiler::{
 };
 
 use crate::modules::{Built, hash};
-use crate::{feature_is_on, read, write_changed};
+use crate::{feature_is_on, pack, packed, read, write_changed};
 
 /// Compiles every module whose features are on into `out`.
 pub(crate) fn modules(root: &Path, out: &Path) -> Result<Vec<Built>, String> {
@@ -57,7 +57,7 @@ fn take<'a>(permutations: &'a [Permutation], next: &AtomicUsize) -> Option<(usiz
     permutations.get(place).map(|permutation| (place, permutation))
 }
 
-/// Writes a module's SPIR-V, compiled unless the cache has it.
+/// Writes a module, packed, compiled unless the cache has it.
 fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(), String> {
     let module = Module { entry: &permutation.entry, defines: &permutation.defines };
     let text = preprocess(&[root], &module).map_err(|e| e.to_string())?;
@@ -72,7 +72,9 @@ fn compile_one(root: &Path, out: &Path, permutation: &Permutation) -> Result<(),
         }
     };
     let words = if feature_is_on("debug-shaders") { words } else { without_debug_text(&words) };
-    write_changed(&out.join(crate::modules::file_of(&permutation.name)), &bytes(&words))
+    let packed = pack::pack(&words).filter(|packed| packed::unpack(packed).as_deref() == Some(&words));
+    let packed = packed.ok_or("its SPIR-V cannot be packed")?;
+    write_changed(&out.join(crate::modules::file_of(&permutation.name)), &packed)
 }
 
 /// The words that are kept for a text, includes and macros expanded; none where another text is, or nothing.

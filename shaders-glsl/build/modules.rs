@@ -19,13 +19,8 @@ pub(crate) struct Built {
     pub(crate) features: Vec<String>,
 }
 
-/// The file that holds a module's SPIR-V.
+/// The file that holds a module, packed.
 pub(crate) fn file_of(name: &str) -> String {
-    format!("{}.spv", name.replace('/', "."))
-}
-
-/// The file that holds it in a folder of modules.
-fn packed_file_of(name: &str) -> String {
     format!("{}.packed", name.replace('/', "."))
 }
 
@@ -56,10 +51,8 @@ pub(crate) fn write_prebuilt(
     let mut text = format!("sources {sources:016x}\nfeatures {features}\n");
     for Built { name, entry, features } in modules {
         let path = out.join(file_of(name));
-        let bytes = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let words: Vec<_> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
-        let packed = packed::pack(&words).ok_or_else(|| format!("{name} is no SPIR-V"))?;
-        write_changed(&folder.join(packed_file_of(name)), &packed)?;
+        let packed = std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        write_changed(&folder.join(file_of(name)), &packed)?;
         let _ = writeln!(text, "module {name} {entry} {} {:016x}", features.join("+"), hash(&packed));
     }
     write_changed(&folder.join("modules.txt"), text.as_bytes())
@@ -103,7 +96,7 @@ impl Index {
         features().difference(&self.features).cloned().collect()
     }
 
-    /// Unpacks those modules to `out` whose features are on.
+    /// Copies those modules to `out` whose features are on.
     ///
     /// # Errors
     /// They were made of other sources than those, or one is not what it was.
@@ -113,16 +106,15 @@ impl Index {
         }
         let is_on = |module: &Built| module.features.iter().all(|feature| feature_is_on(feature));
         let modules = self.modules.into_iter().filter(|(module, _)| is_on(module));
-        let unpacked = modules.map(|(module, expected)| {
-            let file = packed_file_of(&module.name);
+        let copied = modules.map(|(module, expected)| {
+            let file = file_of(&module.name);
             let packed = std::fs::read(folder.join(&file)).map_err(|e| format!("{file}: {e}"))?;
-            let words = Some(packed).filter(|packed| hash(packed) == expected);
-            let words = words.and_then(|packed| packed::unpack(&packed));
-            let words = words.ok_or_else(|| format!("{file} is not what was compiled"))?;
-            let bytes: Vec<_> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-            write_changed(&out.join(file_of(&module.name)), &bytes)?;
+            if hash(&packed) != expected || packed::unpack(&packed).is_none() {
+                return Err(format!("{file} is not what was compiled"));
+            }
+            write_changed(&out.join(file), &packed)?;
             Ok(module)
         });
-        unpacked.collect()
+        copied.collect()
     }
 }

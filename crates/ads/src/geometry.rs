@@ -456,7 +456,7 @@ pub(crate) fn pipeline(
 ) -> Result<ComputePipeline, GpuError> {
     device.create_compute_pipeline(&ComputePipelineDesc {
         name: shader.name,
-        spirv: shader.words(),
+        spirv: &shader.words(),
         sets,
         push_constant_bytes: push_constant_bytes as u32,
         constants: &[],

@@ -93,7 +93,7 @@ impl TraceKernels {
         let kernel = |shader: &'static Shader| -> Result<Kernel, AdsError> {
             let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
                 name: shader.name,
-                spirv: shader.words(),
+                spirv: &shader.words(),
                 sets: &sets,
                 push_constant_bytes: size_of::<TraceConstants>() as u32,
                 constants: &constants,
@@ -102,7 +102,7 @@ impl TraceKernels {
         };
         let next_round = device.create_compute_pipeline(&ComputePipelineDesc {
             name: "ads/queue_next_round",
-            spirv: rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
+            spirv: &rasray_shaders_glsl::ADS_QUEUE_NEXT_ROUND.words(),
             sets: &[geometry.layout(), desc.structure_layout, &queue_layout],
             push_constant_bytes: size_of::<NextRoundConstants>() as u32,
             constants: &[],

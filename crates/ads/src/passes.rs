@@ -59,7 +59,7 @@ impl<'a> BuildPipelines<'a> {
         let shader = self.modules.find(name)?;
         Ok(self.device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: shader.words(),
+            spirv: &shader.words(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
             constants: &self.constants,
@@ -74,8 +74,8 @@ impl<'a> BuildPipelines<'a> {
         let (vertex, fragment) = (self.modules.find(vertex)?, self.modules.find(fragment)?);
         Ok(self.device.create_raster_pipeline(&RasterPipelineDesc {
             name: fragment.name,
-            vertex_spirv: vertex.words(),
-            fragment_spirv: fragment.words(),
+            vertex_spirv: &vertex.words(),
+            fragment_spirv: &fragment.words(),
             sets: &self.sets,
             push_constant_bytes: size_of::<BuildConstants>() as u32,
             constants: &self.constants,

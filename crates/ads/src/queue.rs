@@ -131,7 +131,7 @@ impl RayQueue {
         let shader = &rasray_shaders_glsl::ADS_QUEUE_TAKE;
         let take = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: shader.words(),
+            spirv: &shader.words(),
             sets: &[&layout],
             push_constant_bytes: 0,
             constants: &[],

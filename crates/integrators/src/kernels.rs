@@ -97,7 +97,7 @@ impl Bindings {
     ) -> Result<Kernel, IntegratorError> {
         let pipeline = device.create_compute_pipeline(&ComputePipelineDesc {
             name: shader.name,
-            spirv: shader.words(),
+            spirv: &shader.words(),
             sets: &self.layouts.each_ref(),
             push_constant_bytes: size_of::<WaveConstants>() as u32,
             constants,

@@ -22,7 +22,7 @@ pub struct Record {
 
 /// What the product's own reader says.
 pub fn read_by_us(shader: &Shader) -> BTreeMap<String, Record> {
-    layouts(shader.words())
+    layouts(&shader.words())
         .into_iter()
         .map(|layout| {
             let members = layout.members.iter().map(|m| (m.name.clone(), m.offset as usize, m.size as usize));
@@ -58,7 +58,7 @@ pub fn without_constant_expressions(words: &[u32]) -> Vec<u32> {
 
 fn reflected(shader: &Shader) -> Vec<EntryPoint> {
     ReflectConfig::new()
-        .spv(without_constant_expressions(shader.words()))
+        .spv(without_constant_expressions(&shader.words()))
         .ref_all_rscs(true)
         .reflect()
         .unwrap_or_else(|error| panic!("{shader:?}: {error}"))

@@ -153,7 +153,7 @@ fn run(cases: &[Case], sampler: Sampler, packed: &SceneTables) -> Vec<u32> {
     let pipeline = device
         .create_compute_pipeline(&ComputePipelineDesc {
             name: "scene/test_scattering",
-            spirv: rasray_shaders_glsl::spirv("scene/test_scattering"),
+            spirv: &rasray_shaders_glsl::spirv("scene/test_scattering"),
             sets: &[&own_layout, &scene_layout],
             push_constant_bytes: 0,
             constants: &[],

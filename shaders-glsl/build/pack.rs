@@ -1,0 +1,42 @@
+//! Packs modules; `src/packed.rs` says how, and unpacks them.
+
+use crate::packed::{HEADER, Ids};
+
+/// Ids are kept as distances up to this.
+const NEAR: u32 = 64;
+/// Of compression, 1 to 10: more takes longer and gains under one percent.
+const EFFORT: u8 = 6;
+
+/// A module in few bytes; none where it is no SPIR-V.
+pub(crate) fn pack(words: &[u32]) -> Option<Vec<u8>> {
+    let (header, mut rest) = words.split_at_checked(HEADER)?;
+    let (mut heads, mut operands, mut ids) = (Vec::new(), Vec::new(), Ids::default());
+    while let Some(first) = rest.first() {
+        let (instruction, after) = rest.split_at_checked((first >> 16) as usize)?;
+        put(&mut heads, u64::from(first & 0xffff));
+        put(&mut heads, u64::from(first >> 16));
+        for &word in instruction.get(1..)? {
+            let distance = Some(ids.apart(word)).filter(|&distance| distance < NEAR);
+            put(&mut operands, u64::from(distance.unwrap_or(word)) << 1 | u64::from(distance.is_some()));
+            ids.see(word);
+        }
+        rest = after;
+    }
+    let mut packed = Vec::new();
+    for &word in header {
+        put(&mut packed, word.into());
+    }
+    put(&mut packed, heads.len() as u64);
+    packed.extend(heads);
+    packed.extend(operands);
+    Some(miniz_oxide::deflate::compress_to_vec(&packed, EFFORT))
+}
+
+/// Seven bits a byte, the lowest first; the highest bit says that more follow.
+fn put(bytes: &mut Vec<u8>, mut number: u64) {
+    while number > 0x7f {
+        bytes.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+}
