@@ -12,7 +12,7 @@
 #define GEOMETRY_SET 0
 #endif
 
-// Counts and bounds of the geometry, and where positions and indices lie. 84 bytes.
+// Counts and bounds of the geometry, and where positions and indices lie. 108 bytes.
 struct GeometryHeader {
     uint vertex_count;   // vertices
     uint triangle_count; // triangles
@@ -28,6 +28,8 @@ struct GeometryHeader {
     uint upper_keys[3];  // upper corner while it is computed
     uint first_id;       // of a part in one run: id of its first triangle; 0 elsewhere
     uint run_count;      // of a part in several runs: how many; 0 elsewhere
+    vec3 around_lower;   // of a part: lower corner of the whole, from all of which rays may start; its own elsewhere
+    vec3 around_upper;   // upper corner of the same
 };
 
 #ifdef GEOMETRY_WRITTEN

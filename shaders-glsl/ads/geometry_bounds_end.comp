@@ -18,4 +18,7 @@ void main() {
         geometry_header.lower[axis] = any_corner ? float_of(geometry_header.lower_keys[axis]) : 0.0;
         geometry_header.upper[axis] = any_corner ? float_of(geometry_header.upper_keys[axis]) : 0.0;
     }
+    // For a part, ads/geometry_bounds_unite.comp follows.
+    geometry_header.around_lower = geometry_header.lower;
+    geometry_header.around_upper = geometry_header.upper;
 }

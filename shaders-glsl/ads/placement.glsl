@@ -53,25 +53,29 @@ vec4 cube_placement(vec3 lower, vec3 upper) {
 // Cells of one box along the axes of the world: what ads/box_cells.glsl works on.
 struct BoxPlacement {
     vec3 centre;          // middle of the bounds
-    float reach;          // half the longest side of the bounds; more where the eye is far away
+    float reach;          // half the longest side of the bounds; more where rays start far away
     float rounding;       // how far a ray may be from a triangle that it hits
     vec3 lower;           // corner of the first cell relative to the centre
     vec3 per_metre;       // cells
 };
 
-// This number of cells along each axis, 1 or more, over the bounds, for rays from around the eye.
+// This number of cells along each axis, 1 or more, over the bounds, for rays from around the eye and from everywhere within
+// the bounds around them: those of the whole geometry where the cells are of a part.
 // The cells reach PLACEMENT_WIDENING margins below the bounds and twice as many above: sides lie well within a cell then,
 // and so does the middle.
-BoxPlacement box_placement(vec3 lower, vec3 upper, uvec3 cells, vec3 eye) {
+BoxPlacement box_placement(vec3 lower, vec3 upper, vec3 around_lower, vec3 around_upper, uvec3 cells, vec3 eye) {
     precise vec3 centre = 0.5 * lower + 0.5 * upper;
     precise vec3 first = lower - centre;
     precise vec3 last = upper - centre;
-    precise vec3 away = eye - centre;
+    precise vec3 eye_offset = eye - centre;
+    precise vec3 around_first = around_lower - centre;
+    precise vec3 around_last = around_upper - centre;
+    float away = max(largest_axis(abs(eye_offset)), box_reach(around_first, around_last));
     float own = max(box_reach(first, last), PLACEMENT_SMALLEST);
     float most = float(max(cells.x, max(cells.y, cells.z)));
-    // Margins of a distant eye are no wider than a share of a cell.
+    // Margins for distant rays are no wider than a share of a cell.
     precise float limit = (2.0 * PLACEMENT_WIDEST_MARGIN / CELL_ROUNDING) * own / most;
-    float reach = max(min(largest_axis(abs(away)) / PLACEMENT_EYE_LIMIT, limit), own);
+    float reach = max(min(away / PLACEMENT_EYE_LIMIT, limit), own);
     precise float rounding = CELL_ROUNDING * reach;
     precise float wider = PLACEMENT_WIDENING * rounding;
     // Halves, so that they stay within the range of numbers.

@@ -6,9 +6,10 @@
 
 layout(local_size_x = 64) in;
 
-// What is placed. 48 bytes.
+// What is placed. 72 bytes.
 struct PlacementCase {
     vec3 bounds[2];       // lower and upper corner, metres
+    vec3 around[2];       // bounds of the whole
     vec3 eye;             // metres
     uint cells[3];        // cells of the box along each axis
 };
@@ -39,7 +40,7 @@ void main() {
         return;
     }
     PlacementCase c = cases[index];
-    BoxPlacement box = box_placement(c.bounds[0], c.bounds[1], uvec3(c.cells[0], c.cells[1], c.cells[2]), c.eye);
+    BoxPlacement box = box_placement(c.bounds[0], c.bounds[1], c.around[0], c.around[1], uvec3(c.cells[0], c.cells[1], c.cells[2]), c.eye);
     vec4 cube = cube_placement(c.bounds[0], c.bounds[1]);
     vec3 centre = centre_within(c.eye, c.bounds[0], c.bounds[1]);
     results[index] = PlacementResult(centre, cube.xyz, cube.w, box.centre, box.rounding, box.lower, box.per_metre, box.reach);

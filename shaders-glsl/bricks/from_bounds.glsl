@@ -1,9 +1,10 @@
 // What: places the cells of bricks for the bounds of the geometry and the eye.
-// Reads, writes: header.
+// Reads: header of the geometry. Reads, writes: header.
 // Source: none; docs/systems/bricks.md.
 #ifndef BRICKS_FROM_BOUNDS_GLSL
 #define BRICKS_FROM_BOUNDS_GLSL
 
+#include "ads/geometry.glsl"
 #include "ads/placement.glsl"
 #include "bricks/header.glsl"
 
@@ -11,7 +12,8 @@ void brick_from_bounds(BrickRef s, vec3 lower, vec3 upper) {
     uvec3 cells = uvec3(BRICK_HEADER(s).columns, BRICK_HEADER(s).rows, BRICK_HEADER(s).slices);
     BoxPlacement at;
     if (BRICK_VIEWS == BRICK_VIEWS_AXES) {
-        at = box_placement(lower, upper, cells, BRICK_HEADER(s).eye);
+        at = box_placement(lower, upper, geometry_header.around_lower, geometry_header.around_upper, cells,
+            BRICK_HEADER(s).eye);
     } else {
         at.centre = centre_within(BRICK_HEADER(s).eye, lower, upper);
         at.reach = box_reach(lower - at.centre, upper - at.centre);

@@ -1,15 +1,17 @@
 // What: places the cells of a grid for the bounds of the geometry and the eye.
-// Reads, writes: header.
+// Reads: header of the geometry. Reads, writes: header.
 // Source: docs/systems/grid.md.
 #ifndef GRID_FROM_BOUNDS_GLSL
 #define GRID_FROM_BOUNDS_GLSL
 
+#include "ads/geometry.glsl"
 #include "ads/placement.glsl"
 #include "grid/header.glsl"
 
 void grid_from_bounds(GridRef s, vec3 lower, vec3 upper) {
     uvec3 cells = uvec3(GRID_HEADER(s).cells[0], GRID_HEADER(s).cells[1], GRID_HEADER(s).cells[2]);
-    BoxPlacement at = box_placement(lower, upper, cells, GRID_HEADER(s).eye);
+    BoxPlacement at = box_placement(lower, upper, geometry_header.around_lower, geometry_header.around_upper, cells,
+        GRID_HEADER(s).eye);
     GRID_HEADER(s).centre = at.centre;
     GRID_HEADER(s).reach = at.reach;
     GRID_HEADER(s).rounding = at.rounding;

@@ -110,7 +110,7 @@ mod tests {
             bytes += size_of_val(&words[..]);
             packed_bytes += packed.len();
         }
-        assert!(packed_bytes < bytes / 3, "{packed_bytes} of {bytes}");
+        assert!(packed_bytes < bytes / 2, "{packed_bytes} of {bytes}");
         assert!(!ALL.is_empty() && pack::pack(&[1, 2, 3, 4, 5, 0]).is_none());
         // Numbers of every size, and an instruction whose end is missing.
         let words = [1, 2, 3, 4, 5, 4 << 16 | 400, u32::MAX, 0, 70_000];

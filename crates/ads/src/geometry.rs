@@ -83,7 +83,7 @@ struct Gather {
 }
 
 impl Geometry {
-    /// Makes the header buffer ([`GeometryHeader`], 84 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
+    /// Makes the header buffer ([`GeometryHeader`], 108 bytes, and 8 for each run of a part, at least one), where they are needed one for gathered indices (12 bytes
     /// per triangle) and one for draws (96 bytes), and the binding set.
     ///
     /// # Errors
@@ -137,6 +137,7 @@ impl Geometry {
             Some((range, before)) => Some(Count::new(device, &layout, &desc, *range, *before)?),
             None => None,
         };
+        let around = part.map_or(desc.bounds, |(whole, _)| whole.desc.bounds);
         header.write(
             0,
             bytes_of(&GeometryHeader {
@@ -154,6 +155,8 @@ impl Geometry {
                 upper_keys: [0; 3],
                 first_id: if let [run] = runs { run.id } else { 0 },
                 run_count: if runs.len() > 1 { runs.len() as u32 } else { 0 },
+                around_lower: around[0],
+                around_upper: around[1],
             }),
         )?;
         if runs.len() > 1 {

@@ -2,6 +2,8 @@
 
 use rasray_shaders_glsl::constants::ads::PLACEMENT_EYE_LIMIT;
 
+use crate::Geometry;
+
 /// What a camera sees: a pyramid whose apex is the eye. Axes are unit and perpendicular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraView {
@@ -64,16 +66,18 @@ impl From<[f32; 3]> for Viewpoint {
     }
 }
 
-/// Whether cells of one box over these bounds (lower, upper, metres) are the same for this eye as for every other one as
-/// near: those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side have wider margins
-/// (`box_placement` in `ads/placement.glsl`).
-pub fn box_ignores_eye([lower, upper]: [[f32; 3]; 2], eye: [f32; 3]) -> bool {
-    let along = |of: fn(f32, f32, f32) -> f32| {
-        (0..3).map(|axis| of(lower[axis], upper[axis], eye[axis])).fold(0.0_f32, f32::max)
-    };
-    let reach = along(|lower, upper, _| 0.5 * (upper - lower));
-    let away = along(|lower, upper, eye| (eye - (0.5 * lower + 0.5 * upper)).abs());
-    away <= PLACEMENT_EYE_LIMIT * reach
+/// Whether cells of one box over the stated bounds of a geometry are the same for this eye as for every other one as near:
+/// those of an eye farther away than `PLACEMENT_EYE_LIMIT` times half the longest side, and outside of the whole of which
+/// the geometry is a part, have wider margins (`box_placement` in `ads/placement.glsl`).
+pub fn box_ignores_eye(geometry: &Geometry, eye: [f32; 3]) -> bool {
+    let [lower, upper] = geometry.bounds();
+    let [around_lower, around_upper] = geometry.whole().bounds();
+    let along = |of: &dyn Fn(usize) -> f32| (0..3).map(of).fold(0.0_f32, f32::max);
+    let from_centre =
+        |point: [f32; 3], axis: usize| (point[axis] - (0.5 * lower[axis] + 0.5 * upper[axis])).abs();
+    let reach = along(&|axis| 0.5 * (upper[axis] - lower[axis]));
+    let around = along(&|axis| from_centre(around_lower, axis).max(from_centre(around_upper, axis)));
+    along(&|axis| from_centre(eye, axis)) <= (PLACEMENT_EYE_LIMIT * reach).max(around)
 }
 
 #[cfg(test)]

@@ -87,7 +87,7 @@ impl Design for Passes {
 
     /// Cells along the axes have a margin for the eye only where that is far away.
     fn is_stale(parts: &Parts<Config>, built: Viewpoint, wanted: Viewpoint) -> bool {
-        let is_near = |viewpoint: Viewpoint| box_ignores_eye(parts.geometry.bounds(), viewpoint.eye);
+        let is_near = |viewpoint: Viewpoint| box_ignores_eye(&parts.geometry, viewpoint.eye);
         let both_near = is_near(built) && is_near(wanted);
         !both_near && Self::depends_on(&parts.config).are_stale(built, wanted)
     }

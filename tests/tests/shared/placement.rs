@@ -2,7 +2,7 @@
 
 use bytemuck::cast_slice;
 use rasray_shaders_glsl::ADS_TEST_PLACEMENT;
-use rasray_shaders_glsl::constants::ads::PLACEMENT_MARGIN;
+use rasray_shaders_glsl::constants::ads::{ORIGIN_LIMIT, PLACEMENT_MARGIN};
 use rasray_shaders_glsl::records::test_kernels::{
     PlacementCase as Case, PlacementResult, PlacementTestConstants,
 };
@@ -20,7 +20,8 @@ fn placed(cases: &[Case]) -> Vec<PlacementResult> {
 
 /// The centres of faces for eyes and bounds.
 fn centres(cases: &[([f32; 3], [[f32; 3]; 2])]) -> Vec<[f32; 3]> {
-    let cases: Vec<Case> = cases.iter().map(|&(eye, bounds)| Case { bounds, eye, cells: [4; 3] }).collect();
+    let cases: Vec<Case> =
+        cases.iter().map(|&(eye, bounds)| Case { bounds, around: bounds, eye, cells: [4; 3] }).collect();
     placed(&cases).iter().map(|placed| placed.centre).collect()
 }
 
@@ -93,7 +94,12 @@ fn cells_hold_the_geometry_with_its_margins() {
         ([[-2.0e38; 3], [2.0e38; 3]], [16; 3]),
         ([[1.0; 3]; 2], [4; 3]),
     ] {
-        cases.extend([0.0, 10.0, 1.0e3, 1.0e9].map(|away| Case { bounds, eye: [away; 3], cells }));
+        cases.extend([0.0, 10.0, 1.0e3, 1.0e9].map(|away| Case {
+            bounds,
+            around: bounds,
+            eye: [away; 3],
+            cells,
+        }));
     }
     for (at, case) in placed(&cases).iter().zip(&cases) {
         for axis in 0..3 {
@@ -120,6 +126,24 @@ fn cells_hold_the_geometry_with_its_margins() {
     }
 }
 
+/// Cells of a part have margins for rays from anywhere in the whole, and those of a whole none that it does not need.
+#[test]
+fn rays_may_start_anywhere_around_a_part() {
+    let bounds = [[-1.0, 0.0, -1.0], [1.0, 2.0, 1.0]];
+    let around = [[-100.0, -1.0, -100.0], [100.0, 2.0, 50.0]];
+    let eye = [3.0, 1.0, 0.0];
+    let part = Case { bounds, around, eye, cells: [64; 3] };
+    let whole = Case { around: bounds, ..part };
+    let far = Case { eye: [0.0, 1.0, -100.0], ..whole };
+    let many = Case { cells: [1024; 3], ..part };
+    let [part, whole, far, many] = placed(&[part, whole, far, many]).try_into().expect("four");
+    assert_eq!(whole.box_reach, 1.0);
+    assert!(part.box_reach * ORIGIN_LIMIT > 100.0, "{part:?}");
+    // As for an eye that far away.
+    assert_eq!((part.box_reach, part.box_lower), (far.box_reach, far.box_lower));
+    assert!(many.box_rounding * many.box_per_metre[0] <= 0.126, "{many:?}");
+}
+
 #[test]
 fn cubes_hold_the_bounds() {
     let cases = [
@@ -130,7 +154,7 @@ fn cubes_hold_the_bounds() {
         [[-1.8e18; 3], [1.8e18; 3]],
         [[0.0; 3]; 2],
     ]
-    .map(|bounds| Case { bounds, eye: [0.0; 3], cells: [1; 3] });
+    .map(|bounds| Case { bounds, around: bounds, eye: [0.0; 3], cells: [1; 3] });
     for (at, Case { bounds, .. }) in placed(&cases).iter().zip(&cases) {
         assert!(at.cube_side > 0.0 && at.cube_side.is_finite());
         for axis in 0..3 {
