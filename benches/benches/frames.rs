@@ -9,7 +9,7 @@
 use std::error::Error;
 use std::ffi::OsStr;
 
-use rasray_ads::{Counters, QueueCounters, Structure};
+use rasray_ads::{Combined, Counters, Geometry, QueueCounters, Structure};
 use rasray_experiment::{LoadedScene, Stage, load, requirements};
 use rasray_gpu::{Device, DeviceDesc, PassTiming};
 use rasray_integrators::{Film, Integrator, IntegratorDesc, Raycast, waves};
@@ -21,17 +21,20 @@ use rasray_tracer::build_with_headroom;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Systems with an option each; the first is what the others are divided by.
-const SYSTEMS: [(&str, Option<(&str, &str)>); 9] = [
-    ("bvh", Some(("builder", "lbvh"))),
-    ("bvh", Some(("builder", "refit"))),
-    ("bvh", Some(("builder", "sah"))),
-    ("bricks", None),
-    ("dirt", None),
-    ("hu", None),
-    ("mmrt", None),
-    ("selective", None),
-    ("ldc", None),
+/// Systems with an option each, and whether what moves is a part by itself, the only one that is built with every frame; the
+/// first is what the others are divided by.
+const SYSTEMS: [(&str, Option<(&str, &str)>, bool); 11] = [
+    ("bvh", Some(("builder", "lbvh")), false),
+    ("bvh", Some(("builder", "lbvh")), true),
+    ("bvh", Some(("builder", "refit")), false),
+    ("bvh", Some(("builder", "sah")), false),
+    ("bricks", None, false),
+    ("bricks", None, true),
+    ("dirt", None, false),
+    ("hu", None, false),
+    ("mmrt", None, false),
+    ("selective", None, false),
+    ("ldc", None, false),
 ];
 
 /// Rays per pixel of the frames in the table.
@@ -95,11 +98,12 @@ fn main() -> Result<()> {
         loaded.triangles
     );
     let mut measured = Vec::new();
-    for (system, option) in SYSTEMS {
+    for (system, option, in_parts) in SYSTEMS {
         let given = option.map(|(name, value)| (name.to_owned(), value.to_owned()));
         let spec = Spec::new(system, "robust", given)?;
-        let title = option.map_or_else(|| system.to_owned(), |(_, value)| format!("{system} {value}"));
-        let (frame, work) = frames(&device, &loaded, &spec, size, count)?;
+        let words = [Some(system), option.map(|(_, value)| value), in_parts.then_some("in parts")];
+        let title = words.into_iter().flatten().collect::<Vec<_>>().join(" ");
+        let (frame, work) = frames(&device, &loaded, &spec, in_parts, (size, count))?;
         measured.push(Measured { title, frame, work });
     }
     print(&measured);
@@ -153,8 +157,8 @@ fn frames(
     device: &Device,
     loaded: &LoadedScene,
     spec: &Spec,
-    size: [u32; 2],
-    count: u32,
+    in_parts: bool,
+    (size, count): ([u32; 2], u32),
 ) -> Result<(Frame, Work)> {
     let [width, height] = size;
     let scene = &loaded.scene;
@@ -165,11 +169,11 @@ fn frames(
     let film = Film::new(device, width, height)?;
     let integrator = Raycast::new(&IntegratorDesc::new(device, &stage.scene, &film))?;
     let mut setting = Setting { device, stage, integrator, loaded };
-    let mut structure = setting.create(spec)?;
+    let mut structure = setting.create(spec, in_parts)?;
     let mut all = Vec::new();
     // The first compiles kernels and grows pools.
     for number in 0..=count {
-        let frame = setting.frame(structure.as_mut(), number)?;
+        let frame = setting.frame(&mut structure, number)?;
         if number > 0 {
             all.push(frame);
         }
@@ -184,12 +188,12 @@ fn frames(
     };
     // Kernels that count are others. A tree that is refitted has to keep the order of the first frame, as the one that was
     // timed did.
-    let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums))?;
+    let mut counting = setting.create(&spec.clone().with_counters(Counters::Sums), in_parts)?;
     setting.show(0)?;
-    setting.build(counting.as_mut())?;
+    setting.build(&mut counting)?;
     setting.show(count)?;
-    setting.build(counting.as_mut())?;
-    let (_, counters) = setting.trace(counting.as_ref())?;
+    setting.build(&mut counting)?;
+    let (_, counters) = setting.trace(counting.structure())?;
     let rays = f64::from(width) * f64::from(height);
     let per_ray = |of: fn(&QueueCounters) -> u64| counters.iter().map(of).sum::<u64>() as f64 / rays;
     let work = Work {
@@ -200,10 +204,39 @@ fn frames(
     Ok((frame, work))
 }
 
+/// A structure over frames.
+enum Kept {
+    All(Box<dyn Structure>),
+    Parts { combined: Box<Combined>, static_built: bool },
+}
+
+impl Kept {
+    fn structure(&self) -> &dyn Structure {
+        match self {
+            Self::All(structure) => structure.as_ref(),
+            Self::Parts { combined, .. } => combined.as_ref(),
+        }
+    }
+
+    fn structure_mut(&mut self) -> &mut dyn Structure {
+        match self {
+            Self::All(structure) => structure.as_mut(),
+            Self::Parts { combined, .. } => combined.as_mut(),
+        }
+    }
+}
+
 impl Setting<'_> {
-    fn create(&self, spec: &Spec) -> Result<Box<dyn Structure>> {
+    fn create(&mut self, spec: &Spec, in_parts: bool) -> Result<Kept> {
+        let parts = if in_parts { Some(self.stage.parts(self.device)?) } else { None };
         let scene = &self.stage.scene;
-        Ok(spec.create(self.device, scene.geometry(), Some(scene.binding()))?)
+        let create = |geometry: &Geometry| spec.create(self.device, geometry, Some(scene.binding()));
+        Ok(match parts {
+            None => Kept::All(create(scene.geometry())?),
+            Some(parts) => {
+                Kept::Parts { combined: Box::new(Combined::new(&parts, create)?), static_built: false }
+            }
+        })
     }
 
     /// Poses the scene for a frame: milliseconds.
@@ -214,8 +247,28 @@ impl Setting<'_> {
         Ok(shown.host_milliseconds + total(&shown.passes, |_| true))
     }
 
+    /// Builds what has to be: milliseconds. The camera stands still, so of parts that is the one that moves.
+    fn build(&self, kept: &mut Kept) -> Result<f64> {
+        let Kept::Parts { combined, static_built } = kept else {
+            return self.build_all(kept.structure_mut());
+        };
+        let mut milliseconds = 0.0;
+        for moving in [false, true] {
+            if moving || !*static_built {
+                let mut built = Ok(0.0);
+                combined.change_part(moving, |part| {
+                    built = self.build_all(part);
+                    Ok(())
+                })?;
+                milliseconds += built?;
+            }
+        }
+        *static_built = true;
+        Ok(milliseconds)
+    }
+
     /// The build that is complete, milliseconds; those before it, in which pools grew, are not counted.
-    fn build(&self, structure: &mut dyn Structure) -> Result<f64> {
+    fn build_all(&self, structure: &mut dyn Structure) -> Result<f64> {
         let (device, viewpoint) = (self.device, self.stage.scene.viewpoint());
         let built = build_with_headroom(device, structure, viewpoint, device.best_timing(), HEADROOM)?;
         Ok(built.prepare_milliseconds + total(&built.passes, |_| true))
@@ -243,10 +296,10 @@ impl Setting<'_> {
     }
 
     /// One frame, each part waited for.
-    fn frame(&mut self, structure: &mut dyn Structure, number: u32) -> Result<Frame> {
+    fn frame(&mut self, kept: &mut Kept, number: u32) -> Result<Frame> {
         let pose = self.show(number)?;
-        let build = self.build(structure)?;
-        let (passes, _) = self.trace(structure)?;
+        let build = self.build(kept)?;
+        let (passes, _) = self.trace(kept.structure())?;
         let is_trace = |label: &str| label.contains("/trace_");
         let is_surfaces = |label: &str| label.contains("surface");
         Ok(Frame {

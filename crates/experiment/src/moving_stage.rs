@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use rasray_ads::GeometryParts;
 use rasray_gpu::{Device, PassTiming, Timing};
 use rasray_gpu_scene::{PosePass, SceneTables};
 use rasray_scene::needs::Needs;
@@ -47,6 +48,18 @@ impl Stage {
     /// Whether [`Stage::pose`] can show the scene at any moment.
     pub fn is_moving(&self) -> bool {
         self.pose.is_some()
+    }
+
+    /// The geometry in two parts, what moves and all else ([`PosePass::parts`]).
+    ///
+    /// # Errors
+    /// Nothing here moves, out of memory, or a lost device.
+    pub fn parts(&mut self, device: &Device) -> Result<GeometryParts, ExperimentError> {
+        let pass = self
+            .pose
+            .as_mut()
+            .ok_or_else(|| device_error("a scene that was not made to move has no parts"))?;
+        pass.parts(device).map_err(scene_error)
     }
 
     /// Shows the scene, which is the one that this was made from ([`Stage::moving`]), at a moment: what moves is posed on the
