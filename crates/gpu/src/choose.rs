@@ -7,7 +7,8 @@ use std::fmt;
 use ash::vk;
 
 use crate::error::{During, GpuError, Result};
-use crate::features::{Feature, FeatureStructs, Requirements};
+use crate::features::{Feature, FeatureStructs};
+use crate::requirements::Requirements;
 
 /// Kind of a device, in order of preference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

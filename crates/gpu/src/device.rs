@@ -10,12 +10,13 @@ use ash::vk;
 use crate::choose::{Candidate, DeviceSummary, candidates, choose};
 use crate::device_core::{Commands, Core, Identity};
 use crate::error::{During, GpuError, Result};
-use crate::features::{Feature, FeatureStructs, Missing, Requirements};
+use crate::features::{Feature, FeatureStructs};
 use crate::instance::Instance;
 use crate::limits::Limits;
 use crate::memory::{Ledger, PooledMemory};
 use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
+use crate::requirements::{Missing, Requirements};
 use crate::set_layout::SetLayouts;
 
 /// How a device is chosen and made.
