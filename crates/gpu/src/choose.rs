@@ -153,7 +153,7 @@ impl Candidate {
             unsafe { candidate.inspect_version_1_2(instance) };
         }
         #[cfg(feature = "fault-injection")]
-        crate::faults::hide(&mut candidate);
+        candidate.hide();
         Ok(candidate)
     }
 
@@ -200,6 +200,17 @@ impl Candidate {
             if switched && extended && queued {
                 self.present.insert(feature);
             }
+        }
+    }
+
+    /// Takes away what a test hides.
+    #[cfg(feature = "fault-injection")]
+    fn hide(&mut self) {
+        self.present.retain(|feature| !crate::faults::hides(*feature));
+        if let (true, Some(family)) =
+            (crate::faults::hides(Feature::TimestampQueries), self.queue_family.as_mut())
+        {
+            family.timestamp_valid_bits = 0;
         }
     }
 

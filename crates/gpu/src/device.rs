@@ -156,6 +156,8 @@ impl Device {
         });
         // SAFETY: the device belongs to the instance and is usable, so of version 1.2 or newer.
         let limits = unsafe { Limits::read(&instance, candidate.physical, family.timestamp_valid_bits) };
+        #[cfg(feature = "fault-injection")]
+        let limits = crate::faults::lower(limits);
         let labels = parts.debug_utils.then(|| ash::ext::debug_utils::Device::new(&instance, &device));
         let core = Core {
             physical: candidate.physical,

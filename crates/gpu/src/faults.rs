@@ -18,7 +18,6 @@ pub use schedule::{At, Injected, With, calls_of, inject, live_objects};
 
 use std::cell::RefCell;
 
-use crate::choose::Candidate;
 use crate::error::{GpuError, Result};
 use crate::features::Feature;
 use crate::limits::Limits;
@@ -53,16 +52,9 @@ pub fn with_limits<R>(change: impl Fn(&mut Limits) + 'static, work: impl FnOnce(
     answer
 }
 
-/// Takes away what [`without`] asks for.
-pub(crate) fn hide(candidate: &mut Candidate) {
-    HIDDEN.with_borrow(|hidden| {
-        candidate.present.retain(|feature| !hidden.contains(feature));
-        if let (true, Some(family)) =
-            (hidden.contains(&Feature::TimestampQueries), candidate.queue_family.as_mut())
-        {
-            family.timestamp_valid_bits = 0;
-        }
-    });
+/// Whether [`without`] asks for a device without the feature.
+pub(crate) fn hides(feature: Feature) -> bool {
+    HIDDEN.with_borrow(|hidden| hidden.contains(&feature))
 }
 
 /// Changes limits as [`with_limits`] asks for.
