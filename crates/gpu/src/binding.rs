@@ -1,14 +1,14 @@
 //! Descriptor sets of storage buffers.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 
 use ash::vk;
 
 use crate::buffer::{Buffer, BufferUsage};
 use crate::device::Device;
-use crate::error::{During, GpuError, Result};
-use crate::set_layout::{Mask, SetLayout, all, bindings};
+use crate::error::{GpuError, Result};
+use crate::set_layout::{SetLayout, add_part};
+use crate::set_parts::{Mask, SetParts, all};
 
 /// A part of a buffer to be bound.
 #[derive(Debug, Clone, Copy)]
@@ -29,36 +29,21 @@ pub struct BindingSet {
 
 pub(crate) struct BindingSetInner {
     layout: SetLayout,
-    name: String,
-    buffers: Vec<BoundBuffer>,
-    /// A set a part of the layout.
-    parts: Mutex<BTreeMap<Mask, Part>>,
-}
-
-/// What is bound, as long as the set is there.
-struct BoundBuffer {
-    buffer: Buffer,
-    offset: u64,
-    size: u64,
-}
-
-#[derive(Clone, Copy)]
-struct Part {
-    /// One pool a set: sets are few, and each can be dropped by itself.
-    pool: vk::DescriptorPool,
-    raw: vk::DescriptorSet,
+    parts: Arc<SetParts>,
+    /// What is bound, as long as the set is there.
+    _buffers: Vec<Buffer>,
 }
 
 impl std::fmt::Debug for BindingSet {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_tuple("BindingSet").field(&self.inner.name).finish()
+        formatter.debug_tuple("BindingSet").field(&self.inner.parts.name).finish()
     }
 }
 
 impl BindingSet {
     /// Name for errors and tools.
     pub fn name(&self) -> &str {
-        &self.inner.name
+        &self.inner.parts.name
     }
 
     /// The Vulkan set of all bindings.
@@ -72,76 +57,12 @@ impl BindingSetInner {
         &self.layout
     }
 
-    fn parts(&self) -> MutexGuard<'_, BTreeMap<Mask, Part>> {
-        self.parts.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// The Vulkan set of some bindings: those of a pipeline that was made with this layout.
     ///
     /// # Panics
     /// No part of the layout has them.
     pub(crate) fn part(&self, mask: Mask) -> vk::DescriptorSet {
-        self.parts()[&mask].raw
-    }
-
-    pub(crate) fn add_part(&self, mask: Mask, layout: vk::DescriptorSetLayout) -> Result<()> {
-        let mut parts = self.parts();
-        if parts.contains_key(&mask) {
-            return Ok(());
-        }
-        let (core, name) = (&self.layout.core, self.name.as_str());
-        let sizes = [vk::DescriptorPoolSize::default()
-            .ty(vk::DescriptorType::STORAGE_BUFFER)
-            // A pool without descriptors is not allowed; a set without them is.
-            .descriptor_count(mask.count_ones().max(1))];
-        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
-        // SAFETY: one set of a known type.
-        let pool = unsafe { core.device.create_descriptor_pool(&info, None) }
-            .during("vkCreateDescriptorPool", name)?;
-        let layouts = [layout];
-        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
-        // SAFETY: the pool is fresh and holds what one set of this layout needs.
-        let allocated =
-            unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
-        let raw = match allocated.as_deref() {
-            Ok([raw, ..]) => *raw,
-            other => {
-                // SAFETY: nothing was allocated from the pool.
-                unsafe { core.device.destroy_descriptor_pool(pool, None) };
-                return Err(match other {
-                    Err(error) => error.clone(),
-                    Ok(_) => GpuError::InvalidUse {
-                        name: name.to_owned(),
-                        reason: "the driver returned no descriptor set".to_owned(),
-                    },
-                });
-            }
-        };
-        core.name_object(raw, name);
-        let infos: Vec<_> = bindings(mask)
-            .zip(self.buffers.iter().enumerate().filter(|(binding, _)| mask >> binding & 1 != 0))
-            .map(|(binding, (_, bound))| {
-                let info = vk::DescriptorBufferInfo::default()
-                    .buffer(bound.buffer.raw())
-                    .offset(bound.offset)
-                    .range(bound.size);
-                (binding, [info])
-            })
-            .collect();
-        let writes: Vec<_> = infos
-            .iter()
-            .map(|(binding, info)| {
-                vk::WriteDescriptorSet::default()
-                    .dst_set(raw)
-                    .dst_binding(*binding)
-                    .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
-                    .buffer_info(info)
-            })
-            .collect();
-        // SAFETY: the set is fresh, the buffers are storage buffers of this device, and the ranges were checked.
-        unsafe { core.device.update_descriptor_sets(&writes, &[]) };
-        parts.insert(mask, Part { pool, raw });
-        Ok(())
+        self.parts.lock()[&mask].raw
     }
 }
 
@@ -174,23 +95,23 @@ impl Device {
         ranges: &[BufferRange<'_>],
     ) -> Result<BindingSet> {
         self.check_ranges(layout, name, ranges)?;
-        let bound = |range: &BufferRange<'_>| BoundBuffer {
-            buffer: range.buffer.clone(),
-            offset: range.offset,
-            size: range.size,
+        let bound = |range: &BufferRange<'_>| {
+            vk::DescriptorBufferInfo::default()
+                .buffer(range.buffer.raw())
+                .offset(range.offset)
+                .range(range.size)
         };
         let inner = Arc::new(BindingSetInner {
             layout: layout.clone(),
-            name: name.to_owned(),
-            buffers: ranges.iter().map(bound).collect(),
-            parts: Mutex::default(),
+            parts: Arc::new(SetParts::new(name, ranges.iter().map(bound).collect())),
+            _buffers: ranges.iter().map(|range| range.buffer.clone()).collect(),
         });
+        // The lock is released before a set that failed is dropped, which takes it again.
         let mut layouts = self.core.set_layouts.lock();
-        let parts = layouts.entry(layout.storage_buffers).or_default();
-        let made = parts.layouts.iter().try_for_each(|(mask, layout)| inner.add_part(*mask, *layout));
-        made?;
-        parts.sets.retain(|set| set.strong_count() > 0);
-        parts.sets.push(Arc::downgrade(&inner));
+        let of_layout = layouts.entry(layout.storage_buffers).or_default();
+        let mut made = of_layout.layouts.iter();
+        made.try_for_each(|(mask, layout)| add_part(&self.core, &inner.parts, *mask, *layout))?;
+        of_layout.sets.push(inner.parts.clone());
         drop(layouts);
         Ok(BindingSet { inner })
     }
@@ -241,14 +162,14 @@ impl Device {
 impl Drop for BindingSetInner {
     fn drop(&mut self) {
         let core = &self.layout.core;
-        if !core.is_usable() {
-            return;
+        if let Some(of_layout) = core.set_layouts.lock().get_mut(&self.layout.storage_buffers) {
+            of_layout.sets.retain(|set| !Arc::ptr_eq(set, &self.parts));
         }
-        let parts = self.parts.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for part in parts.values() {
+        let Some(device) = core.usable_device() else { return };
+        for part in self.parts.lock().values() {
             // SAFETY: submissions that use the set hold a handle to it, so none is pending; embedders keep what
-            // they record alive.
-            unsafe { core.device.destroy_descriptor_pool(part.pool, None) };
+            // they record alive. It was taken out of the layout, so that no part is added any more.
+            unsafe { device.destroy_descriptor_pool(part.pool, None) };
         }
     }
 }

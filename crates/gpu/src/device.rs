@@ -17,7 +17,7 @@ use crate::memory::{Ledger, PooledMemory};
 use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
 use crate::requirements::{Missing, Requirements};
-use crate::set_layout::SetLayouts;
+use crate::set_parts::SetLayouts;
 
 /// How a device is chosen and made.
 #[derive(Debug, Clone)]

@@ -14,7 +14,7 @@ use crate::limits::Limits;
 use crate::memory::{Allocation, Ledger, Memory};
 use crate::messages::ValidationLog;
 use crate::pipeline_store::PipelineStore;
-use crate::set_layout::SetLayouts;
+use crate::set_parts::SetLayouts;
 
 /// Commands that are core in Vulkan 1.3 and an extension before.
 pub(crate) struct Commands {
@@ -94,6 +94,11 @@ impl Core {
         !self.abandoned.load(Ordering::Acquire)
     }
 
+    /// The Vulkan device while objects may still be destroyed.
+    pub(crate) fn usable_device(&self) -> Option<&ash::Device> {
+        self.is_usable().then_some(&self.device)
+    }
+
     /// From now on nothing is destroyed or submitted, as the device may be using it.
     pub(crate) fn abandon(&self) {
         self.abandoned.store(true, Ordering::Release);
@@ -160,7 +165,7 @@ impl Drop for Core {
             std::mem::forget(owned);
             return;
         }
-        self.pipelines.clear(self);
+        self.pipelines.clear(&self.device);
         // SAFETY: pipelines are gone, and every set keeps this value alive.
         unsafe { self.set_layouts.clear(&self.device) };
         drop(memory);

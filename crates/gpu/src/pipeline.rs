@@ -8,9 +8,11 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 use crate::features::Feature;
-use crate::pipeline_desc::{ComputePipelineDesc, RasterOptions, RasterPipelineDesc};
+use crate::pipeline_desc::{ComputePipelineDesc, RasterPipelineDesc};
 use crate::pipeline_store::{Made, Recipe};
-use crate::set_layout::{Mask, SetLayout};
+use crate::raster_options::RasterOptions;
+use crate::set_layout::SetLayout;
+use crate::set_parts::Mask;
 use crate::shader_stage::{Module, Specialisation};
 use crate::spirv::used_bindings;
 
@@ -190,7 +192,7 @@ impl Device {
     /// unless set. Beyond that the longest unused are destroyed. For those who make structures again and
     /// again: a change of options, or an experiment over many of them.
     pub fn keep_pipelines(&self, count: usize) {
-        self.core.pipelines.keep(&self.core, count);
+        self.core.pipelines.keep(self.core.usable_device(), count);
     }
 
     /// What was made by the recipe before, or what `compile` makes now.
@@ -210,7 +212,8 @@ impl Device {
                 let layout = Layout::create(core, asked, &used)?;
                 let raw = compile(layout.raw)?;
                 core.name_object(raw, asked.name);
-                core.pipelines.insert(core, recipe, Made { raw, layout: layout.into_raw(), used })
+                let made = Made { raw, layout: layout.into_raw(), used };
+                core.pipelines.insert(&core.device, recipe, made)
             }
         };
         Ok(Arc::new(PipelineInner {
@@ -336,7 +339,7 @@ impl Drop for Layout<'_> {
 
 impl Drop for PipelineInner {
     fn drop(&mut self) {
-        self.core.pipelines.release(&self.core, &self.recipe);
+        self.core.pipelines.release(self.core.usable_device(), &self.recipe);
     }
 }
 

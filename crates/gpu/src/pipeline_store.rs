@@ -8,9 +8,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 
-use crate::device_core::Core;
-use crate::pipeline_desc::RasterOptions;
-use crate::set_layout::Mask;
+use crate::raster_options::RasterOptions;
+use crate::set_parts::Mask;
 
 /// Everything that a pipeline is made of but its name.
 #[derive(Debug, PartialEq, Eq, Hash)]
@@ -36,11 +35,11 @@ pub(crate) struct Made {
 impl Made {
     /// # Safety
     /// Nothing uses the pipeline any more, and it is destroyed once.
-    unsafe fn destroy(&self, core: &Core) {
+    unsafe fn destroy(&self, device: &ash::Device) {
         // SAFETY: the caller vouches for it.
         unsafe {
-            core.device.destroy_pipeline(self.raw, None);
-            core.device.destroy_pipeline_layout(self.layout, None);
+            device.destroy_pipeline(self.raw, None);
+            device.destroy_pipeline_layout(self.layout, None);
         }
     }
 }
@@ -65,7 +64,8 @@ struct Books {
 }
 
 /// The pipelines of a device. Every handle to one was given out by [`PipelineStore::find`] or
-/// [`PipelineStore::insert`] and goes back by [`PipelineStore::release`].
+/// [`PipelineStore::insert`] and goes back by [`PipelineStore::release`]. Where nothing may be destroyed any more, its
+/// device is `None`.
 #[derive(Default)]
 pub(crate) struct PipelineStore {
     books: Mutex<Books>,
@@ -83,11 +83,11 @@ impl PipelineStore {
 
     /// The first handle to what was just made. Where another thread was faster, its pipeline is given out and this one
     /// destroyed.
-    pub(crate) fn insert(&self, core: &Core, recipe: Recipe, made: Made) -> (Arc<Recipe>, Made) {
+    pub(crate) fn insert(&self, device: &ash::Device, recipe: Recipe, made: Made) -> (Arc<Recipe>, Made) {
         let mut books = self.books();
         if let Some(found) = books.find(&recipe) {
             // SAFETY: it was made for this call and given to nobody.
-            unsafe { made.destroy(core) };
+            unsafe { made.destroy(device) };
             return found;
         }
         let recipe = Arc::new(recipe);
@@ -96,7 +96,7 @@ impl PipelineStore {
     }
 
     /// Takes a handle back; of idle pipelines the longest idle are destroyed beyond those that are kept.
-    pub(crate) fn release(&self, core: &Core, recipe: &Arc<Recipe>) {
+    pub(crate) fn release(&self, device: Option<&ash::Device>, recipe: &Arc<Recipe>) {
         let mut books = self.books();
         books.clock += 1;
         let now = books.clock;
@@ -105,20 +105,20 @@ impl PipelineStore {
         if entry.handles == 0 {
             entry.since = now;
             books.idle.insert(now, recipe.clone());
-            books.trim(core);
+            books.trim(device);
         }
     }
 
     /// How many pipelines without handles are kept from now on.
-    pub(crate) fn keep(&self, core: &Core, count: usize) {
+    pub(crate) fn keep(&self, device: Option<&ash::Device>, count: usize) {
         let mut books = self.books();
         books.kept = count;
-        books.trim(core);
+        books.trim(device);
     }
 
     /// Destroys all; for a device that goes.
-    pub(crate) fn clear(&self, core: &Core) {
-        self.keep(core, 0);
+    pub(crate) fn clear(&self, device: &ash::Device) {
+        self.keep(Some(device), 0);
     }
 }
 
@@ -133,14 +133,14 @@ impl Books {
         Some((recipe, entry.made.clone()))
     }
 
-    fn trim(&mut self, core: &Core) {
+    fn trim(&mut self, device: Option<&ash::Device>) {
         while self.idle.len() > self.kept {
             let Some((_, recipe)) = self.idle.pop_first() else { return };
             let Some(entry) = self.entries.remove(&recipe) else { continue };
-            if core.is_usable() {
+            if let Some(device) = device {
                 // SAFETY: there is no handle to it. Submissions that use a pipeline hold one, so none is
                 // pending; embedders keep what they record alive.
-                unsafe { entry.made.destroy(core) };
+                unsafe { entry.made.destroy(device) };
             }
         }
     }

@@ -1,20 +1,13 @@
 //! Layouts of descriptor sets, and the parts of them that pipelines use.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::Arc;
 
 use ash::vk;
 
-use crate::binding::BindingSetInner;
 use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
-
-/// Bindings of one set at most: a bit of a [`Mask`] each.
-const MOST_BINDINGS: u32 = u64::BITS;
-
-/// Some of a set's bindings, one bit each.
-pub(crate) type Mask = u64;
+use crate::set_parts::{MOST_BINDINGS, Mask, SetPart, SetParts, all, bindings};
 
 /// Layout of a set: storage buffers at bindings 0, 1, 2 …, seen by vertex, fragment and compute shaders.
 /// Clones are handles to the same layout, and so are layouts of the same number of buffers of one device.
@@ -26,20 +19,6 @@ pub struct SetLayout {
     pub(crate) core: Arc<Core>,
     pub(crate) storage_buffers: u32,
     name: Arc<str>,
-}
-
-/// The parts of the layouts of a device, by their number of buffers. They live as long as the device: pipelines that are
-/// kept without a handle to them are made of them.
-#[derive(Default)]
-pub(crate) struct SetLayouts(Mutex<BTreeMap<u32, Parts>>);
-
-/// The parts of a layout that something was made of.
-#[derive(Default)]
-pub(crate) struct Parts {
-    /// Of all bindings, and of those that pipelines use.
-    pub(crate) layouts: BTreeMap<Mask, vk::DescriptorSetLayout>,
-    /// Sets of the layout: each has a Vulkan set a part.
-    pub(crate) sets: Vec<Weak<BindingSetInner>>,
 }
 
 impl std::fmt::Debug for SetLayout {
@@ -82,8 +61,8 @@ impl SetLayout {
             return Ok(*layout);
         }
         let layout = create_layout(&self.core, &self.name, mask)?;
-        let sets: Vec<_> = parts.sets.iter().filter_map(Weak::upgrade).collect();
-        if let Err(error) = sets.iter().try_for_each(|set| set.add_part(mask, layout)) {
+        let mut sets = parts.sets.iter();
+        if let Err(error) = sets.try_for_each(|set| add_part(&self.core, set, mask, layout)) {
             // Sets that have the part keep it: those of the same bindings are alike.
             // SAFETY: a layout may go before the sets made with it, which are updated no more.
             unsafe { self.core.device.destroy_descriptor_set_layout(layout, None) };
@@ -94,33 +73,64 @@ impl SetLayout {
     }
 }
 
-impl SetLayouts {
-    pub(crate) fn lock(&self) -> MutexGuard<'_, BTreeMap<u32, Parts>> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+/// Makes the Vulkan set of a part, unless the set has it.
+pub(crate) fn add_part(
+    core: &Core,
+    set: &SetParts,
+    mask: Mask,
+    layout: vk::DescriptorSetLayout,
+) -> Result<()> {
+    let mut parts = set.lock();
+    if parts.contains_key(&mask) {
+        return Ok(());
     }
-
-    /// Destroys all.
-    ///
-    /// # Safety
-    /// Nothing uses a layout any more: sets and pipelines are gone.
-    pub(crate) unsafe fn clear(&self, device: &ash::Device) {
-        for parts in std::mem::take(&mut *self.lock()).into_values() {
-            for layout in parts.layouts.into_values() {
-                // SAFETY: the caller vouches for it.
-                unsafe { device.destroy_descriptor_set_layout(layout, None) };
-            }
+    let name = set.name.as_str();
+    let sizes = [vk::DescriptorPoolSize::default()
+        .ty(vk::DescriptorType::STORAGE_BUFFER)
+        // A pool without descriptors is not allowed; a set without them is.
+        .descriptor_count(mask.count_ones().max(1))];
+    let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+    // SAFETY: one set of a known type.
+    let pool =
+        unsafe { core.device.create_descriptor_pool(&info, None) }.during("vkCreateDescriptorPool", name)?;
+    let layouts = [layout];
+    let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&layouts);
+    // SAFETY: the pool is fresh and holds what one set of this layout needs.
+    let allocated =
+        unsafe { core.device.allocate_descriptor_sets(&info) }.during("vkAllocateDescriptorSets", name);
+    let raw = match allocated.as_deref() {
+        Ok([raw, ..]) => *raw,
+        other => {
+            // SAFETY: nothing was allocated from the pool.
+            unsafe { core.device.destroy_descriptor_pool(pool, None) };
+            return Err(match other {
+                Err(error) => error.clone(),
+                Ok(_) => GpuError::InvalidUse {
+                    name: name.to_owned(),
+                    reason: "the driver returned no descriptor set".to_owned(),
+                },
+            });
         }
-    }
-}
-
-/// The bindings of a mask, in order.
-pub(crate) fn bindings(mask: Mask) -> impl Iterator<Item = u32> {
-    (0..MOST_BINDINGS).filter(move |binding| mask >> binding & 1 != 0)
-}
-
-/// The mask of the first `count` bindings.
-pub(crate) fn all(count: u32) -> Mask {
-    Mask::MAX.checked_shr(MOST_BINDINGS - count).unwrap_or(0)
+    };
+    core.name_object(raw, name);
+    let infos: Vec<_> = bindings(mask)
+        .zip(set.buffers.iter().enumerate().filter(|(binding, _)| mask >> binding & 1 != 0))
+        .map(|(binding, (_, bound))| (binding, [*bound]))
+        .collect();
+    let writes: Vec<_> = infos
+        .iter()
+        .map(|(binding, info)| {
+            vk::WriteDescriptorSet::default()
+                .dst_set(raw)
+                .dst_binding(*binding)
+                .descriptor_type(vk::DescriptorType::STORAGE_BUFFER)
+                .buffer_info(info)
+        })
+        .collect();
+    // SAFETY: the set is fresh, the buffers are storage buffers of this device, and the ranges were checked.
+    unsafe { core.device.update_descriptor_sets(&writes, &[]) };
+    parts.insert(mask, SetPart { pool, raw });
+    Ok(())
 }
 
 fn create_layout(core: &Core, name: &str, mask: Mask) -> Result<vk::DescriptorSetLayout> {
