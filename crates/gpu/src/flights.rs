@@ -2,9 +2,9 @@
 
 use crate::device::Device;
 use crate::error::{GpuError, Result};
-use crate::queue::{OneTime, TIMED_PASSES};
+use crate::one_time::OneTime;
 use crate::recorder::{Completed, Recorder};
-use crate::timers::{PassTiming, Timers, Timing};
+use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 
 /// A ring of command buffers that are submitted without waiting, one per frame in flight: the host records the next
 /// while the device works on the last.

@@ -68,6 +68,7 @@ mod instance;
 mod limits;
 mod memory;
 mod messages;
+mod one_time;
 mod pipeline;
 mod pipeline_desc;
 mod pipeline_store;

@@ -1,16 +1,16 @@
 //! Submitting and waiting, for applications and tests.
 
-use std::sync::{Arc, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::PoisonError;
+use std::time::Duration;
 
 use ash::vk;
 
 use crate::access::Access;
 use crate::device::Device;
-use crate::device_core::Core;
-use crate::error::{During, GpuError, Result};
+use crate::error::Result;
+use crate::one_time::OneTime;
 use crate::recorder::{Completed, Recorder};
-use crate::timers::{PassTiming, Timers, Timing};
+use crate::timers::{PassTiming, TIMED_PASSES, Timers, Timing};
 
 /// How work is submitted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -94,79 +94,7 @@ impl Device {
     }
 }
 
-/// Passes of a submission that the device times at most.
-pub(crate) const TIMED_PASSES: u32 = 1024;
-
-/// Longest time that anything is waited for.
-const LONGEST_WAIT: Duration = Duration::from_secs(3600);
-
-/// What calls were for that come before the passes of their work are known.
-const NEW_WORK: &str = "new work";
-
-/// A command buffer that is recorded, submitted and waited for, once or repeatedly.
-pub(crate) struct OneTime {
-    core: Arc<Core>,
-    pool: vk::CommandPool,
-    command: vk::CommandBuffer,
-    fence: vk::Fence,
-    timeout: Duration,
-}
-
 impl OneTime {
-    pub(crate) fn create(device: &Device, timeout: Duration) -> Result<Self> {
-        let core = &device.core;
-        if !core.is_usable() {
-            return Err(GpuError::Abandoned { during: NEW_WORK.to_owned() });
-        }
-        if device.raw_queue() == vk::Queue::null() {
-            return Err(GpuError::InvalidUse {
-                name: device.name().to_owned(),
-                reason: "was handed in without a queue, so nothing can be submitted to it".to_owned(),
-            });
-        }
-        let info = vk::CommandPoolCreateInfo::default()
-            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
-            .queue_family_index(core.queue_family);
-        // SAFETY: the family exists.
-        let pool = unsafe { core.device.create_command_pool(&info, None) }
-            .during("vkCreateCommandPool", NEW_WORK)?;
-        // From here on dropping `work` destroys what was made; null handles are ignored.
-        let mut work = Self {
-            core: core.clone(),
-            pool,
-            command: vk::CommandBuffer::null(),
-            fence: vk::Fence::null(),
-            timeout: timeout.min(LONGEST_WAIT),
-        };
-        let info = vk::CommandBufferAllocateInfo::default()
-            .command_pool(pool)
-            .level(vk::CommandBufferLevel::PRIMARY)
-            .command_buffer_count(1);
-        // SAFETY: the pool is fresh.
-        let commands = unsafe { core.device.allocate_command_buffers(&info) }
-            .during("vkAllocateCommandBuffers", NEW_WORK)?;
-        work.command = commands.first().copied().unwrap_or_default();
-        // SAFETY: no conditions.
-        work.fence = unsafe { core.device.create_fence(&vk::FenceCreateInfo::default(), None) }
-            .during("vkCreateFence", NEW_WORK)?;
-        Ok(work)
-    }
-
-    pub(crate) fn command(&self) -> vk::CommandBuffer {
-        self.command
-    }
-
-    /// Starts recording; the command buffer is fresh or was waited for.
-    pub(crate) fn begin(&self, device: &Device) -> Result<()> {
-        let raw = device.raw();
-        // SAFETY: no command buffer of the pool is pending, see above.
-        unsafe { raw.reset_command_pool(self.pool, vk::CommandPoolResetFlags::empty()) }
-            .during("vkResetCommandPool", NEW_WORK)?;
-        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
-        // SAFETY: the command buffer is in its initial state.
-        unsafe { raw.begin_command_buffer(self.command, &info) }.during("vkBeginCommandBuffer", NEW_WORK)
-    }
-
     /// Records what a submission does, after everything submitted before it and visible to the host at its end. What was
     /// submitted last was waited for. Returns what `record` did and what the recording left behind.
     pub(crate) fn record<R>(
@@ -185,79 +113,6 @@ impl OneTime {
         match completed.error.take() {
             Some(error) => Err(error),
             None => Ok((value, completed)),
-        }
-    }
-
-    /// Ends recording, submits, waits, and returns the time from submission to the end of the wait. `during`
-    /// names the work in errors. After a timeout the device is abandoned.
-    pub(crate) fn run(&self, device: &Device, during: &str) -> Result<Duration> {
-        let start = self.submit(device, during)?;
-        self.wait(device, during)?;
-        Ok(start.elapsed())
-    }
-
-    /// Ends recording and submits; returns when that was. [`OneTime::wait`] comes before anything else.
-    pub(crate) fn submit(&self, device: &Device, during: &str) -> Result<Instant> {
-        let raw = device.raw();
-        if !self.core.is_usable() {
-            return Err(GpuError::Abandoned { during: during.to_owned() });
-        }
-        // SAFETY: the command buffer is being recorded.
-        unsafe { raw.end_command_buffer(self.command) }.during("vkEndCommandBuffer", during)?;
-        let commands = [self.command];
-        let submit = vk::SubmitInfo::default().command_buffers(&commands);
-        let start = Instant::now();
-        let queue = self.core.queue.lock().unwrap_or_else(PoisonError::into_inner);
-        // SAFETY: the lock keeps other submissions of this crate out (and the contract of adoption those
-        // of a host); the fence is unsignalled; what the commands use is kept by the recorder.
-        unsafe { raw.queue_submit(*queue, &[submit], self.fence) }.during("vkQueueSubmit", during)?;
-        Ok(start)
-    }
-
-    /// Whether the device is done with what was submitted last.
-    pub(crate) fn is_done(&self, device: &Device, during: &str) -> Result<bool> {
-        // SAFETY: the fence belongs to the last submission.
-        unsafe { device.raw().get_fence_status(self.fence) }.during("vkGetFenceStatus", during)
-    }
-
-    /// Waits for what was submitted last. After a timeout the device is abandoned.
-    pub(crate) fn wait(&self, device: &Device, during: &str) -> Result<()> {
-        let raw = device.raw();
-        // An hour of nanoseconds fits by far.
-        let timeout = self.timeout.as_nanos() as u64;
-        // SAFETY: the fence belongs to the last submission.
-        let wait = || unsafe { raw.wait_for_fences(&[self.fence], true, timeout) };
-        match wait() {
-            Ok(()) => {}
-            Err(vk::Result::TIMEOUT) => {
-                self.core.abandon();
-                let seconds = self.timeout.as_secs_f64();
-                return Err(GpuError::Timeout { pass: during.to_owned(), seconds });
-            }
-            Err(failed) => {
-                // The wait failed, not the work. Nothing that the work uses may be destroyed while it runs, so it
-                // is waited for once more; a lost device runs nothing any more.
-                let ended = failed == vk::Result::ERROR_DEVICE_LOST
-                    || matches!(wait(), Ok(()) | Err(vk::Result::ERROR_DEVICE_LOST));
-                if !ended {
-                    self.core.abandon();
-                }
-                return Err(GpuError::from_vulkan(failed, "vkWaitForFences", during));
-            }
-        }
-        // SAFETY: the fence is signalled, and nothing waits for it.
-        unsafe { raw.reset_fences(&[self.fence]) }.during("vkResetFences", during)
-    }
-}
-
-impl Drop for OneTime {
-    fn drop(&mut self) {
-        if self.core.is_usable() {
-            // SAFETY: the work was waited for or never submitted. Null is ignored.
-            unsafe {
-                self.core.device.destroy_fence(self.fence, None);
-                self.core.device.destroy_command_pool(self.pool, None);
-            }
         }
     }
 }

@@ -1,10 +1,12 @@
 //! Recording into a command buffer.
 
 mod bind;
+mod bound;
 mod commands_of_pass;
 mod compute;
 mod ownership;
 mod raster;
+mod render_area;
 mod transfer;
 
 use std::any::Any;
@@ -17,12 +19,12 @@ use crate::buffer::{Buffer, BufferUsage};
 use crate::device::Device;
 use crate::device_core::{Core, c_name};
 use crate::error::{GpuError, Result};
-use crate::queue::OneTime;
+use crate::one_time::OneTime;
 use crate::timers::{PassTiming, TimerKind, Timers};
 
-use self::bind::State;
+use self::bound::Bound;
 pub use self::commands_of_pass::PassCommands;
-pub use self::raster::RenderArea;
+pub use self::render_area::RenderArea;
 
 /// Records commands into a command buffer. It never submits, waits or allocates device memory.
 ///
@@ -40,7 +42,7 @@ pub struct Recorder<'a> {
     /// What was recorded in each pass so far.
     passes: Vec<PassCommands>,
     rendering: Option<RenderArea>,
-    state: State,
+    bound: Bound,
     timers: Option<Timers>,
     /// What must live until the device is done.
     kept: Vec<Arc<dyn Any + Send + Sync>>,
@@ -86,7 +88,7 @@ impl<'a> Recorder<'a> {
             pass: None,
             passes: Vec::new(),
             rendering: None,
-            state: State::default(),
+            bound: Bound::default(),
             timers: None,
             kept: Vec::new(),
             submission: None,
@@ -108,7 +110,7 @@ impl<'a> Recorder<'a> {
             pass: None,
             passes: Vec::new(),
             rendering: None,
-            state: State::default(),
+            bound: Bound::default(),
             timers,
             kept: Vec::new(),
             submission: Some(submission),
@@ -206,6 +208,20 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// What was recorded so far in each pass, in order. Commands outside of passes are not counted.
+    pub fn passes(&self) -> &[PassCommands] {
+        &self.passes
+    }
+
+    /// Counts a command of the open pass.
+    fn count(&mut self, command: impl FnOnce(&mut PassCommands)) {
+        if self.pass.is_some()
+            && let Some(pass) = self.passes.last_mut()
+        {
+            command(pass);
+        }
+    }
+
     /// Closes a recording for a submission: hands out what it collected, or the first mistake.
     pub(crate) fn complete(mut self) -> Completed {
         self.check_closed();
@@ -271,7 +287,7 @@ impl<'a> Recorder<'a> {
 
     fn has_pipeline(&mut self, bind_point: vk::PipelineBindPoint) -> bool {
         if self.is_recording()
-            && self.state.pipeline.as_ref().is_none_or(|bound| bound.bind_point != bind_point)
+            && self.bound.pipeline.as_ref().is_none_or(|bound| bound.bind_point != bind_point)
         {
             self.misuse(match bind_point {
                 vk::PipelineBindPoint::COMPUTE => "a dispatch was recorded without a compute pipeline",

@@ -8,6 +8,9 @@ use crate::device::Device;
 use crate::device_core::Core;
 use crate::error::{During, GpuError, Result};
 
+/// Passes of a submission that the device times at most.
+pub(crate) const TIMED_PASSES: u32 = 1024;
+
 /// Whether and how passes are timed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Timing {

@@ -9,14 +9,6 @@ use crate::binding::BindingSet;
 use crate::error::GpuError;
 use crate::pipeline::{ComputePipeline, PipelineInner, RasterPipeline};
 
-/// What is bound.
-#[derive(Default)]
-pub(super) struct State {
-    pub(super) pipeline: Option<Arc<PipelineInner>>,
-    sets: Vec<Option<BindingSet>>,
-    constants: Vec<u8>,
-}
-
 impl Recorder<'_> {
     /// Binds a compute pipeline.
     pub fn bind_compute(&mut self, pipeline: &ComputePipeline) {
@@ -34,7 +26,7 @@ impl Recorder<'_> {
         if !self.is_recording() || sets.is_empty() {
             return;
         }
-        let Some(pipeline) = self.state.pipeline.clone() else {
+        let Some(pipeline) = self.bound.pipeline.clone() else {
             return self.misuse("sets were bound without a pipeline");
         };
         let start = first as usize;
@@ -53,10 +45,10 @@ impl Recorder<'_> {
                 return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
             }
         }
-        if self.state.sets.len() < start + sets.len() {
-            self.state.sets.resize(start + sets.len(), None);
+        if self.bound.sets.len() < start + sets.len() {
+            self.bound.sets.resize(start + sets.len(), None);
         }
-        for (slot, set) in self.state.sets[start..].iter_mut().zip(sets) {
+        for (slot, set) in self.bound.sets[start..].iter_mut().zip(sets) {
             *slot = Some((*set).clone());
         }
         for set in sets {
@@ -72,7 +64,7 @@ impl Recorder<'_> {
         if !self.is_recording() || bytes.is_empty() {
             return;
         }
-        let Some(pipeline) = self.state.pipeline.clone() else {
+        let Some(pipeline) = self.bound.pipeline.clone() else {
             return self.misuse("push constants were set without a pipeline");
         };
         if bytes.len() > pipeline.push_constant_bytes as usize || !bytes.len().is_multiple_of(4) {
@@ -83,8 +75,8 @@ impl Recorder<'_> {
             );
             return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
         }
-        self.state.constants.clear();
-        self.state.constants.extend_from_slice(bytes);
+        self.bound.constants.clear();
+        self.bound.constants.extend_from_slice(bytes);
         self.emit_constants(&pipeline, bytes);
     }
 
@@ -97,8 +89,8 @@ impl Recorder<'_> {
             return self.fail(GpuError::InvalidUse { name: pipeline.name.clone(), reason });
         }
         self.keep(pipeline.clone());
-        self.state.pipeline = Some(pipeline.clone());
-        self.state.constants.clear();
+        self.bound.pipeline = Some(pipeline.clone());
+        self.bound.constants.clear();
         // SAFETY: recording; a pipeline of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
     }
@@ -127,19 +119,19 @@ impl Recorder<'_> {
 
     /// Binds again what was bound before the command buffer was replaced.
     pub(super) fn emit_state(&self) {
-        let Some(pipeline) = &self.state.pipeline else { return };
+        let Some(pipeline) = &self.bound.pipeline else { return };
         // SAFETY: recording; a pipeline of this device.
         unsafe { self.raw_device().cmd_bind_pipeline(self.command, pipeline.bind_point, pipeline.raw) };
         let wanted = pipeline.sets.iter().zip(pipeline.used.iter());
-        for (number, (set, (layout, used))) in (0_u32..).zip(self.state.sets.iter().zip(wanted)) {
+        for (number, (set, (layout, used))) in (0_u32..).zip(self.bound.sets.iter().zip(wanted)) {
             if let Some(set) = set
                 && set.inner.layout().is_like(layout)
             {
                 self.emit_sets(pipeline, number, &[set.inner.part(*used)]);
             }
         }
-        if !self.state.constants.is_empty() {
-            self.emit_constants(pipeline, &self.state.constants);
+        if !self.bound.constants.is_empty() {
+            self.emit_constants(pipeline, &self.bound.constants);
         }
     }
 }

@@ -1,7 +1,5 @@
 //! What was recorded, pass by pass.
 
-use super::Recorder;
-
 /// The commands of one pass: how much a device is told to do, without running it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PassCommands {
@@ -24,21 +22,5 @@ pub struct PassCommands {
 impl PassCommands {
     pub(super) fn of(label: &str) -> Self {
         Self { label: label.to_owned(), ..Self::default() }
-    }
-}
-
-impl Recorder<'_> {
-    /// What was recorded so far in each pass, in order. Commands outside of passes are not counted.
-    pub fn passes(&self) -> &[PassCommands] {
-        &self.passes
-    }
-
-    /// Counts a command of the open pass.
-    pub(super) fn count(&mut self, command: impl FnOnce(&mut PassCommands)) {
-        if self.pass.is_some()
-            && let Some(pass) = self.passes.last_mut()
-        {
-            command(pass);
-        }
     }
 }

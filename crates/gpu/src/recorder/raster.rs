@@ -2,23 +2,10 @@
 
 use ash::vk;
 
-use super::Recorder;
+use super::{Recorder, RenderArea};
 use crate::buffer::Buffer;
 use crate::error::GpuError;
 use crate::features::Feature;
-
-/// What is drawn into: a number of pixels, no images.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct RenderArea {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels.
-    pub height: u32,
-    /// Layers that the vertex shader can choose from; ignored with a view mask.
-    pub layers: u32,
-    /// Views drawn at once, one bit each; 0 is off.
-    pub view_mask: u32,
-}
 
 impl Recorder<'_> {
     /// Begins to draw into `width` x `height` pixels of one layer. Viewport and scissor are set to all of it.
@@ -116,7 +103,7 @@ impl Recorder<'_> {
         if !self.has_pipeline(vk::PipelineBindPoint::GRAPHICS) {
             return false;
         }
-        let view_mask = self.state.pipeline.as_ref().map_or(0, |pipeline| pipeline.view_mask);
+        let view_mask = self.bound.pipeline.as_ref().map_or(0, |pipeline| pipeline.view_mask);
         match self.rendering {
             None => self.misuse("a draw was recorded outside of begin_rendering and end_rendering"),
             Some(area) if area.view_mask != view_mask => {

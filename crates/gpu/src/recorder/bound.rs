@@ -1,0 +1,14 @@
+//! What is bound while commands are recorded.
+
+use std::sync::Arc;
+
+use crate::binding::BindingSet;
+use crate::pipeline::PipelineInner;
+
+/// What is bound.
+#[derive(Default)]
+pub(super) struct Bound {
+    pub(super) pipeline: Option<Arc<PipelineInner>>,
+    pub(super) sets: Vec<Option<BindingSet>>,
+    pub(super) constants: Vec<u8>,
+}
