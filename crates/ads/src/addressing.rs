@@ -50,6 +50,11 @@ impl Addressing {
     }
 }
 
+/// A device address as shaders take it, low word first.
+pub(crate) fn halves(address: u64) -> [u32; 2] {
+    [address as u32, (address >> 32) as u32]
+}
+
 /// Finds the modules of one structure for one addressing.
 #[derive(Clone, Copy, Debug)]
 pub struct Modules {

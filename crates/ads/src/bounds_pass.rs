@@ -8,7 +8,8 @@ use rasray_shaders_glsl::{
     ADS_GEOMETRY_BOUNDS, ADS_GEOMETRY_BOUNDS_END, ADS_GEOMETRY_BOUNDS_GATHERED, ADS_GEOMETRY_BOUNDS_UNITE,
 };
 
-use crate::geometry::{BINDINGS, GATHER_BINDINGS, pipeline};
+use crate::geometry::BINDINGS;
+use crate::geometry_gather::{GATHER_BINDINGS, pipeline};
 use crate::{AdsError, Geometry, GeometryHeader, GeometryParts};
 
 /// Bytes of the keys of a corner of the bounds.

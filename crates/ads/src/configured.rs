@@ -62,36 +62,3 @@ macro_rules! configured {
         }
     };
 }
-
-/// [`Design::download`](crate::Design::download) and [`Design::pools_of`](crate::Design::pools_of) of contents whose
-/// pools are words: one list of the pools with their fields, for both directions. Contents that keep the configuration
-/// name its field: `pools_of_words!(Contents with config; Lists => lists, Entries => entries)`. It names the enum `Pool` of the
-/// structure and the crate `rasray_gpu`.
-#[macro_export]
-macro_rules! pools_of_words {
-    ($contents:ident $(with $config:ident)?; $($pool:ident => $field:ident),+ $(,)?) => {
-        fn download(
-            &self,
-            parts: &$crate::Parts<Self::Config>,
-            device: &rasray_gpu::Device,
-            header: Self::Header,
-        ) -> Result<Self::Contents, rasray_gpu::GpuError> {
-            Ok($contents {
-                $($config: parts.config,)?
-                header,
-                $($field: parts.pools.download_words(device, Pool::$pool)?,)+
-            })
-        }
-
-        fn pools_of(contents: &Self::Contents) -> (Self::Header, $crate::PoolBytes<'_, Self::Pool>) {
-            let pools = vec![$((Pool::$pool, $crate::bytes_of_words(&contents.$field)),)+];
-            (contents.header, pools)
-        }
-    };
-}
-
-/// Words as the bytes that are uploaded, for [`pools_of_words!`].
-#[doc(hidden)]
-pub fn bytes_of_words(words: &[u32]) -> &[u8] {
-    bytemuck::cast_slice(words)
-}

@@ -4,30 +4,19 @@ use std::mem::offset_of;
 
 use bytemuck::{Pod, Zeroable, bytes_of, cast_slice, pod_read_unaligned};
 use rasray_gpu::{
-    Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc,
-    Device, GpuError, MemoryLocation, Recorder, SetLayout,
+    Access, BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, Device, GpuError,
+    MemoryLocation, Recorder, SetLayout,
 };
-use rasray_shaders_glsl::Shader;
-use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
-use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstants};
 
-use crate::passes::folded;
-use crate::{AdsError, GeometryDesc, GeometryHeader, IndexRange, Indexing};
+use crate::geometry_gather::{Count, DRAW_ARGUMENT_BYTES, Gather, TRIANGLE_INDEX_BYTES, pipeline, whole};
+use crate::groups::folded;
+use crate::{AdsError, GeometryDesc, GeometryHeader, IndexRange};
 
 /// Buffers of the geometry set.
 pub(crate) const BINDINGS: u32 = 4;
 
-/// Buffers of the set of what is gathered.
-pub(crate) const GATHER_BINDINGS: u32 = 1;
-
 /// Triangles of a workgroup of `ads/geometry_check`, `ads/geometry_gather` and `ads/geometry_bounds`.
 const TRIANGLES_PER_GROUP: u64 = 64;
-
-/// Bytes of the indices of a triangle, where shaders read them.
-const TRIANGLE_INDEX_BYTES: u64 = size_of::<[u32; 3]>() as u64;
-
-/// Bytes of the arguments of an indirect draw.
-const DRAW_ARGUMENT_BYTES: u64 = 16;
 
 /// Readers of what the passes here write.
 const READERS: Access = Access::COMPUTE
@@ -60,26 +49,6 @@ pub(crate) struct Run {
     pub first: u32,
     /// Of the first one, in the whole.
     pub id: u32,
-}
-
-/// What `ads/geometry_count` works with.
-#[derive(Clone, Debug)]
-struct Count {
-    pipeline: ComputePipeline,
-    set: BindingSet,
-    constants: GeometryCountConstants,
-    /// Of draws of all triangles onto one view, two, ...
-    draw_arguments: Buffer,
-}
-
-/// What `ads/geometry_gather` works with.
-#[derive(Clone, Debug)]
-struct Gather {
-    pipeline: ComputePipeline,
-    set: BindingSet,
-    constants: GeometryGatherConstants,
-    /// Absolute u32 indices.
-    indices: Buffer,
 }
 
 impl Geometry {
@@ -127,7 +96,13 @@ impl Geometry {
         };
         let layout = device.create_set_layout("geometry", BINDINGS)?;
         let gather = match part {
-            Some((whole, runs)) if runs.len() > 1 => Some(Gather::of_part(device, &layout, &desc, whole)?),
+            Some((of, runs)) if runs.len() > 1 => {
+                let source = match &of.gather {
+                    Some(gather) => (whole(&gather.indices), 0),
+                    None => of.desc.bindings(device)[1],
+                };
+                Some(Gather::of_part(device, &layout, &desc, source, of.desc.triangle_count)?)
+            }
             None if desc.indices.is_gathered() => {
                 Some(Gather::new(device, &layout, &desc, (indices, before_indices))?)
             }
@@ -253,8 +228,9 @@ impl Geometry {
         recorder.dispatch(groups);
     }
 
-    /// Draws all triangles onto that many views, at most [`GEOMETRY_DRAW_VIEWS`], within a rendering: three vertices per
-    /// triangle and one instance per view.
+    /// Draws all triangles onto that many views, at most
+    /// [`GEOMETRY_DRAW_VIEWS`](rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS), within a rendering: three
+    /// vertices per triangle and one instance per view.
     pub fn record_draw(&self, recorder: &mut Recorder<'_>, views: u32) {
         match &self.count {
             // What lies beyond the arguments is a mistake of the recording.
@@ -365,103 +341,4 @@ impl Geometry {
     pub fn set(&self) -> &BindingSet {
         &self.set
     }
-}
-
-impl Count {
-    fn new(
-        device: &Device,
-        geometry: &SetLayout,
-        desc: &GeometryDesc,
-        range: BufferRange<'_>,
-        before: u64,
-    ) -> Result<Self, AdsError> {
-        let draw_arguments = device.create_buffer(&BufferDesc {
-            name: "geometry draw arguments",
-            size: DRAW_ARGUMENT_BYTES * u64::from(GEOMETRY_DRAW_VIEWS),
-            usage: BufferUsage::STORAGE | BufferUsage::INDIRECT,
-            location: MemoryLocation::Device,
-        })?;
-        let layout = device.create_set_layout("geometry count", 2)?;
-        let ranges = [range, whole(&draw_arguments)];
-        let set = device.create_binding_set_of_ranges(&layout, "geometry count", &ranges)?;
-        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_COUNT;
-        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryCountConstants>())?;
-        let constants =
-            GeometryCountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
-        Ok(Self { pipeline, set, constants, draw_arguments })
-    }
-}
-
-impl Gather {
-    /// Of indices that are not absolute, or not of 32 bits.
-    fn new(
-        device: &Device,
-        geometry: &SetLayout,
-        desc: &GeometryDesc,
-        source: (BufferRange<'_>, u64),
-    ) -> Result<Self, AdsError> {
-        let (index_count, per_draw) = match desc.indices.indexing {
-            // The host has checked that all of them are there, so the product is exact.
-            Indexing::Absolute => (3 * desc.triangle_count, 0),
-            Indexing::PerDraw { index_count } => (index_count, 1),
-        };
-        let index_bytes = desc.indices.format.bytes();
-        Self::from(device, geometry, desc.triangle_count, source, [index_count, index_bytes, per_draw])
-    }
-
-    /// Of the indices that shaders read of the whole.
-    fn of_part(
-        device: &Device,
-        geometry: &SetLayout,
-        desc: &GeometryDesc,
-        of: &Geometry,
-    ) -> Result<Self, AdsError> {
-        let source = match &of.gather {
-            Some(gather) => (whole(&gather.indices), 0),
-            None => of.desc.bindings(device)[1],
-        };
-        let constants = [3 * of.desc.triangle_count, size_of::<u32>() as u32, 0];
-        Self::from(device, geometry, desc.triangle_count, source, constants)
-    }
-
-    fn from(
-        device: &Device,
-        geometry: &SetLayout,
-        triangle_count: u32,
-        (range, before): (BufferRange<'_>, u64),
-        [index_count, index_bytes, per_draw]: [u32; 3],
-    ) -> Result<Self, AdsError> {
-        let indices = device.create_buffer(&BufferDesc {
-            name: "gathered indices",
-            size: u64::from(triangle_count) * TRIANGLE_INDEX_BYTES,
-            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC,
-            location: MemoryLocation::Device,
-        })?;
-        let layout = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
-        let set = device.create_binding_set_of_ranges(&layout, "geometry gather", &[range])?;
-        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_GATHER;
-        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryGatherConstants>())?;
-        let first_place = (before / u64::from(index_bytes)) as u32;
-        let constants = GeometryGatherConstants { first_place, index_count, index_bytes, per_draw };
-        Ok(Self { pipeline, set, constants, indices })
-    }
-}
-
-fn whole(buffer: &Buffer) -> BufferRange<'_> {
-    BufferRange { buffer, offset: 0, size: buffer.size() }
-}
-
-pub(crate) fn pipeline(
-    device: &Device,
-    shader: &Shader,
-    sets: &[&SetLayout],
-    push_constant_bytes: usize,
-) -> Result<ComputePipeline, GpuError> {
-    device.create_compute_pipeline(&ComputePipelineDesc {
-        name: shader.name,
-        spirv: &shader.words(),
-        sets,
-        push_constant_bytes: push_constant_bytes as u32,
-        constants: &[],
-    })
 }

@@ -5,41 +5,10 @@ use rasray_gpu::{Access, BindingSet, ComputePipeline, ComputePipelineDesc, Devic
 use rasray_shaders_glsl::records::{NextRoundConstants, TraceConstants};
 use rasray_shaders_glsl::{Shader, constant_ids::contract::COUNTERS};
 
-use crate::pools::halves;
-use crate::{AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, TraceMode, TraceModules};
-
-/// The scene's set, which surfaces and alpha masks are read from.
-#[derive(Clone, Debug)]
-pub struct SceneBinding {
-    /// Layout of the set.
-    pub layout: SetLayout,
-    /// The set.
-    pub set: BindingSet,
-    /// Whether any draw is alpha-masked.
-    pub alpha_masked: bool,
-    /// Specialisation constants of modules that read the scene: id and bits. They disable code for features that the
-    /// scene does not have.
-    pub constants: Vec<(u32, u32)>,
-}
-
-impl SceneBinding {
-    /// The scene that a structure with such a `payload` reads while it is built.
-    ///
-    /// # Errors
-    /// There is none.
-    pub fn for_payload<'a>(scene: Option<&'a Self>, payload: &str) -> Result<&'a Self, AdsError> {
-        scene.ok_or(AdsError::Option {
-            option: "payload",
-            value: payload.to_owned(),
-            expected: "surface attributes of fragments are read from a scene; without one use `index`",
-        })
-    }
-
-    /// The suffix of modules that test alpha masks: `.alpha` where a draw is masked, else nothing.
-    pub fn mask_suffix(scene: Option<&Self>) -> &'static str {
-        if scene.is_some_and(|scene| scene.alpha_masked) { ".alpha" } else { "" }
-    }
-}
+use crate::addressing::halves;
+use crate::{
+    AdsError, Counters, Domain, Geometry, QueueHeader, RayQueue, SceneBinding, TraceMode, TraceModules,
+};
 
 /// What the kernels of a structure are made from.
 #[derive(Clone, Debug)]

@@ -29,7 +29,9 @@ mod design;
 mod error;
 mod geometry;
 mod geometry_desc;
+mod geometry_gather;
 mod geometry_parts;
+mod groups;
 mod kernels;
 mod lengths;
 mod list_sort;
@@ -40,7 +42,9 @@ mod pools;
 mod pyramid;
 mod queue;
 mod scan;
+mod scene_binding;
 mod scratch;
+mod sizes;
 mod slots;
 mod status;
 mod steps;
@@ -52,17 +56,18 @@ pub use addressing::{Addressing, Modules, TraceModules};
 pub use bounds_pass::BoundsPass;
 pub use brute_force::BruteForce;
 pub use combined::Combined;
-pub use configured::{Common, Configured, bytes_of_words, check_range, check_work_budget};
+pub use configured::{Common, Configured, check_range, check_work_budget};
 pub use counters::Counters;
-pub use design::{Demand, Design, Parts, PoolBytes, default_work_budget};
+pub use design::{Demand, Design, Parts, PoolBytes, bytes_of_words, default_work_budget};
 pub use error::AdsError;
 pub use geometry::Geometry;
 pub use geometry_desc::{BufferOffset, GeometryDesc, IndexFormat, IndexRange, Indexing, PositionRange};
 pub use geometry_parts::GeometryParts;
-pub use kernels::{SceneBinding, TraceKernels, TraceKernelsDesc};
+pub use groups::folded;
+pub use kernels::{TraceKernels, TraceKernelsDesc};
 pub use lengths::Lengths;
 pub use list_sort::ListSort;
-pub use passes::{BuildPipelines, BuildTarget, ViewDraw, folded};
+pub use passes::{BuildPipelines, BuildTarget, ViewDraw};
 pub use pool_name::PoolName;
 pub use pooled::Pooled;
 pub use pools::Pools;
@@ -72,12 +77,12 @@ pub use rasray_shaders_glsl::records::{
     Draw, GeometryHeader, Hit, QueueHeader, Ray, RayWork, RecordLayout, Surface, TraceState,
 };
 pub use scan::Scan;
+pub use scene_binding::SceneBinding;
 pub use scratch::Scratch;
+pub use sizes::{PoolSize, Sizes};
 pub use status::{BuildStatus, Check, Growth, PoolStatus};
 pub use steps::{SkipReason, StepKind, TestVerdict, TraceStep};
-pub use structure::{
-    Dependencies, InlineTrace, PoolSize, Sizes, Structure, StructureKind, StructureReport, TraceMode,
-};
+pub use structure::{Dependencies, InlineTrace, Structure, StructureKind, StructureReport, TraceMode};
 pub use viewpoint::{CameraView, Viewpoint, box_ignores_eye};
 pub use visit::{Builder, LargePass, Visit, Visits, bin_groups};
 

@@ -9,6 +9,7 @@ use rasray_gpu::{
     SetLayout,
 };
 
+use crate::addressing::halves;
 use crate::slots::Slots;
 use crate::{
     Addressing, AdsError, Domain, Geometry, InlineTrace, PoolName, PoolSize, QueueHeader, RayQueue, Sizes,
@@ -335,11 +336,6 @@ impl Pools {
             Err(AdsError::NoScene { structure: self.structure })
         }
     }
-}
-
-/// A device address as shaders take it, low word first.
-pub(crate) fn halves(address: u64) -> [u32; 2] {
-    [address as u32, (address >> 32) as u32]
 }
 
 /// Pools, and the set that binds them; none by address.

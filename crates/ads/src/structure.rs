@@ -1,9 +1,8 @@
 //! The contract between structures and everything that traces through them.
 
 use rasray_gpu::{BindingSet, Device, GpuError, Recorder, Requirements, SetLayout};
-use rasray_shaders_glsl::constants::ads::PAGE_LIMIT;
 
-use crate::{AdsError, BuildStatus, Check, Counters, Domain, Geometry, PoolName, RayQueue, Viewpoint};
+use crate::{AdsError, BuildStatus, Check, Counters, Domain, Geometry, RayQueue, Sizes, Viewpoint};
 
 /// What a structure's hits are, and hence what may be demanded of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,80 +30,6 @@ pub enum TraceMode {
     Closest,
     /// Whether there is any hit.
     Occluded,
-}
-
-/// One pool of a structure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PoolSize {
-    /// Name, as the structure's page uses it.
-    pub name: &'static str,
-    /// Elements to hold.
-    pub elements: u64,
-    /// Bytes of one element.
-    pub element_bytes: u64,
-}
-
-/// What a structure allocates: the result of planning, which is plain arithmetic.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Sizes {
-    /// All pools; their order is the structure's.
-    pub pools: Vec<PoolSize>,
-}
-
-impl Sizes {
-    /// Pools of a structure with their elements and the bytes of one, in the order of their bindings.
-    ///
-    /// # Errors
-    /// A pool has more words than 32-bit indices can address with one value reserved for "none" or "more".
-    pub fn of<P: PoolName>(
-        structure: &'static str,
-        pools: impl IntoIterator<Item = (P, u64, u64)>,
-    ) -> Result<Self, AdsError> {
-        let named = |(pool, elements, element_bytes): (P, u64, u64)| PoolSize {
-            name: pool.name(),
-            elements,
-            element_bytes,
-        };
-        let pools: Vec<_> = pools.into_iter().map(named).collect();
-        let is_too_large =
-            |pool: &&PoolSize| pool.elements * pool.element_bytes.div_ceil(4) >= u64::from(u32::MAX);
-        match pools.iter().find(is_too_large) {
-            Some(pool) => Err(AdsError::PoolTooLarge { structure, pool: pool.name, elements: pool.elements }),
-            None => Ok(Self { pools }),
-        }
-    }
-
-    /// The same, where one pool holds pages: fewer of them have numbers, since lists mark their links.
-    ///
-    /// # Errors
-    /// There are more pages than [`PAGE_LIMIT`].
-    pub fn of_pages(self, structure: &'static str, pool: impl PoolName) -> Result<Self, AdsError> {
-        let elements = self.elements_of(pool);
-        if elements > PAGE_LIMIT.into() {
-            return Err(AdsError::PoolTooLarge { structure, pool: pool.name(), elements });
-        }
-        Ok(self)
-    }
-
-    /// Whether a pool is larger than the pool of the same name in `other`.
-    pub fn exceed(&self, other: &Self) -> bool {
-        self.pools.iter().any(|pool| pool.elements > other.elements(pool.name))
-    }
-
-    /// Elements of one of a structure's own pools.
-    pub fn elements_of(&self, pool: impl PoolName) -> u64 {
-        self.elements(pool.name())
-    }
-
-    /// Sum over all pools, bytes.
-    pub fn bytes(&self) -> u64 {
-        self.pools.iter().map(|pool| pool.elements * pool.element_bytes).sum()
-    }
-
-    /// Elements of a pool; 0 where none has that name.
-    pub fn elements(&self, name: &str) -> u64 {
-        self.pools.iter().find(|pool| pool.name == name).map_or(0, |pool| pool.elements)
-    }
 }
 
 /// What a structure reports once built.

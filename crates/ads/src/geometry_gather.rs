@@ -1,0 +1,139 @@
+//! What of a geometry the device works out before shaders read it: a number of triangles that only the device knows, and
+//! indices that are not read in place.
+
+use rasray_gpu::{
+    BindingSet, Buffer, BufferDesc, BufferRange, BufferUsage, ComputePipeline, ComputePipelineDesc, Device,
+    GpuError, MemoryLocation, SetLayout,
+};
+use rasray_shaders_glsl::Shader;
+use rasray_shaders_glsl::constants::ads::GEOMETRY_DRAW_VIEWS;
+use rasray_shaders_glsl::records::{GeometryCountConstants, GeometryGatherConstants};
+
+use crate::{AdsError, GeometryDesc, Indexing};
+
+/// Buffers of the set of what is gathered.
+pub(crate) const GATHER_BINDINGS: u32 = 1;
+
+/// Bytes of the indices of a triangle, where shaders read them.
+pub(crate) const TRIANGLE_INDEX_BYTES: u64 = size_of::<[u32; 3]>() as u64;
+
+/// Bytes of the arguments of an indirect draw.
+pub(crate) const DRAW_ARGUMENT_BYTES: u64 = 16;
+
+/// What `ads/geometry_count` works with.
+#[derive(Clone, Debug)]
+pub(crate) struct Count {
+    pub(crate) pipeline: ComputePipeline,
+    pub(crate) set: BindingSet,
+    pub(crate) constants: GeometryCountConstants,
+    /// Of draws of all triangles onto one view, two, ...
+    pub(crate) draw_arguments: Buffer,
+}
+
+/// What `ads/geometry_gather` works with.
+#[derive(Clone, Debug)]
+pub(crate) struct Gather {
+    pub(crate) pipeline: ComputePipeline,
+    pub(crate) set: BindingSet,
+    pub(crate) constants: GeometryGatherConstants,
+    /// Absolute u32 indices.
+    pub(crate) indices: Buffer,
+}
+
+impl Count {
+    pub(crate) fn new(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        range: BufferRange<'_>,
+        before: u64,
+    ) -> Result<Self, AdsError> {
+        let draw_arguments = device.create_buffer(&BufferDesc {
+            name: "geometry draw arguments",
+            size: DRAW_ARGUMENT_BYTES * u64::from(GEOMETRY_DRAW_VIEWS),
+            usage: BufferUsage::STORAGE | BufferUsage::INDIRECT,
+            location: MemoryLocation::Device,
+        })?;
+        let layout = device.create_set_layout("geometry count", 2)?;
+        let ranges = [range, whole(&draw_arguments)];
+        let set = device.create_binding_set_of_ranges(&layout, "geometry count", &ranges)?;
+        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_COUNT;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryCountConstants>())?;
+        let constants =
+            GeometryCountConstants { count_word: (before / 4) as u32, most_triangles: desc.triangle_count };
+        Ok(Self { pipeline, set, constants, draw_arguments })
+    }
+}
+
+impl Gather {
+    /// Of indices that are not absolute, or not of 32 bits.
+    pub(crate) fn new(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        source: (BufferRange<'_>, u64),
+    ) -> Result<Self, AdsError> {
+        let (index_count, per_draw) = match desc.indices.indexing {
+            // The host has checked that all of them are there, so the product is exact.
+            Indexing::Absolute => (3 * desc.triangle_count, 0),
+            Indexing::PerDraw { index_count } => (index_count, 1),
+        };
+        let index_bytes = desc.indices.format.bytes();
+        Self::from(device, geometry, desc.triangle_count, source, [index_count, index_bytes, per_draw])
+    }
+
+    /// Of the indices that shaders read of the whole, which has that number of triangles.
+    pub(crate) fn of_part(
+        device: &Device,
+        geometry: &SetLayout,
+        desc: &GeometryDesc,
+        source: (BufferRange<'_>, u64),
+        triangles_of_whole: u32,
+    ) -> Result<Self, AdsError> {
+        let constants = [3 * triangles_of_whole, size_of::<u32>() as u32, 0];
+        Self::from(device, geometry, desc.triangle_count, source, constants)
+    }
+
+    fn from(
+        device: &Device,
+        geometry: &SetLayout,
+        triangle_count: u32,
+        (range, before): (BufferRange<'_>, u64),
+        [index_count, index_bytes, per_draw]: [u32; 3],
+    ) -> Result<Self, AdsError> {
+        let indices = device.create_buffer(&BufferDesc {
+            name: "gathered indices",
+            size: u64::from(triangle_count) * TRIANGLE_INDEX_BYTES,
+            usage: BufferUsage::STORAGE | BufferUsage::TRANSFER_SRC,
+            location: MemoryLocation::Device,
+        })?;
+        let layout = device.create_set_layout("geometry gather", GATHER_BINDINGS)?;
+        let set = device.create_binding_set_of_ranges(&layout, "geometry gather", &[range])?;
+        let shader = &rasray_shaders_glsl::ADS_GEOMETRY_GATHER;
+        let pipeline = pipeline(device, shader, &[geometry, &layout], size_of::<GeometryGatherConstants>())?;
+        let first_place = (before / u64::from(index_bytes)) as u32;
+        let constants = GeometryGatherConstants { first_place, index_count, index_bytes, per_draw };
+        Ok(Self { pipeline, set, constants, indices })
+    }
+}
+
+/// All of a buffer.
+pub(crate) fn whole(buffer: &Buffer) -> BufferRange<'_> {
+    BufferRange { buffer, offset: 0, size: buffer.size() }
+}
+
+/// A pass over a geometry.
+pub(crate) fn pipeline(
+    device: &Device,
+    shader: &Shader,
+    sets: &[&SetLayout],
+    push_constant_bytes: usize,
+) -> Result<ComputePipeline, GpuError> {
+    device.create_compute_pipeline(&ComputePipelineDesc {
+        name: shader.name,
+        spirv: &shader.words(),
+        sets,
+        push_constant_bytes: push_constant_bytes as u32,
+        constants: &[],
+    })
+}
