@@ -1,7 +1,7 @@
 //! The frames of an animation, one after the other.
 
 use super::picture_targets::Targets;
-use super::render::Pictures;
+use super::pictures::Pictures;
 use crate::error::AppError;
 use crate::output::Standing;
 use crate::terminal;

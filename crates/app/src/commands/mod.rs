@@ -8,6 +8,7 @@ mod images;
 mod info;
 mod merge;
 mod picture_targets;
+mod pictures;
 mod render;
 mod steps;
 mod targets;

@@ -1,20 +1,14 @@
 //! `rasray render`.
 
 use super::frames::{dealt, seconds};
-use super::images::{named, write_image};
 use super::picture_targets::{Targets, rows, samples_shard};
-use super::steps::{Posing, fit_images, open_device, read_scene, stop_if_requested, with_progress};
+use super::pictures::Pictures;
+use super::steps::{Posing, fit_images, open_device, read_scene, stop_if_requested};
 use crate::arguments::RenderArguments;
 use crate::error::AppError;
 use crate::interrupt::Interrupt;
-use crate::output::{Destination, Metadata, PartOf, Row, Rows, image_key};
-use crate::terminal::{self, Talk};
-use crate::version::{origin, version_text};
-use rasray_experiment::{
-    AovSelection, Backend, Chosen, Frame, LoadedScene, OpenBackend, Progress, RenderJob, RenderOutput, Shard,
-    SystemConfig, check_run, picture_key,
-};
-use rasray_report::{Report, json_shown, table};
+use crate::terminal;
+use rasray_experiment::OpenBackend;
 
 /// Renders a scene, or frames of it, and writes what was asked for; `line` is the command as it was typed.
 ///
@@ -67,25 +61,6 @@ pub(crate) fn render(
     }
 }
 
-/// What the pictures of a command have in common.
-pub(super) struct Pictures<'a> {
-    pub(super) given: &'a RenderArguments,
-    line: &'a str,
-    pub(super) interrupt: &'a Interrupt,
-    frame: Frame,
-    /// Which samples are made; absent: all.
-    shard: Option<Shard>,
-    pub(super) aovs: AovSelection,
-    system: SystemConfig,
-    /// The report that takes a row per frame.
-    pub(super) rows: Option<Rows>,
-    pub(super) loaded: LoadedScene,
-    pub(super) chosen: Chosen,
-    backend: Box<dyn Backend>,
-    /// Whether a picture of the scene at another time was made before.
-    pub(super) is_next: bool,
-}
-
 impl Pictures<'_> {
     /// Renders the scene at its only time, unless the image is there.
     fn render_one(&mut self, targets: &Targets) -> Result<(), AppError> {
@@ -103,125 +78,4 @@ impl Pictures<'_> {
         // A share of the samples is whole or of no use.
         self.render(targets, key, self.shard.is_none())
     }
-
-    /// The job of the scene as it is shown.
-    fn job<'a>(&self, loaded: &'a LoadedScene) -> RenderJob<'a> {
-        let Self { given, frame, aovs, shard, chosen, .. } = self;
-        RenderJob {
-            scene: &loaded.scene,
-            moment: loaded.moment.as_ref(),
-            is_next: self.is_next,
-            camera: chosen.camera.clone(),
-            system: self.system.clone().seen_by(&chosen.camera, frame.width, frame.height),
-            frame: *frame,
-            shard: *shard,
-            aovs: *aovs,
-            needs: given.work.reading.needs(&loaded.scene, frame.workload()),
-            repetitions: given.repetitions.unwrap_or(0),
-        }
-    }
-
-    /// The key of the picture of the scene as it is shown.
-    pub(super) fn key(&self) -> String {
-        picture_key(version_text(), &self.loaded, &self.job(&self.loaded))
-    }
-
-    /// Renders the scene as it is and writes what was asked for; `key` is the picture's. `keeps_part`: a signal keeps
-    /// the samples done so far.
-    pub(super) fn render(
-        &mut self,
-        targets: &Targets,
-        key: String,
-        keeps_part: bool,
-    ) -> Result<(), AppError> {
-        let Self { given, line, interrupt, frame, shard, .. } = *self;
-        let needs = given.work.reading.needs(&self.loaded.scene, frame.workload());
-        self.loaded.count_not_uploaded(&self.chosen.camera, &needs);
-        let mut job = self.job(&self.loaded);
-        if shard.is_some_and(|shard| !shard.holds(0)) {
-            // They come with the first sample.
-            job.aovs = AovSelection::default();
-        }
-        let samples = shard.unwrap_or_default().samples(frame.spp).len() as u32;
-        // A sample takes several waves; an early end keeps whole ones.
-        let is_kept = |progress: &Progress<'_>| {
-            keeps_part && progress.total > 0 && progress.done.saturating_mul(samples.into()) >= progress.total
-        };
-        let backend = &mut self.backend;
-        let output = with_progress(interrupt, is_kept, |progress| backend.render(&job, progress))?;
-        check_samples(&output, samples, keeps_part)?;
-
-        let mut run = output.run(&job.system, &frame);
-        let whole = check_run(&run);
-        // What a signal cut short is nothing that another run would make.
-        let key = Some(key).filter(|_| output.samples_done == samples);
-        run.key.clone_from(&key);
-        run.shard = shard.map(|shard| shard.to_string());
-        let report = Report::new(origin(line), self.backend.device(), self.loaded.record(), vec![run])
-            .seen_from(self.chosen.record());
-        if let Some(place) = &targets.report {
-            place.write(report_text(place, &report).as_bytes(), interrupt)?;
-        }
-        if let (Some(rows), Some(row)) = (&mut self.rows, Row::of(&report)) {
-            rows.put(row, interrupt)?;
-        }
-        whole?;
-        output.check_images(job.aovs)?;
-        if let Some((place, format)) = &targets.image {
-            let exposure = given.exposure.unwrap_or(0.0);
-            let metadata = Metadata {
-                scene: self.loaded.scene.name.clone(),
-                system: job.system.system.name.to_owned(),
-                preset: job.system.preset.name().to_owned(),
-                integrator: frame.integrator.name().to_owned(),
-                spp: frame.spp,
-                samples: output.samples_done,
-                seed: frame.seed,
-                version: version_text().to_owned(),
-                key: key.as_ref().map(|key| image_key(key, *format, exposure, shard)),
-                part: shard.zip(key).map(|(shard, picture)| PartOf { picture, shard }),
-            };
-            write_image((place, *format), &output, &metadata, exposure, interrupt)?;
-        }
-        let places = targets.image.iter().map(|(place, _)| place).chain(&targets.report);
-        let takes_stdout = places.into_iter().any(Destination::is_stdout);
-        terminal::summarize(
-            &table(&report, Some(&self.chosen.described()), terminal::says(Talk::Verbose)),
-            takes_stdout,
-        )?;
-        if output.samples_done < samples {
-            let written = targets.image.as_ref().map_or_else(
-                || "no image was asked for".to_owned(),
-                |(place, _)| format!("the image in {} is valid and holds them", named(place)),
-            );
-            return Err(AppError::interrupted(
-                format!("stopped after {} of {samples} samples per pixel; {written}", output.samples_done),
-                "run again for the whole image, or with this many --spp for the same one",
-            ));
-        }
-        Ok(())
-    }
-}
-
-/// Refuses a render that ended before anything was whole that is kept.
-fn check_samples(output: &RenderOutput, samples: u32, keeps_part: bool) -> Result<(), AppError> {
-    if output.samples_done == 0 {
-        return Err(AppError::interrupted(
-            "stopped before the first sample was whole; nothing was written",
-            "",
-        ));
-    }
-    if output.samples_done < samples && !keeps_part {
-        return Err(AppError::interrupted(
-            "stopped before the image was whole; it was not written",
-            "run again with --resume for what is left",
-        ));
-    }
-    Ok(())
-}
-
-/// A report as its file holds it: one line where others may follow.
-fn report_text(place: &Destination, report: &Report) -> String {
-    let text = if Rows::are_in(place.named()) { report.to_json_line() + "\n" } else { report.to_json() };
-    json_shown(&text)
 }
