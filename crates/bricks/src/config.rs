@@ -4,13 +4,8 @@ use rasray_ads::{Addressing, AdsError, Builder, Counters, Geometry, check_range,
 use rasray_shaders_glsl::constant_ids::bricks as ids;
 use rasray_shaders_glsl::constants::bricks as numbers;
 
-use crate::Views;
-use crate::grid::{cells_along, columns_for};
+use crate::grid::{BRICK_SIDE, SIDE_LIMIT, Views, cells_along, columns_for};
 
-/// Cells along a side of a brick.
-pub(crate) const BRICK_SIDE: u32 = 4;
-/// Maximum cells along a side of a view.
-pub(crate) const SIDE_LIMIT: u32 = numbers::BRICK_SIDE_LIMIT;
 /// How often a cell may be divided.
 const DEPTH_LIMIT: u32 = numbers::BRICK_DEPTH_MOST;
 /// Maximum slices.

@@ -3,7 +3,7 @@
 use rasray_ads::{AdsError, Geometry, Scan, Sizes};
 use rasray_shaders_glsl::constants::bricks as numbers;
 
-use crate::config::BRICK_SIDE;
+use crate::grid::BRICK_SIDE;
 use crate::{Config, Header, Pool, Views};
 
 /// Words of a record: a triangle in cells of a brick.

@@ -11,7 +11,7 @@ use rasray_gpu::{BindingSet, Recorder, Requirements};
 use rasray_shaders_glsl::constants::bricks::{BRICK_GROUP_SIZE, BRICK_GROUPS_MOST};
 
 use crate::build::Build;
-use crate::config::BRICK_SIDE;
+use crate::grid::BRICK_SIDE;
 use crate::layout::{Demand, bricks_of, first_demand, first_plan, formula_bytes, plan};
 use crate::{Config, Contents, Header, Pool, Views, well_formed};
 
