@@ -1,30 +1,9 @@
 //! What a picture is known by: where two keys are equal, the same program makes the same picture.
 
 use crate::jobs::RenderJob;
+use crate::key_hash::KeyHash;
 use crate::scene_source::LoadedScene;
 use rasray_scene::Camera;
-use sha2::{Digest, Sha256};
-
-/// A SHA-256 over named values. Lengths go in as well, so that no two lists of values run into each other.
-#[derive(Clone, Debug, Default)]
-pub struct KeyHash(Sha256);
-
-impl KeyHash {
-    /// The same with one more value.
-    #[must_use]
-    pub fn with(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
-        for bytes in [name.as_bytes(), value.as_ref()] {
-            self.0.update((bytes.len() as u64).to_le_bytes());
-            self.0.update(bytes);
-        }
-        self
-    }
-
-    /// 64 hexadecimal digits.
-    pub fn finish(self) -> String {
-        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
-    }
-}
 
 /// The key of the picture that a job makes of a scene, 64 hexadecimal digits: a hash of everything that decides its
 /// values. That is the program (`program`: version and commit), the contents of all files read or the built-in's name,
@@ -75,18 +54,6 @@ mod tests {
     use std::collections::BTreeSet;
     use std::ffi::OsStr;
     use std::path::Path;
-
-    #[test]
-    fn lists_of_values_do_not_run_into_each_other() {
-        let key = |values: &[(&str, &str)]| {
-            let hash = values.iter().fold(KeyHash::default(), |hash, (name, value)| hash.with(name, value));
-            hash.finish()
-        };
-        let keys =
-            [&[("a", "bc")][..], &[("ab", "c")], &[("a", "b"), ("c", "")], &[("a", ""), ("b", "c")], &[]];
-        assert_eq!(keys.iter().map(|values| key(values)).collect::<BTreeSet<_>>().len(), keys.len());
-        assert_eq!(key(keys[0]), key(keys[0]));
-    }
 
     const FRAME: Frame = Frame {
         integrator: Integrator::Path { bounces: 2 },

@@ -30,6 +30,7 @@ mod images;
 mod jobs;
 mod kept_files;
 mod key;
+mod key_hash;
 mod measured;
 mod moving_stage;
 mod pass_list;
@@ -66,7 +67,8 @@ pub use jobs::{
     KeptSet, Primary, RaySet, RenderJob, RenderOutput, Sampler,
 };
 pub use kept_files::NamedBytes;
-pub use key::{KeyHash, picture_key};
+pub use key::picture_key;
+pub use key_hash::KeyHash;
 pub use measured::{HIT_ROUNDING, Measured, Tolerance};
 pub use moving_stage::Shown;
 pub use placed::{Placed, case_camera};

@@ -2,7 +2,7 @@
 
 use crate::camera::{Chosen, default_view, named_view};
 use crate::error::ExperimentError;
-use crate::key::KeyHash;
+use crate::key_hash::KeyHash;
 use rasray_gpu_scene::{Parts, PosePass, SceneTables, left_out_bytes};
 use rasray_report::{PoseRecord, SceneRecord, SmallerImageRecord};
 use rasray_scene::needs::Needs;

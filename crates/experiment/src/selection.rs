@@ -9,10 +9,8 @@ mod assigned;
 mod names;
 
 use assigned::Assigned;
+pub use assigned::ReadValue;
 use names::{names, who_has};
-
-/// Reads a value of an option: first the option's name, then the value as it was typed.
-pub type ReadValue<'a> = dyn Fn(&str, &str) -> Result<StructureOptions, ExperimentError> + 'a;
 
 /// One system with its options, each of which it must have.
 ///

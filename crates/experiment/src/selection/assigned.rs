@@ -2,10 +2,12 @@
 
 use rasray_systems::{Preset, SYSTEMS, System};
 
-use super::ReadValue;
 use super::names::{names, who_has};
 use crate::error::ExperimentError;
 use crate::system_config::StructureOptions;
+
+/// Reads a value of an option: first the option's name, then the value as it was typed.
+pub type ReadValue<'a> = dyn Fn(&str, &str) -> Result<StructureOptions, ExperimentError> + 'a;
 
 /// An option of one system, or of one preset of it, with values that it takes in turns.
 pub(super) struct Assigned {
