@@ -1,7 +1,7 @@
 //! How right a run was: hits against the oracle, images against the reference, hard cases against what
 //! is stated of them.
 
-use crate::schema::absent;
+use crate::absent::absent;
 use rasray_metrics::{HitConfusion, Rate};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

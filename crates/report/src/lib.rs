@@ -1,8 +1,10 @@
 //! What was measured, as data: the schema `rasray-report/1`, which the command and the full tier of the tests write; and as
 //! text: tables for terminals ([`table()`]), and for pages in Markdown ([`markdown()`]).
 
+mod absent;
 mod accuracy;
 pub mod colour_scale;
+mod cost;
 pub mod figures;
 mod markdown;
 mod run_text;
@@ -14,9 +16,9 @@ mod text;
 mod words;
 
 pub use accuracy::{Accuracy, Bound, HardRecord, ImageError, RateRecord};
+pub use cost::{Counters, Memory, Pass, Spread, Timer, Times};
 pub use schema::{
-    CameraRecord, Counters, Device, Memory, Pass, PoseRecord, Report, Run, SCHEMA, SceneRecord,
-    SmallerImageRecord, Spread, Statistics, Timer, Times,
+    CameraRecord, Device, PoseRecord, Report, Run, SCHEMA, SceneRecord, SmallerImageRecord, Statistics,
 };
 
 pub use markdown::markdown;

@@ -1,17 +1,13 @@
 //! A report and its runs. A measurement that was not made is an absent field, never 0.
 
 use crate::accuracy::{Accuracy, HardRecord, ImageError};
+use crate::cost::{Counters, Memory, Pass, Spread, Times};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Name of the schema, in every report.
 pub const SCHEMA: &str = "rasray-report/1";
-
-/// JSON cannot say that a number is not finite, so such a number is absent.
-pub(crate) fn absent(value: &Option<f64>) -> bool {
-    !value.is_some_and(f64::is_finite)
-}
 
 /// A whole report.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -219,157 +215,6 @@ pub struct Run {
     pub hard: Option<HardRecord>,
 }
 
-/// The times of one figure, milliseconds.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Spread {
-    /// Repetitions timed, after one that warms up.
-    pub count: u64,
-    /// Shortest.
-    pub min: f64,
-    /// First quartile.
-    pub q1: f64,
-    /// Third quartile.
-    pub q3: f64,
-    /// Longest.
-    pub max: f64,
-}
-
-/// What measured the times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Timer {
-    /// Timestamps of the device.
-    Device,
-    /// The host's clock around submit and wait.
-    Host,
-}
-
-/// The four figures, milliseconds, and the ray rate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Times {
-    /// What measured them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub timer: Option<Timer>,
-    /// Instances to posed positions.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub pose_ms: Option<f64>,
-    /// Posed positions to traceable, host work included.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub build_ms: Option<f64>,
-    /// The host's part of the build.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub build_host_ms: Option<f64>,
-    /// The first build, until complete: what the driver compiles on first use and builds that had to grow included.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub first_build_ms: Option<f64>,
-    /// The first dispatch of every kernel of an image, with one pixel: what the driver compiles on first use. In no
-    /// other figure but `frame_ms`.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub first_use_ms: Option<f64>,
-    /// Rays in to hits out.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub trace_ms: Option<f64>,
-    /// What the camera sees, found by drawing; absent where its rays were traced.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub visible_ms: Option<f64>,
-    /// Everything.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub frame_ms: Option<f64>,
-    /// Rays traced in `trace_ms`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub rays: Option<u64>,
-    /// Millions of rays per second.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub mrays_per_s: Option<f64>,
-}
-
-/// A pass: medians after warm-up, milliseconds.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Pass {
-    /// The path of its shader.
-    pub label: String,
-    /// Median.
-    pub ms_median: f64,
-    /// Shortest.
-    pub ms_min: f64,
-    /// Longest.
-    pub ms_max: f64,
-    /// First quartile.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub ms_q1: Option<f64>,
-    /// Third quartile.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub ms_q3: Option<f64>,
-    /// Times measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub count: Option<u64>,
-}
-
-/// Bytes.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Memory {
-    /// The structure's allocations after the final build.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub structure_bytes: Option<u64>,
-    /// The formula of the system's page on counted fragments, entries and cells.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub formula_bytes: Option<u64>,
-    /// Capacity of the structure's pools.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub capacity_bytes: Option<u64>,
-    /// Kept only to measure.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub diagnostic_bytes: Option<u64>,
-    /// Most that was allocated on the device at a time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub device_peak_bytes: Option<u64>,
-    /// Bytes of each named part.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub by_part: BTreeMap<String, u64>,
-}
-
-/// Counts that do not depend on the machine.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Counters {
-    /// Fragments stored.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fragments: Option<u64>,
-    /// Triangles with an area that cover no cell's centre in any view, so that rays pass through them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub lost: Option<u64>,
-    /// List entries stored.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub entries: Option<u64>,
-    /// List entries or tree nodes read per ray.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub nodes_per_ray: Option<f64>,
-    /// Cells stepped per ray.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub cells_per_ray: Option<f64>,
-    /// Primitive tests per ray.
-    #[serde(default, skip_serializing_if = "absent")]
-    pub tests_per_ray: Option<f64>,
-    /// Entries that the pools were asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub demand: Option<u64>,
-    /// Entries that the pools can hold.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub capacity: Option<u64>,
-    /// Entries missing from what was traced.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub overflow: Option<u64>,
-    /// Builds repeated with larger pools.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub regrows: Option<u64>,
-    /// Rays without an answer after the last round.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub unfinished: Option<u64>,
-}
-
 impl Run {
     /// System and preset, and the variant where there are several.
     pub fn contestant(&self) -> String {
@@ -381,6 +226,7 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cost::Timer;
 
     #[test]
     fn what_was_not_measured_is_absent() {
