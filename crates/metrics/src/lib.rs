@@ -13,6 +13,7 @@ mod error;
 mod flip;
 mod hits;
 mod image;
+mod image_error;
 mod rate;
 mod ssim;
 mod statistics;
@@ -22,7 +23,8 @@ pub use error::MetricsError;
 #[cfg(feature = "flip")]
 pub use flip::{Flip, flip, flip_map};
 pub use hits::{DeviceHit, HitConfusion, Truth, common_hits};
-pub use image::{Image, ImageError};
+pub use image::Image;
+pub use image_error::ImageError;
 pub use rate::{Rate, confidence_of_each};
 pub use ssim::ssim;
 pub use statistics::{Percentiles, Summary, median, median_of_means, percentile};
