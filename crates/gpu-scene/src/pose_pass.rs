@@ -5,6 +5,7 @@ mod far_lights;
 mod frame_pose;
 mod moving;
 mod moving_triangles;
+mod pivot;
 mod shapes;
 mod sources;
 

@@ -10,7 +10,7 @@ use rasray_scene::deforming::{Deformer, Shape};
 use rasray_scene::{Mesh, Scene};
 use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
 
-use super::sources::{centre, relative};
+use super::pivot::{centre, relative};
 use crate::GpuSceneError;
 
 const WORD: u64 = size_of::<f32>() as u64;

@@ -9,6 +9,7 @@ use rasray_shaders_glsl::constants::scene::ATTRIBUTE_NONE;
 use rasray_shaders_glsl::records::{PoseDraw, PoseGroup};
 
 use super::moving::Moving;
+use super::pivot::{centre, relative};
 use super::shapes::ShapePlace;
 use crate::{GpuSceneError, SceneTables, words::Words};
 
@@ -250,20 +251,4 @@ fn append<const N: usize>(
 ) -> Result<u32, GpuSceneError> {
     let Some(values) = values else { return Ok(ATTRIBUTE_NONE) };
     table.append(values.len() * N, || values.flatten())
-}
-
-/// A position relative to a pivot, rounded once.
-pub fn relative(position: &[f32; 3], pivot: DVec3) -> [f32; 3] {
-    (DVec3::from(position.map(f64::from)) - pivot).as_vec3().to_array()
-}
-
-/// The centre of the box around positions, metres; zero where there are none.
-pub fn centre<'a>(lists: impl IntoIterator<Item = &'a [[f32; 3]]>) -> DVec3 {
-    let (mut lower, mut upper) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for position in lists.into_iter().flatten() {
-        let position = DVec3::from(position.map(f64::from));
-        (lower, upper) = (lower.min(position), upper.max(position));
-    }
-    let centre = 0.5 * (lower + upper);
-    if centre.is_finite() { centre } else { DVec3::ZERO }
 }
