@@ -7,6 +7,7 @@
 mod binary;
 mod error;
 mod hits;
+mod limit;
 mod literal;
 mod npy;
 mod rays;
@@ -14,12 +15,10 @@ mod rays;
 pub use binary::{read_rays, write_rays};
 pub use error::{FileError, FormatError};
 pub use hits::{HitsFile, TrueHit, hits_from_npy, hits_to_npy, truth_to_npy};
+pub use limit::LIMIT;
 pub use rays::{Place, RaysFile, ids_to_npy, rays_from_npy, rays_to_npy, triangles_to_npy};
 
 use std::path::Path;
-
-/// Maximum rays or hits that a file may hold.
-pub const LIMIT: usize = 100_000_000;
 
 /// Reads rays from a `.rays` or `.npy` file.
 ///

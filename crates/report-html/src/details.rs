@@ -3,7 +3,7 @@
 use super::markup::Markup;
 use super::names::workload;
 use super::section::Section;
-use crate::HtmlError;
+use crate::error::{HtmlError, misfit};
 use rasray_report::Report;
 use serde_json::Value;
 
@@ -28,7 +28,7 @@ pub(super) fn section(report: &Report) -> Result<Option<Section>, HtmlError> {
         "Options as resolved from preset and command line, and every number by its name in the JSON report.",
     );
     for run in &report.runs {
-        let value = serde_json::to_value(run).map_err(|error| super::misfit(error.to_string()))?;
+        let value = serde_json::to_value(run).map_err(|error| misfit(error.to_string()))?;
         body.element("details", &[], |body| {
             body.leaf("summary", &[], format_args!("{}, {}", run.contestant(), workload(run)));
             for (field, title) in OWN_TABLES {

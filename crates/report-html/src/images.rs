@@ -1,10 +1,9 @@
 //! Images against the reference: a slider between any two, all of them side by side, maps of FLIP.
 
 use super::markup::Markup;
-use super::misfit;
 use super::picture::{address, ramp};
 use super::section::Section;
-use crate::HtmlError;
+use crate::error::{HtmlError, misfit};
 use rasray_metrics::tone_map;
 use rasray_report::Report;
 use rasray_report::colour_scale::{MAGMA, colour};

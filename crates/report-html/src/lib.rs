@@ -8,6 +8,7 @@ mod bars;
 mod depth_errors;
 mod details;
 mod document;
+mod error;
 mod hard;
 mod images;
 mod markup;
@@ -20,6 +21,9 @@ mod speed_error;
 mod summary;
 mod work;
 
+pub use error::HtmlError;
+
+use error::misfit;
 use rasray_report::Report;
 use rasray_report::figures::Figures;
 
@@ -58,15 +62,6 @@ fn check(report: &Report, figures: &Figures) -> Result<(), HtmlError> {
         Some(run) => Err(misfit(format!("a figure belongs to run {run} of {}", report.runs.len()))),
         None => Ok(()),
     }
-}
-
-/// Figures and report contradict each other, which no input of a user can cause.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0}")]
-pub struct HtmlError(String);
-
-fn misfit(what: impl Into<String>) -> HtmlError {
-    HtmlError(what.into())
 }
 
 /// What the readme shows compiles.

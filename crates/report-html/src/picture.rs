@@ -1,7 +1,6 @@
 //! Pictures inside the page: PNG as data.
 
-use super::misfit;
-use crate::HtmlError;
+use crate::error::{HtmlError, misfit};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};

@@ -3,7 +3,7 @@
 use super::markup::Markup;
 use super::picture::{address, ramp};
 use super::section::Section;
-use crate::HtmlError;
+use crate::error::HtmlError;
 use rasray_report::Report;
 use rasray_report::colour_scale::{VIRIDIS, colour, place};
 use rasray_report::figures::{Figures, WorkMap};
