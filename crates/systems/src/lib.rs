@@ -13,6 +13,7 @@ mod ldc;
 mod mmrt;
 mod option_row;
 mod options;
+mod registry;
 mod selective;
 mod spec;
 mod voxel;
@@ -20,20 +21,8 @@ mod voxel;
 pub use error::SystemsError;
 pub use option_row::{Group, Hits, OptionRow, Values, Word};
 pub use options::{OPTIONS, option};
+pub use registry::SYSTEMS;
 pub use spec::{Preset, Spec, System};
-
-/// Every system.
-pub static SYSTEMS: &[System] = &[
-    bricks::SYSTEM,
-    mmrt::SYSTEM,
-    dirt::SYSTEM,
-    hu::SYSTEM,
-    selective::SYSTEM,
-    ldc::SYSTEM,
-    bvh::SYSTEM,
-    grid::SYSTEM,
-    brute_force::SYSTEM,
-];
 
 /// What the readme shows compiles.
 #[cfg(doctest)]

@@ -1,13 +1,13 @@
-//! The registry, and a system with everything that was chosen for it.
+//! A row of the registry, and a system with everything that was chosen for it.
 
 use std::collections::BTreeMap;
 
 use rasray_ads::{Counters, Geometry, RecordLayout, SceneBinding, Structure, StructureKind};
 use rasray_gpu::{Device, Requirements};
 
+use crate::SystemsError;
 use crate::option_row::{Group, OptionRow};
 use crate::options::OPTIONS;
-use crate::{SYSTEMS, SystemsError};
 
 /// How closely a system follows its paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -87,11 +87,6 @@ impl PartialEq for System {
 impl Eq for System {}
 
 impl System {
-    /// The system of that name.
-    pub fn named(name: &str) -> Option<&'static Self> {
-        SYSTEMS.iter().find(|row| row.name == name)
-    }
-
     /// Options it has, in the order of help.
     pub fn options(&self) -> Vec<&'static OptionRow> {
         let names = (self.options)();
@@ -124,19 +119,15 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// Looks up a system and a preset by name and checks options and their values.
+    /// Looks up a preset by name and checks options and their values.
     ///
     /// # Errors
-    /// Whatever the registry does not have, by name.
-    pub fn new(
-        system: &str,
+    /// Whatever the system does not have, by name.
+    pub(crate) fn of(
+        row: &'static System,
         preset: &str,
         options: impl IntoIterator<Item = (String, String)>,
     ) -> Result<Self, SystemsError> {
-        let row = System::named(system).ok_or_else(|| SystemsError::UnknownSystem {
-            name: system.to_owned(),
-            known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
-        })?;
         let preset = row
             .presets
             .iter()
@@ -183,7 +174,7 @@ impl Spec {
         options: impl IntoIterator<Item = (String, String)>,
     ) -> Result<Self, SystemsError> {
         let given = self.options.clone().into_iter().chain(options);
-        let spec = Self::new(self.system.name, self.preset.name(), given)?;
+        let spec = Self::of(self.system, self.preset.name(), given)?;
         Ok(Self { counters: self.counters, work_budget: self.work_budget, ..spec })
     }
 
@@ -250,7 +241,7 @@ impl Spec {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{dirt, hu, ldc, mmrt, selective};
+    use crate::{SYSTEMS, dirt, hu, ldc, mmrt, selective};
 
     fn spec(system: &str, preset: &str, options: &[(&str, &str)]) -> Result<Spec, SystemsError> {
         Spec::new(

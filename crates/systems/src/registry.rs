@@ -1,0 +1,41 @@
+//! The registry: every system, found by name.
+
+use crate::{Spec, System, SystemsError, bricks, brute_force, bvh, dirt, grid, hu, ldc, mmrt, selective};
+
+/// Every system.
+pub static SYSTEMS: &[System] = &[
+    bricks::SYSTEM,
+    mmrt::SYSTEM,
+    dirt::SYSTEM,
+    hu::SYSTEM,
+    selective::SYSTEM,
+    ldc::SYSTEM,
+    bvh::SYSTEM,
+    grid::SYSTEM,
+    brute_force::SYSTEM,
+];
+
+impl System {
+    /// The system of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        SYSTEMS.iter().find(|row| row.name == name)
+    }
+}
+
+impl Spec {
+    /// Looks up a system and a preset by name and checks options and their values.
+    ///
+    /// # Errors
+    /// Whatever the registry does not have, by name.
+    pub fn new(
+        system: &str,
+        preset: &str,
+        options: impl IntoIterator<Item = (String, String)>,
+    ) -> Result<Self, SystemsError> {
+        let row = System::named(system).ok_or_else(|| SystemsError::UnknownSystem {
+            name: system.to_owned(),
+            known: SYSTEMS.iter().map(|row| row.name).collect::<Vec<_>>().join(", "),
+        })?;
+        Self::of(row, preset, options)
+    }
+}
