@@ -1,6 +1,7 @@
 //! What every mesh must satisfy before anything else sees it, whatever format it came from.
 
 mod attributes;
+mod place;
 mod textures;
 mod triangles;
 
@@ -10,9 +11,7 @@ use crate::remarks::Remarks;
 use crate::{Mesh, SceneError, Warning};
 
 pub(crate) use textures::textured;
-
-/// Largest magnitude of a coordinate, metres: its square is still finite in f32.
-pub const MAX_COORDINATE: f32 = 1.8e18;
+pub use triangles::MAX_COORDINATE;
 
 /// Brings a mesh into the state that [`Mesh`] promises.
 ///
@@ -50,11 +49,6 @@ pub(crate) fn clean(path: &Path, mesh: &mut Mesh, remarks: &mut Remarks) -> Resu
 /// The same of normals, tangents, texture coordinates and colours alone.
 pub(crate) fn clean_attributes(mesh: &mut Mesh, remarks: &mut Remarks) {
     attributes::clean(mesh, remarks);
-}
-
-/// A mesh as the place of a remark.
-fn place(mesh: &Mesh) -> String {
-    format!("mesh {}", mesh.name)
 }
 
 #[cfg(test)]

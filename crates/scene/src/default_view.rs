@@ -1,65 +1,27 @@
 //! What a scene gets that brings none of its own: a camera, light and a material; and its bounds.
 
-use glam::{DAffine3, DMat3, DVec3};
+use glam::DVec3;
 
-use crate::{Camera, Material, Projection, Scene};
+use crate::{Camera, Material, Scene};
 
+mod bounds;
 mod emission;
+mod emitters;
 mod light;
+mod looking;
 mod room;
 mod sight;
 mod sky;
 
-pub use light::{default_light, emits, ensure_lit, is_lit};
+pub use bounds::bounds;
+pub use emitters::emits;
+pub use light::{default_light, ensure_lit, is_lit};
+pub use looking::camera_looking_at;
 
 /// Full vertical angle of the default camera that stands outside, radians.
 const FOV_Y: f64 = 0.8;
 /// How much more than the bounds of the scene is in its picture.
 const MARGIN: f64 = 1.05;
-
-/// A perspective camera at `eye` (metres) that looks at `target`, upright; `fov_y` is the full
-/// vertical angle in radians. Looking straight up or down, -z is up in the picture. If eye and target
-/// coincide, it looks along -z.
-pub fn camera_looking_at(name: &str, eye: DVec3, target: DVec3, fov_y: f32) -> Camera {
-    let back = (eye - target).normalize_or(DVec3::Z);
-    let right = DVec3::Y.cross(back).try_normalize().unwrap_or(DVec3::X);
-    let up = back.cross(right);
-    Camera {
-        name: name.to_owned(),
-        world_from_camera: DAffine3::from_mat3_translation(DMat3::from_cols(right, up, back), eye),
-        projection: Projection::Perspective { fov_y },
-    }
-}
-
-/// Least and greatest corner, in metres, of the triangles as placed by the instances. Vertices that
-/// no triangle uses do not count, nor do coordinates that are not finite. `None` without triangles.
-pub fn bounds(scene: &Scene) -> Option<(DVec3, DVec3)> {
-    let mut used: Vec<Option<Vec<DVec3>>> = vec![None; scene.meshes.len()];
-    let mut total: Option<(DVec3, DVec3)> = None;
-    for instance in &scene.instances {
-        let Some(mesh) = scene.meshes.get(instance.mesh) else { continue };
-        let vertices = used[instance.mesh].get_or_insert_with(|| used_positions(mesh));
-        for &position in vertices.iter() {
-            let point = instance.world_from_mesh.transform_point3(position);
-            if point.is_finite() {
-                let (low, high) = total.unwrap_or((point, point));
-                total = Some((low.min(point), high.max(point)));
-            }
-        }
-    }
-    total
-}
-
-fn used_positions(mesh: &crate::Mesh) -> Vec<DVec3> {
-    let mut marked = vec![false; mesh.positions.len()];
-    for &index in &mesh.indices {
-        if let Some(mark) = marked.get_mut(index as usize) {
-            *mark = true;
-        }
-    }
-    let kept = mesh.positions.iter().zip(marked).filter(|(_, used)| *used);
-    kept.map(|(position, _)| DVec3::from_array(position.map(f64::from))).collect()
-}
 
 /// A camera for a scene that has none, upright with +y; the same for the same scene.
 ///

@@ -3,7 +3,9 @@
 use std::fmt::Debug;
 use std::path::Path;
 
-use crate::{Mesh, Moment, Scene, SceneError, Warning};
+use crate::SceneError;
+use crate::mesh::Mesh;
+use crate::warning::Warning;
 
 /// Changes meshes with time where no rig does: a simulation, or a file for each frame.
 ///
@@ -15,7 +17,7 @@ pub trait Deformer: Debug + Send + Sync {
     /// Seconds from which on nothing changes any more.
     fn duration(&self) -> f64;
 
-    /// The meshes that it changes, indices into [`Scene::meshes`].
+    /// The meshes that it changes, indices into [`Scene::meshes`](crate::Scene::meshes).
     fn meshes(&self) -> &[usize];
 
     /// These meshes at a time, seconds; before 0 as at 0, after the end as at the end. Times in ascending order may be
@@ -43,7 +45,7 @@ pub enum Topology {
 /// Meshes at a time.
 #[derive(Clone, Debug, Default)]
 pub struct Deformation {
-    /// Index into [`Scene::meshes`], and the mesh then.
+    /// Index into [`Scene::meshes`](crate::Scene::meshes), and the mesh then.
     pub shapes: Vec<(usize, Shape)>,
     /// What was dropped or replaced in them.
     pub warnings: Vec<Warning>,
@@ -64,7 +66,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    fn apply(self, mesh: &mut Mesh) {
+    pub(crate) fn apply(self, mesh: &mut Mesh) {
         match self {
             Self::Vertices { positions, normals } => {
                 mesh.positions = positions;
@@ -109,42 +111,5 @@ impl Motion {
             Self::Deforming => "deforming, the same triangles at every time",
             Self::Changing => "deforming, other triangles at every time",
         }
-    }
-}
-
-impl Scene {
-    /// How the scene changes with time. In every case the number of instances and materials stays; meshes may be added by
-    /// [`Self::at`] where nodes share one that they deform differently.
-    pub fn motion(&self) -> Motion {
-        match self.animation.deformer.as_ref().map(|deformer| deformer.topology()) {
-            Some(Topology::Changing) => Motion::Changing,
-            Some(Topology::Fixed) => Motion::Deforming,
-            None if self.animation.rig.clips.is_empty() => Motion::Still,
-            None => Motion::Rig,
-        }
-    }
-
-    /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed by the rig or by the
-    /// [`Deformer`]. With a rig, or a deformer of fixed topology, triangles keep their order and number, so that ids do not
-    /// depend on the time. The result can be shown at another moment in the same way. A scene that nothing moves is as it
-    /// was. Everything else is copied, images included: take those out before where they are large.
-    ///
-    /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
-    /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A camera or a
-    /// light whose node degenerates stays where it was at rest.
-    ///
-    /// # Errors
-    /// Those of the deformer: a file of a sequence that cannot be read or does not go with the first.
-    pub fn at(&self, moment: &Moment) -> Result<Self, SceneError> {
-        let mut scene = self.posed(moment);
-        let Some(deformer) = self.animation.deformer.clone() else { return Ok(scene) };
-        let Deformation { shapes, warnings } = deformer.at(moment.seconds)?;
-        for (index, shape) in shapes {
-            shape.apply(&mut scene.meshes[index]);
-        }
-        let before = std::mem::replace(&mut scene.animation.deformer_warnings, warnings.clone());
-        scene.warnings.retain(|warning| !before.contains(warning));
-        scene.warnings.extend(warnings);
-        Ok(scene)
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 use crate::decode::panic_message;
-use crate::load::read_file;
+use crate::files::read_file;
 use crate::{Environment, Limits, SceneError};
 
 /// Most pixels of a map; 16384 x 8192 fits.

@@ -17,6 +17,7 @@
 mod accessor;
 mod animations;
 mod attributes;
+mod buffer_views;
 mod buffers;
 mod cameras;
 mod conform;
@@ -32,6 +33,7 @@ mod json;
 mod lights;
 mod materials;
 mod primitives;
+mod punctual;
 mod shape;
 mod skins;
 mod textures;
@@ -42,7 +44,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use crate::decode::panic_message;
-use crate::load::{Empty, finish, read_file, scene_name};
+use crate::files::read_file;
+use crate::finish::{Empty, finish, scene_name};
 use crate::{LoadOptions, Scene, SceneError};
 
 /// Loads a `.gltf` or `.glb` file; which of the two it is is decided by its first bytes. Files that

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::decode::decode;
-use crate::load::read_file;
+use crate::files::read_file;
 use crate::remarks::Remarks;
 use crate::text::reason;
 use crate::{Image, Limits, SceneError};

@@ -4,6 +4,9 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
+pub use crate::mesh::Mesh;
+pub use crate::warning::Warning;
+
 /// Everything that can be rendered, in one world. Instances are in *scene order*: the order that
 /// global triangle ids follow (glTF: depth-first over scene nodes, primitives in order, instances
 /// in order; OBJ and PLY: file order).
@@ -34,35 +37,6 @@ pub struct Scene {
     /// Files that the scene's own file refers to and that were read: buffers, images and material libraries, in the order
     /// in which they were read. One that is referred to twice may be here twice.
     pub files: Vec<std::path::PathBuf>,
-}
-
-/// Indexed triangles with optional attributes. Every index is below `positions.len()`;
-/// attribute arrays, where present, have the length of `positions`.
-#[derive(Clone, Debug, Default)]
-pub struct Mesh {
-    /// Name from the file, or a made-up one.
-    pub name: String,
-    /// Metres, mesh space. Finite, magnitude at most 1.8e18.
-    pub positions: Vec<[f32; 3]>,
-    /// Unit shading normals; absent means flat.
-    pub normals: Option<Vec<[f32; 3]>>,
-    /// Unit tangents, w is the sign of the bitangent.
-    pub tangents: Option<Vec<[f32; 4]>>,
-    /// Texture coordinates of set 0 and set 1.
-    pub uvs: [Option<Vec<[f32; 2]>>; 2],
-    /// Linear RGBA multiplied into the base colour.
-    pub colors: Option<Vec<[f32; 4]>>,
-    /// Three per triangle.
-    pub indices: Vec<u32>,
-    /// Index into `Scene::materials`.
-    pub material: usize,
-}
-
-impl Mesh {
-    /// Number of triangles.
-    pub fn triangle_count(&self) -> usize {
-        self.indices.len() / 3
-    }
 }
 
 /// A mesh placed in the world.
@@ -330,13 +304,4 @@ pub struct Animation {
     pub deformer: Option<Arc<dyn crate::deforming::Deformer>>,
     /// What the deformer remarked on at the time that is shown; [`Scene::warnings`] holds it too.
     pub deformer_warnings: Vec<Warning>,
-}
-
-/// Something the user should know about a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Warning {
-    /// Stable word for tests and reports, such as `degenerate-triangles`.
-    pub kind: &'static str,
-    /// One sentence: what, where, how many, what was done instead.
-    pub message: String,
 }

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::path::PathBuf;
 
-use crate::Warning;
 use crate::text::{sentence, shown};
+use crate::warning::Warning;
 
 /// Different texts of one kind that are told; more are counted, so that no file can make the list long.
 const TEXTS: usize = 16;

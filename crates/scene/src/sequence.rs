@@ -114,13 +114,13 @@ impl Sequence {
 /// Those of [`Sequence::find`], and of the first files up to one with triangles.
 pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> {
     let sequence = Sequence::find(pattern, options)?;
-    let mut model = crate::load::load_file(&sequence.files[0], options)?;
+    let mut model = crate::formats::load_file(&sequence.files[0], options)?;
     let warnings = std::mem::take(&mut model.warnings);
     for file in &sequence.files[1..] {
         if !model.meshes.is_empty() {
             break;
         }
-        model = crate::load::load_file(file, options)?;
+        model = crate::formats::load_file(file, options)?;
         // Nothing of it is shown yet.
         for mesh in &mut model.meshes {
             *mesh = empty(mesh);
@@ -133,7 +133,7 @@ pub fn load(pattern: &Path, options: &LoadOptions) -> Result<Scene, SceneError> 
         materials: model.materials.iter().map(|material| material.name.clone()).collect(),
         sequence,
     };
-    model.name = crate::load::scene_name(pattern);
+    model.name = crate::finish::scene_name(pattern);
     model.warnings.clone_from(&warnings);
     model.animation.deformer_warnings = warnings;
     model.animation.duration = frames.duration() as f32;
@@ -207,7 +207,7 @@ impl Deformer for Frames {
 
     fn at(&self, seconds: f64) -> Result<Deformation, SceneError> {
         let file = &self.sequence.files[self.sequence.index(seconds)];
-        self.adapted(file, crate::load::load_file(file, &self.sequence.options)?)
+        self.adapted(file, crate::formats::load_file(file, &self.sequence.options)?)
     }
 
     fn file(&self, seconds: f64) -> Option<&Path> {

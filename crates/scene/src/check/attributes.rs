@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::place;
+use super::place::place;
 use super::triangles::face_normal;
 use crate::Mesh;
 use crate::remarks::Remarks;

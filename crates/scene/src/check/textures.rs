@@ -1,5 +1,6 @@
 //! Textures that meshes have no coordinates for.
 
+use super::place::place;
 use crate::remarks::Remarks;
 use crate::{Material, Scene, TextureRef};
 
@@ -16,7 +17,7 @@ pub(crate) fn textured(scene: &Scene, remarks: &mut Remarks) {
                     if flat { "it has no effect" } else { "the same texel of it is used everywhere" };
                 remarks.note(
                     "texture-without-coordinates",
-                    super::place(mesh),
+                    place(mesh),
                     format!(
                         "its material has a {what}, but it has no texture coordinates {uv_set}: {effect}"
                     ),

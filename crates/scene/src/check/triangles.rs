@@ -4,9 +4,12 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::{MAX_COORDINATE, place};
+use super::place::place;
 use crate::remarks::Remarks;
 use crate::{Mesh, SceneError};
+
+/// Largest magnitude of a coordinate, metres: its square is still finite in f32.
+pub const MAX_COORDINATE: f32 = 1.8e18;
 
 /// Refuses indices that are not below the number of vertices, or not a multiple of three.
 pub(super) fn check_indices(path: &Path, mesh: &Mesh) -> Result<(), SceneError> {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::light::{emits, shown_materials};
+use super::emitters::{emits, shown_materials};
 use crate::{Image, Instance, Material, Mesh, Scene, TextureRef, Wrap};
 
 /// Weights of a triangle's corners at the places where its emission is looked up.

@@ -1,8 +1,9 @@
 //! Whether a scene is lit, and what lights it if it is not.
 
 use super::emission::mean_emission;
+use super::emitters::{emits, shines, shown_materials};
 use super::sky::sky;
-use crate::{Environment, Light, Material, Scene, Warning};
+use crate::{Environment, Light, Scene, Warning};
 
 /// What the surfaces of a scene emit lights it from this much on: the mean radiance over all of its surfaces,
 /// W/(sr m^2). The lamp of a Cornell box gives the box 0.09; a white surface that saw 0.05 all around would be
@@ -21,11 +22,6 @@ pub fn is_lit(scene: &Scene) -> bool {
         Environment::LatLong { radiance, .. } => radiance.iter().any(|texel| shines(texel)),
     };
     environment || scene.lights.iter().any(light_shines) || mean_emission(scene) >= LEAST_EMISSION
-}
-
-/// Whether surfaces of this material send out light by themselves.
-pub fn emits(material: &Material) -> bool {
-    shines(&material.emission) || (material.unlit && shines(&material.base_color[..3]))
 }
 
 /// The light of a scene that brings none, as a map of 256 x 128 texels: a neutral sky, grey at the horizon, with a
@@ -52,22 +48,9 @@ pub fn ensure_lit(scene: &mut Scene) -> bool {
     true
 }
 
-fn shines(color: &[f32]) -> bool {
-    color.iter().any(|channel| *channel > 0.0)
-}
-
 fn light_shines(light: &Light) -> bool {
     match light {
         Light::Point { intensity, .. } | Light::Spot { intensity, .. } => shines(intensity),
         Light::Directional { irradiance, .. } => shines(irradiance),
     }
-}
-
-/// Materials of placed meshes that have triangles; one for every instance.
-pub(super) fn shown_materials(scene: &Scene) -> impl Iterator<Item = &Material> {
-    scene.instances.iter().filter_map(|instance| {
-        let mesh = scene.meshes.get(instance.mesh)?;
-        let material = scene.materials.get(mesh.material)?;
-        (!mesh.indices.is_empty()).then_some(material)
-    })
 }

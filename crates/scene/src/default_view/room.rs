@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
 use glam::DVec3;
 
+use super::bounds::bounds;
+use super::looking::camera_looking_at;
 use super::sight::Sight;
-use super::{bounds, camera_looking_at};
 use crate::{Camera, Scene};
 
 /// Where a room is looked for, in the middle of the bounds, and where the eye may be: shares of the

@@ -89,7 +89,7 @@ impl Check<'_> {
                 self.index(&format!("scenes[{i}]"), "nodes", node, nodes)?;
             }
         }
-        let lights = super::lights::of(root);
+        let lights = super::punctual::lights(root);
         for (i, node) in root.nodes.iter().enumerate() {
             let place = format!("nodes[{i}]");
             for &child in node.children.iter().flatten() {

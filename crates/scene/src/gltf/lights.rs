@@ -2,23 +2,15 @@
 
 use std::f32::consts::FRAC_PI_2;
 
-use ::gltf::json::Root;
 use ::gltf::json::extensions::scene::khr_lights_punctual::{Light as JsonLight, Spot, Type};
 use ::gltf::json::validation::Checked;
 use glam::DVec3;
 
 use super::document::Document;
 use super::hierarchy::Hierarchy;
+use super::punctual;
 use crate::Light;
 use crate::pose::light_direction;
-
-/// The lights of a file.
-pub(super) fn of(root: &Root) -> &[JsonLight] {
-    root.extensions
-        .as_ref()
-        .and_then(|found| found.khr_lights_punctual.as_ref())
-        .map_or(&[], |found| &found.lights)
-}
 
 /// The lights of the nodes in `order`, each with its node. Scale moves a light but does not change how bright it is or
 /// how far it reaches.
@@ -29,7 +21,7 @@ pub(super) fn place(document: &Document<'_>, hierarchy: &Hierarchy, order: &[usi
         let Some(reference) = extensions.and_then(|found| found.khr_lights_punctual.as_ref()) else {
             continue;
         };
-        let source = &of(&document.root)[reference.light.value()];
+        let source = &punctual::lights(&document.root)[reference.light.value()];
         let world = hierarchy.world[node];
         match light(source, world.translation, light_direction(world)) {
             Some(light) => {

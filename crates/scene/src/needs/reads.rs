@@ -1,6 +1,6 @@
 //! Which textures of a material a workload reads.
 
-use super::{Integrator, Workload};
+use super::workload::{Integrator, Workload};
 use crate::{AlphaMode, Material, TextureRef};
 
 /// What a material's textures are read for.

@@ -1,7 +1,9 @@
 //! What a scene has, as far as a workload could look at it.
 
+use super::moving::moving_instances;
 use super::reads::{Reads, blends, is_lit, reads_base_color};
-use super::{Integrator, Term, Workload, moving_instances};
+use super::term::Term;
+use super::workload::{Integrator, Workload};
 use crate::{AlphaMode, Environment, Light, Material, Mesh, Scene, TextureRef};
 
 /// Materials that triangles in the world have, each once, in the order of the scene.

@@ -17,7 +17,8 @@ use std::path::Path;
 use glam::DAffine3;
 
 use crate::default_view::plain_material;
-use crate::load::{Empty, finish, read_file, scene_name};
+use crate::files::read_file;
+use crate::finish::{Empty, finish, scene_name};
 use crate::remarks::Remarks;
 use crate::{Instance, LoadOptions, Material, Scene, SceneError};
 

@@ -1,0 +1,22 @@
+//! Materials that send out light by themselves.
+
+use crate::{Material, Scene};
+
+/// Whether surfaces of this material send out light by themselves.
+pub fn emits(material: &Material) -> bool {
+    shines(&material.emission) || (material.unlit && shines(&material.base_color[..3]))
+}
+
+/// Whether a colour is not black.
+pub(super) fn shines(color: &[f32]) -> bool {
+    color.iter().any(|channel| *channel > 0.0)
+}
+
+/// Materials of placed meshes that have triangles; one for every instance.
+pub(super) fn shown_materials(scene: &Scene) -> impl Iterator<Item = &Material> {
+    scene.instances.iter().filter_map(|instance| {
+        let mesh = scene.meshes.get(instance.mesh)?;
+        let material = scene.materials.get(mesh.material)?;
+        (!mesh.indices.is_empty()).then_some(material)
+    })
+}

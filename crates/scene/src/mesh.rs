@@ -1,0 +1,30 @@
+//! Triangle meshes.
+
+/// Indexed triangles with optional attributes. Every index is below `positions.len()`;
+/// attribute arrays, where present, have the length of `positions`.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Name from the file, or a made-up one.
+    pub name: String,
+    /// Metres, mesh space. Finite, magnitude at most 1.8e18.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit shading normals; absent means flat.
+    pub normals: Option<Vec<[f32; 3]>>,
+    /// Unit tangents, w is the sign of the bitangent.
+    pub tangents: Option<Vec<[f32; 4]>>,
+    /// Texture coordinates of set 0 and set 1.
+    pub uvs: [Option<Vec<[f32; 2]>>; 2],
+    /// Linear RGBA multiplied into the base colour.
+    pub colors: Option<Vec<[f32; 4]>>,
+    /// Three per triangle.
+    pub indices: Vec<u32>,
+    /// Index into `Scene::materials`.
+    pub material: usize,
+}
+
+impl Mesh {
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.indices.len() / 3
+    }
+}

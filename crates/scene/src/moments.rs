@@ -1,0 +1,41 @@
+//! Scenes at a moment.
+
+use crate::deforming::{Deformation, Topology};
+use crate::{Moment, Motion, Scene, SceneError};
+
+impl Scene {
+    /// How the scene changes with time. In every case the number of instances and materials stays; meshes may be added by
+    /// [`Self::at`] where nodes share one that they deform differently.
+    pub fn motion(&self) -> Motion {
+        match self.animation.deformer.as_ref().map(|deformer| deformer.topology()) {
+            Some(Topology::Changing) => Motion::Changing,
+            Some(Topology::Fixed) => Motion::Deforming,
+            None if self.animation.rig.clips.is_empty() => Motion::Still,
+            None => Motion::Rig,
+        }
+    }
+
+    /// The scene at a moment: instances, cameras and lights where their nodes are then, meshes deformed by the rig or by the
+    /// [`Deformer`](crate::deforming::Deformer). With a rig, or a deformer of fixed topology, triangles keep their order and number, so that ids do not
+    /// depend on the time. The result can be shown at another moment in the same way. A scene that nothing moves is as it
+    /// was. Everything else is copied, images included: take those out before where they are large.
+    ///
+    /// Positions are rounded to f32 once, relative to the mesh's place. One that overflows is not finite:
+    /// whoever places it drops its triangles and counts them, as for an instance that is scaled too far. A camera or a
+    /// light whose node degenerates stays where it was at rest.
+    ///
+    /// # Errors
+    /// Those of the deformer: a file of a sequence that cannot be read or does not go with the first.
+    pub fn at(&self, moment: &Moment) -> Result<Self, SceneError> {
+        let mut scene = self.posed(moment);
+        let Some(deformer) = self.animation.deformer.clone() else { return Ok(scene) };
+        let Deformation { shapes, warnings } = deformer.at(moment.seconds)?;
+        for (index, shape) in shapes {
+            shape.apply(&mut scene.meshes[index]);
+        }
+        let before = std::mem::replace(&mut scene.animation.deformer_warnings, warnings.clone());
+        scene.warnings.retain(|warning| !before.contains(warning));
+        scene.warnings.extend(warnings);
+        Ok(scene)
+    }
+}

@@ -1,0 +1,106 @@
+//! The parts of scenes that may or may not be needed.
+
+/// A part of scenes that may or may not be needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Term {
+    /// Shading normals of vertices.
+    Normals,
+    /// Tangents of vertices.
+    Tangents,
+    /// Texture coordinates of set 0.
+    Uv0,
+    /// Texture coordinates of set 1.
+    Uv1,
+    /// Colours of vertices.
+    Colors,
+    /// Base colour textures, as colour. Those of alpha masks come with [`Term::AlphaMask`].
+    BaseColorTextures,
+    /// Metallic-roughness textures.
+    MetallicRoughnessTextures,
+    /// Normal maps.
+    NormalTextures,
+    /// Emission textures.
+    EmissionTextures,
+    /// Transmission textures.
+    TransmissionTextures,
+    /// Surfaces that show light of their own.
+    Emission,
+    /// Specular reflection, of metals and of dielectrics.
+    Specular,
+    /// Light that passes through surfaces.
+    Transmission,
+    /// Absorption inside of bodies.
+    Volume,
+    /// Alpha tested against a cutoff.
+    AlphaMask,
+    /// Partial opacity.
+    AlphaBlend,
+    /// Point lights.
+    PointLights,
+    /// Directional lights.
+    DirectionalLights,
+    /// Spot lights.
+    SpotLights,
+    /// Emissive triangles as lights to sample.
+    AreaLights,
+    /// Radiance from outside.
+    Environment,
+    /// Geometry that changes with time.
+    Motion,
+}
+
+impl Term {
+    /// All terms, in the order that reports list them.
+    pub const ALL: [Self; 22] = [
+        Self::Normals,
+        Self::Tangents,
+        Self::Uv0,
+        Self::Uv1,
+        Self::Colors,
+        Self::BaseColorTextures,
+        Self::MetallicRoughnessTextures,
+        Self::NormalTextures,
+        Self::EmissionTextures,
+        Self::TransmissionTextures,
+        Self::Emission,
+        Self::Specular,
+        Self::Transmission,
+        Self::Volume,
+        Self::AlphaMask,
+        Self::AlphaBlend,
+        Self::PointLights,
+        Self::DirectionalLights,
+        Self::SpotLights,
+        Self::AreaLights,
+        Self::Environment,
+        Self::Motion,
+    ];
+
+    /// The term as reports write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normals => "shading normals",
+            Self::Tangents => "tangents",
+            Self::Uv0 => "texture coordinates 0",
+            Self::Uv1 => "texture coordinates 1",
+            Self::Colors => "vertex colours",
+            Self::BaseColorTextures => "base colour textures",
+            Self::MetallicRoughnessTextures => "metallic-roughness textures",
+            Self::NormalTextures => "normal maps",
+            Self::EmissionTextures => "emission textures",
+            Self::TransmissionTextures => "transmission textures",
+            Self::Emission => "emission",
+            Self::Specular => "specular reflection",
+            Self::Transmission => "transmission",
+            Self::Volume => "volumes",
+            Self::AlphaMask => "alpha masks",
+            Self::AlphaBlend => "alpha blending",
+            Self::PointLights => "point lights",
+            Self::DirectionalLights => "directional lights",
+            Self::SpotLights => "spot lights",
+            Self::AreaLights => "area lights",
+            Self::Environment => "environment",
+            Self::Motion => "motion",
+        }
+    }
+}
