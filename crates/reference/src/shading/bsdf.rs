@@ -15,8 +15,7 @@ use super::{
     microfacet::{ggx_distribution, ggx_visibility, ggx_visibility_one, ggx_visible_normal},
 };
 
-/// Perceptual roughness below which the microfacet lobes are perfect mirrors.
-pub const SMOOTH_ROUGHNESS: f32 = 0.03;
+pub use super::bsdf_terms::SMOOTH_ROUGHNESS;
 
 /// A direction chosen by the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,13 +7,14 @@ use glam::{Mat3, Vec3};
 
 use super::{
     Surface, albedo, basis_around,
-    bsdf::SMOOTH_ROUGHNESS,
     facet_normal::facet_normal,
     glass_albedo::{self, Block},
     luminance,
     microfacet::fresnel_power,
 };
 
+/// Perceptual roughness below which the microfacet lobes are perfect mirrors.
+pub const SMOOTH_ROUGHNESS: f32 = 0.03;
 /// Indices closer to 1 than this do not bend.
 const STRAIGHT_INDEX: f32 = 1.0e-3;
 /// Bounds of the probability of the cosine family where both families exist.

@@ -8,9 +8,10 @@ use rasray_scene::{AlphaMode, Light};
 use super::{
     Ray, Surface, attributes,
     environment::{cumulative_shares, search, share},
+    light_table::LightTable,
     luminance,
     posed::{Draw, PosedScene},
-    ray::{spawn_position, spawn_ray, spawn_segment},
+    spawn::{spawn_position, spawn_ray, spawn_segment},
     texture::Use,
     triangle::{barycentric_weights, triangle_normal, triangle_point},
 };
@@ -19,19 +20,6 @@ use super::{
 const MOST_PARTS: f64 = 128.0;
 /// Least probability of a kind of light that is there, before the sum is made 1.
 const LEAST_KIND: f64 = 0.1;
-
-/// The emissive triangles, the lights without extent and the kinds of light, by power.
-#[derive(Clone, Debug, Default)]
-pub struct LightTable {
-    primitives: Vec<u32>,
-    cumulative: Vec<f32>,
-    /// For each draw, the entry of its first triangle.
-    first_of_draw: Vec<Option<u32>>,
-    /// Cumulative shares of the lights without extent.
-    punctual: Vec<f32>,
-    /// Probability of the kinds: punctual, emissive triangles, environment.
-    kinds: [f32; 3],
-}
 
 /// A direction chosen by the lights.
 #[derive(Clone, Copy, Debug, PartialEq)]

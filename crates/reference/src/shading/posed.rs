@@ -6,7 +6,7 @@ use rasray_scene::{AlphaMode, Environment, Material, Mesh, Scene, TextureRef};
 use super::{
     ReferenceError,
     environment::EnvironmentTable,
-    light::LightTable,
+    light_table::LightTable,
     texture::{TextureTable, Use},
 };
 
@@ -49,42 +49,8 @@ impl std::fmt::Debug for PosedScene<'_> {
 }
 
 impl<'a> PosedScene<'a> {
-    /// Transforms positions in f64, takes `frame_origin` (world, metres) off and rounds once.
-    ///
-    /// # Errors
-    /// If the scene names a mesh, material, texture, image or vertex that it does not have.
-    pub fn new(scene: &'a Scene, frame_origin: DVec3) -> Result<Self, ReferenceError> {
-        check(scene)?;
-        let mut positions = Vec::new();
-        for instance in &scene.instances {
-            for position in &scene.meshes[instance.mesh].positions {
-                let world = instance.world_from_mesh.transform_point3(DVec3::from(position.map(f64::from)));
-                positions.push((world - frame_origin).as_vec3().to_array());
-            }
-        }
-        Self::assemble(scene, frame_origin, positions)
-    }
-
-    /// As [`PosedScene::new`], with positions that were posed elsewhere, such as those a device holds:
-    /// metres relative to `frame_origin`, one for each vertex of each instance in scene order.
-    ///
-    /// # Errors
-    /// As [`PosedScene::new`], and if the number of positions is not that of the scene.
-    pub fn with_positions(
-        scene: &'a Scene,
-        frame_origin: DVec3,
-        positions: Vec<[f32; 3]>,
-    ) -> Result<Self, ReferenceError> {
-        check(scene)?;
-        let expected =
-            scene.instances.iter().map(|instance| scene.meshes[instance.mesh].positions.len()).sum();
-        if positions.len() != expected {
-            return Err(ReferenceError::PositionCount { given: positions.len(), expected });
-        }
-        Self::assemble(scene, frame_origin, positions)
-    }
-
-    fn assemble(
+    /// All but the lights.
+    pub(super) fn assemble(
         scene: &'a Scene,
         frame_origin: DVec3,
         positions: Vec<[f32; 3]>,
@@ -116,7 +82,7 @@ impl<'a> PosedScene<'a> {
                 textures.prepare(reference, usage);
             }
         }
-        let mut posed = Self {
+        Ok(Self {
             scene,
             draws,
             textures,
@@ -126,9 +92,7 @@ impl<'a> PosedScene<'a> {
             frame_origin,
             positions,
             indices,
-        };
-        posed.lights = LightTable::new(&posed);
-        Ok(posed)
+        })
     }
 
     /// Posed positions, metres relative to the frame origin, instance after instance.
@@ -237,7 +201,7 @@ fn posed_tangents(mesh: &Mesh, matrix: DMat3) -> Option<Vec<Vec4>> {
 }
 
 /// Every index that shading follows without asking again.
-fn check(scene: &Scene) -> Result<(), ReferenceError> {
+pub(super) fn check(scene: &Scene) -> Result<(), ReferenceError> {
     let missing = |what: String, count: usize| Err(ReferenceError::Malformed { what, count });
     for instance in &scene.instances {
         if instance.mesh >= scene.meshes.len() {
