@@ -1,8 +1,10 @@
 //! Frames in flight: nothing is shown that is not right, nothing is built that is not stale, and nothing is left behind.
 
 mod crowd;
+mod kept;
 mod parts;
 mod pictures;
 mod refresh;
+mod scenes;
 mod soak;
 mod stale;

@@ -5,116 +5,25 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use bytemuck::pod_read_unaligned;
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 use rasray_ads::{BoundsPass, Combined, Counters, GeometryHeader, Ray, Structure, TraceMode, Viewpoint};
 use rasray_frame::{FrameInput, FrameRenderer, render_in_order};
-use rasray_gpu::{PassCommands, Timing};
-use rasray_gpu_scene::{GpuScene, Parts, PosePass, Sampling, SceneTables, View};
+use rasray_gpu::Timing;
+use rasray_gpu_scene::{GpuScene, Parts, PosePass, Sampling, SceneTables};
 use rasray_integrators::{Film, IntegratorDesc, Path};
-use rasray_scene::animation::{
-    Channel, ChannelValues, Clip, Interpolation, NodeTransform, Placement, Rig, RigNode,
-};
-use rasray_scene::builtin::builtin;
-use rasray_scene::default_view::default_camera;
 use rasray_scene::{LoadOptions, Moment, Scene};
 use rasray_systems::Spec;
-use rasray_tests::harness::{Bench, bits, processor_seconds};
+use rasray_tests::harness::{Bench, bits};
 use rasray_tests::random::Random;
 use rasray_tests::tier::{first, is_full};
-use rasray_tracer::{BatchTracer, FrameOutcome, FrameStructure, Frames, Keeping, Refresh, TracerError};
+use rasray_tracer::{BatchTracer, FrameOutcome, Frames, Keeping, Refresh, TracerError};
 
 use crate::crowd::{Crowd, Shown};
+use crate::kept::{Kept, Recorded};
 use crate::parts::that_find_all;
+use crate::scenes::{among, made, swinging_hall, third, view};
 
 const RAYS: usize = 600;
-
-fn made(name: &str) -> Scene {
-    builtin(name).expect("it is built in").expect("its parameters are valid")
-}
-
-/// A node that nothing moves.
-fn at_rest(name: String) -> RigNode {
-    let transform =
-        NodeTransform::Parts { translation: DVec3::ZERO, rotation: glam::DQuat::IDENTITY, scale: DVec3::ONE };
-    RigNode { name, parent: None, transform }
-}
-
-/// A scene that moves among the instances of another one that does not: half of these come first.
-fn among(mut moving: Scene, other: &Scene) -> Scene {
-    let (meshes, materials, textures, images) =
-        (moving.meshes.len(), moving.materials.len(), moving.textures.len(), moving.images.len());
-    moving.images.extend(other.images.iter().cloned());
-    moving.textures.extend(other.textures.iter().map(|texture| {
-        let mut texture = *texture;
-        texture.image += images;
-        texture
-    }));
-    moving.materials.extend(other.materials.iter().map(|material| {
-        let mut material = material.clone();
-        let used = [
-            &mut material.base_color_texture,
-            &mut material.metallic_roughness_texture,
-            &mut material.normal_texture,
-            &mut material.emission_texture,
-            &mut material.transmission_texture,
-        ];
-        used.into_iter().flatten().for_each(|texture| texture.texture += textures);
-        material
-    }));
-    moving.meshes.extend(other.meshes.iter().map(|mesh| {
-        let mut mesh = mesh.clone();
-        mesh.material += materials;
-        mesh
-    }));
-    let rig = &mut moving.animation.rig;
-    let node = rig.nodes.len();
-    rig.nodes.push(at_rest("static".to_owned()));
-    for (place, instance) in other.instances.iter().enumerate() {
-        let mut instance = instance.clone();
-        instance.mesh += meshes;
-        let placement = Placement { node, node_from_mesh: instance.world_from_mesh };
-        let at = if place < other.instances.len() / 2 { place } else { moving.instances.len() };
-        moving.instances.insert(at, instance);
-        rig.placements.insert(at, placement);
-    }
-    moving.cameras.clear();
-    moving
-}
-
-/// The hall whose banners and plants are cut out by masks; every third instance swings. With nothing of it, or everything.
-fn swinging_hall(moves: impl Fn(usize) -> bool) -> Scene {
-    let mut scene = made("atrium:detail=0.25");
-    let count = scene.instances.len();
-    let swings: Vec<Channel> = (0..count)
-        .filter(|&node| moves(node))
-        .map(|node| Channel {
-            node,
-            interpolation: Interpolation::Linear,
-            times: vec![0.0, 1.0],
-            values: ChannelValues::Translation(vec![[0.0; 3], [0.4, 0.1, -0.2]]),
-        })
-        .collect();
-    scene.animation.rig = Rig {
-        nodes: (0..count).map(|node| at_rest(format!("node {node}"))).collect(),
-        placements: (0..count)
-            .map(|node| Placement { node, node_from_mesh: scene.instances[node].world_from_mesh })
-            .collect(),
-        clips: vec![Clip { name: "swing".to_owned(), duration: 1.0, channels: swings }],
-        ..Rig::default()
-    };
-    scene.animation.clips = vec!["swing".to_owned()];
-    scene
-}
-
-fn third(node: usize) -> bool {
-    node % 3 == 1
-}
-
-fn view(scene: &Scene, size: [u32; 2], moved: f64) -> View {
-    let mut camera = scene.cameras.first().cloned().unwrap_or_else(|| default_camera(scene));
-    camera.world_from_camera *= DAffine3::from_translation(DVec3::X * moved);
-    View { camera, width: size[0], height: size[1], seed: 7 }
-}
 
 /// A scene on the device, with its pass.
 fn stage(bench: &Bench, scene: &Scene, size: [u32; 2]) -> (GpuScene, PosePass) {
@@ -126,73 +35,6 @@ fn stage(bench: &Bench, scene: &Scene, size: [u32; 2]) -> (GpuScene, PosePass) {
 
 fn moment(seconds: f64) -> Moment {
     Moment { seconds, clips: vec![0] }
-}
-
-/// What a frame recorded in passes that structures label.
-#[derive(Clone, Copy, Debug, Default)]
-struct Recorded {
-    dispatches: u32,
-    workgroups: u64,
-    vertices: u64,
-}
-
-impl Recorded {
-    fn of(passes: &[PassCommands]) -> Self {
-        let add = |sum: Self, pass: &PassCommands| Self {
-            dispatches: sum.dispatches + pass.dispatches + pass.indirect + pass.draws,
-            workgroups: sum.workgroups + pass.workgroups,
-            vertices: sum.vertices + pass.vertices,
-        };
-        passes.iter().fold(Self::default(), add)
-    }
-}
-
-/// A structure over frames, one at a time.
-struct Kept {
-    frames: FrameStructure,
-}
-
-impl Kept {
-    fn new(bench: &Bench, structure: impl Into<Refresh>) -> Self {
-        let frames = FrameStructure::new(bench.device(), structure, Keeping::default()).expect("it fits");
-        Self { frames }
-    }
-
-    /// A frame until it is complete: what its last try recorded.
-    fn build(&mut self, bench: &Bench, viewpoint: Viewpoint) -> Recorded {
-        let device = bench.device();
-        for _ in 0..6 {
-            self.frames.prepare(device, viewpoint).expect("the device works");
-            let submitted = device.submit(|recorder| {
-                self.frames.record(recorder, 0, viewpoint).map(|_| Recorded::of(recorder.passes()))
-            });
-            let recorded = submitted.expect("the device works").value.expect("it is recorded");
-            if self.frames.finish(device, 0).expect("sizes suffice") == FrameOutcome::Complete {
-                return recorded;
-            }
-        }
-        panic!("the demand does not settle");
-    }
-
-    /// Answers bit for bit, nearest and occluded; and cells visited, entries read and triangles tested for the nearest.
-    fn answers(&self, bench: &Bench, rays: &[Ray]) -> (Vec<[u32; 4]>, Vec<bool>, [u64; 3]) {
-        let structure = self.frames.structure();
-        let traced = bench.trace(structure, rays);
-        let counters = traced.counters;
-        let work = [counters.cells, counters.entries, counters.tests];
-        (traced.hits.iter().map(bits).collect(), bench.occluded(structure, rays), work)
-    }
-
-    /// Processor time of builds of what moved, one after the other, seconds each.
-    fn timed(&mut self, bench: &Bench, viewpoint: Viewpoint) -> Option<f64> {
-        const BUILDS: u32 = 30;
-        let begun = processor_seconds()?;
-        for _ in 0..BUILDS {
-            self.frames.geometry_moved();
-            self.build(bench, viewpoint);
-        }
-        Some((processor_seconds()? - begun) / f64::from(BUILDS))
-    }
 }
 
 fn rays(random: &mut Random, [lower, upper]: [[f32; 3]; 2], towards: [[f32; 3]; 2]) -> Vec<Ray> {
