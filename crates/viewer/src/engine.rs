@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use rasray_experiment::{
-    Accumulation, Built, Chosen, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity,
-    texels, work_per_pixel,
+    Accumulation, Built, ExperimentError, Frame, LoadedScene, Stage, SystemConfig, TexelCapacity, texels,
+    work_per_pixel,
 };
 use rasray_gpu::{Device, Timing};
 use rasray_gpu_scene::{SceneTables, View};
@@ -14,12 +14,9 @@ use rasray_scene::needs::Needs;
 
 use crate::picture::{Picture, Pixels};
 use crate::preview_size::PreviewSize;
-use crate::scene_at_time::SceneAtTime;
+use crate::scene_at_time::{ChooseCamera, SceneAtTime};
 use crate::settings::{Redo, Settings, Shown, Standpoint};
 use crate::traced::{Traced, exact_config, follow};
-
-/// Chooses the camera of a scene as the command line said.
-pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, ExperimentError> + Send;
 
 /// What is looked at.
 pub struct SceneSource {

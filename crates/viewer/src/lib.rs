@@ -24,11 +24,12 @@ mod worker;
 
 pub use camera_control::{CameraControl, Rounded};
 pub use command_line::quoted;
-pub use engine::{ChooseCamera, Engine, SceneSource, Step};
+pub use engine::{Engine, SceneSource, Step};
 pub use option_controls::{Control, OptionValues};
 pub use picture::{Legend, Picture, Pixels};
 pub use playback::Playback;
 pub use preview_size::PreviewSize;
+pub use scene_at_time::ChooseCamera;
 pub use session::{Failure, Opening, Session};
 pub use settings::{Redo, Settings, Shown, Standpoint};
 #[cfg(feature = "window")]

@@ -1,9 +1,10 @@
 //! A scene at times of its animation.
 
-use rasray_experiment::{ExperimentError, LoadedScene};
+use rasray_experiment::{Chosen, ExperimentError, LoadedScene};
 use rasray_scene::{Camera, Motion, Scene};
 
-use crate::engine::ChooseCamera;
+/// Chooses the camera of a scene as the command line said.
+pub type ChooseCamera = dyn Fn(&mut LoadedScene) -> Result<Chosen, ExperimentError> + Send;
 
 /// A scene that can be shown at any time, and at rest again. [`SceneAtTime::show`] is the one place that steps a scene: it
 /// stays at rest, and the device poses it. Scenes whose triangles may be others at every time are posed here.

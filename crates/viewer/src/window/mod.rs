@@ -4,11 +4,11 @@ mod device;
 mod options_panel;
 mod painter;
 mod panel;
+mod saving;
 mod stage;
 mod swapchain;
 mod tables;
 
-use std::path::Path;
 use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
@@ -24,6 +24,7 @@ use crate::session::Session;
 use crate::worker::{Update, Worker};
 use painter::Painter;
 use panel::Panel;
+pub use saving::{SavePicture, SavedPicture};
 
 /// How often is looked whether a signal asked for the end.
 const POLL: Duration = Duration::from_millis(100);
@@ -36,26 +37,6 @@ const PLAYING: Duration = Duration::from_millis(16);
 
 /// Least inner size of the window, pixels.
 const LEAST: PhysicalSize<u32> = PhysicalSize::new(480, 320);
-
-/// A picture to be saved.
-#[derive(Clone, Debug)]
-pub struct SavedPicture<'a> {
-    /// Where.
-    pub place: &'a Path,
-    /// Pixels a row and rows.
-    pub size: [u32; 2],
-    /// Three bytes of sRGB per pixel, rows from the top.
-    pub pixels: &'a [u8],
-    /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
-    pub command_line: Option<&'a str>,
-    /// What the colours of a map mean, in a sentence; absent for pictures.
-    pub scale: Option<String>,
-    /// Whether its refinement has ended.
-    pub is_finished: bool,
-}
-
-/// Writes a picture.
-pub type SavePicture<'a> = dyn FnMut(&SavedPicture<'_>) -> Result<(), String> + 'a;
 
 /// What a window is opened with.
 pub struct Viewing<'a> {

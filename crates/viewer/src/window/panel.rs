@@ -7,9 +7,9 @@ use rasray_experiment::Integrator;
 use rasray_report::colour_scale::{Scale, colour};
 
 use super::options_panel::show_system;
+use super::saving::{SavePicture, SavedPicture};
 use super::stage::Stage;
 use super::tables::show_tables;
-use super::{SavePicture, SavedPicture};
 use crate::picture::{Legend, Pixels};
 use crate::session::Session;
 use crate::settings::Shown;

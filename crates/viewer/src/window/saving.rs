@@ -1,0 +1,23 @@
+//! Pictures that are saved from the window.
+
+use std::path::Path;
+
+/// A picture to be saved.
+#[derive(Clone, Debug)]
+pub struct SavedPicture<'a> {
+    /// Where.
+    pub place: &'a Path,
+    /// Pixels a row and rows.
+    pub size: [u32; 2],
+    /// Three bytes of sRGB per pixel, rows from the top.
+    pub pixels: &'a [u8],
+    /// The command line that makes it when its refinement has ended; absent for maps, which `rasray compare --html` makes.
+    pub command_line: Option<&'a str>,
+    /// What the colours of a map mean, in a sentence; absent for pictures.
+    pub scale: Option<String>,
+    /// Whether its refinement has ended.
+    pub is_finished: bool,
+}
+
+/// Writes a picture.
+pub type SavePicture<'a> = dyn FnMut(&SavedPicture<'_>) -> Result<(), String> + 'a;
