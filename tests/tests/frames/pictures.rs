@@ -274,3 +274,31 @@ fn a_frame_that_is_not_complete_is_no_picture() {
     let (found, _) = pictures(&mut renderer, all);
     assert_eq!(found.len(), 2);
 }
+
+/// A frame without a pose shows what the one before it does, also where it is repeated after frames that moved on.
+#[test]
+fn a_repeated_frame_without_a_pose_stays_where_it_was() {
+    let bench = Bench::new();
+    let (device, scene) = (bench.device(), swinging());
+    let spec = spec("mmrt", &[("resolution", "64"), ("capacity", "100")]);
+    let at = |renderer: &FrameRenderer, seconds: f64| {
+        let moment = Moment { seconds, clips: vec![0] };
+        Some(renderer.pose().expect("it was made with one").frame(&scene, &moment).expect("it is the same scene"))
+    };
+    for first_is_posed in [false, true] {
+        let mut renderer = renderer(device, &scene, &spec, 3);
+        let poses = [first_is_posed.then_some(0.25), None, Some(0.75), None]
+            .map(|seconds| seconds.and_then(|seconds| at(&renderer, seconds)));
+        let inputs = poses.clone().map(|pose| input(view(&scene, 0.0), pose, 0..1, false));
+        let (found, repeated) = pictures(&mut renderer, inputs.to_vec());
+        assert!(repeated > 0, "100 fragments are not enough");
+        let mut shown = None;
+        for (number, (picture, pose)) in found.iter().zip(&poses).enumerate() {
+            shown = pose.clone().or(shown);
+            let single = FrameInput { pose: shown.clone(), ..inputs[number].clone() };
+            let expected = still(device, &scene, &tables(&scene), &spec, &single);
+            assert!(picture.film.means() == expected, "frame {number}, first is posed: {first_is_posed}");
+        }
+        assert_ne!(found[1].film.means(), found[2].film.means(), "nothing could go wrong");
+    }
+}
